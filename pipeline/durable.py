@@ -28,6 +28,16 @@ def write_durably(file: Path, data: bytes) -> None:
     sync_folder(file.parent)
 
 
+def write_file(file: Path, data: bytes) -> None:
+    """Put `data` in `file` in one step, see `write_durably`; InputError if it cannot be written."""
+    try:
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
+        ) from error
+
+
 def scratch_beside(file: Path) -> Path:
     """Return a name for a temporary file: in the same folder, because a rename is atomic only there."""
     return file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.simulation.weighing import Weighing, weigh
+from contactbench.pipeline.simulation.loads import Weighing, draw_load, weigh
 
 TRUTH = GravityModel(
     np.array([0.0, 0.0, -6.1]),
@@ -19,6 +19,28 @@ TRUTH = GravityModel(
     np.array([0.2, -0.1, 0.05]),
 )
 NOISE = PoseNoise(0.05, 0.002)
+Range = tuple[float, float]
+
+
+def draw_noise(
+    rng: np.random.Generator, force: Range = (0.02, 0.2), torque: Range = (0.0005, 0.01)
+) -> PoseNoise:
+    """Draw the standard deviations of a pose's mean, N and N·m, uniform."""
+    return PoseNoise(rng.uniform(*force), rng.uniform(*torque))
+
+
+def draw_weighing(
+    rng: np.random.Generator,
+    *,
+    poses: tuple[int, int] = (4, 12),
+    mass: Range = (0.1, 2.0),
+    force_noise: Range = (0.02, 0.2),
+    torque_noise: Range = (0.0005, 0.01),
+) -> Weighing:
+    """Draw a load, its noise, and orientations spread over all rotations."""
+    count = int(rng.integers(poses[0], poses[1] + 1))
+    R_WS = Rotation.random(count, rng).as_matrix()
+    return weigh(draw_load(rng, mass), R_WS, draw_noise(rng, force_noise, torque_noise), rng)
 
 
 def weighed(count: int = 9, seed: int = 4) -> Weighing:

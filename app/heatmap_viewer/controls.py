@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
 
 _LEAST_MM, _MOST_MM = 0.5, 20.0
 _PATIENCE = 200  # ms without a change before the bells are made again
@@ -230,7 +230,7 @@ class Controls(QWidget):
 
     def selection(self, start: float | None, end: float | None) -> Selection:
         """Return what is chosen, in a window of time, s."""
-        from contactbench.pipeline.heatmap.windowing import Selection
+        from contactbench.pipeline.heatmap.selection import Selection
 
         least: float | None = None
         most: float | None = None

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from contactbench.app.heatmap_viewer.sources import Source
     from contactbench.app.heatmap_viewer.viewer import HeatmapViewer
     from contactbench.pipeline.heatmap.film import FilmSettings
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
 
 _SUFFIXES = (".png", ".ply", ".glb", ".mp4", ".gif")
 
@@ -82,7 +82,7 @@ class Saving(QObject):
 def _still(source: Source, selection: Selection, file: Path, cancelled: Callable[[], bool]) -> None:
     from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
     from contactbench.pipeline.heatmap.picture import encode_png
-    from contactbench.pipeline.heatmap.windowing import selected_heatmap
+    from contactbench.pipeline.heatmap.selection import selected_heatmap
     from contactbench.pipeline.mesh.engines.errors import Cancelled
 
     made = selected_heatmap(source.probe.probe, source.contacts, selection)

@@ -14,8 +14,8 @@ from contactbench.widgets.scene import Scene
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.heatmap.playback import Frame, Playback
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.playback import HeatmapFrame, Playback
+    from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.widgets.scene import Pick
 
 
@@ -28,7 +28,7 @@ class Side(QWidget):
     scene : Scene
     playback : Playback or None
         What is shown; None: nothing yet.
-    frame : Frame or None
+    frame : HeatmapFrame or None
         What is seen.
     """
 
@@ -39,7 +39,7 @@ class Side(QWidget):
         super().__init__(parent)
         self.scene = Scene(self)
         self.playback: Playback | None = None
-        self.frame: Frame | None = None
+        self.frame: HeatmapFrame | None = None
         self._selection: Selection | None = None
         self._pick: Pick | None = None
         self._probe_of: object = None
@@ -123,7 +123,7 @@ class Side(QWidget):
         self.scene.show_field(frame.values, title, (0.0, top or 1.0))
         self._say(self._said(frame))
 
-    def _said(self, frame: Frame) -> str:
+    def _said(self, frame: HeatmapFrame) -> str:
         if self.playback is None or not frame.contacts:
             return self.tr("No contact in this time window and range of force: widen one of them.")
         contacts = self.playback.contacts

@@ -16,13 +16,12 @@ from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points
-from contactbench.pipeline.heatmap.touched import touches_of
-from contactbench.pipeline.heatmap.windowing import in_order
+from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
+from contactbench.pipeline.heatmap.selection import in_order
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.report.making import check_sources, sha256_of
-from contactbench.pipeline.report.reading import read_verification
+from contactbench.pipeline.report.report_file import check_sources, sha256_of
+from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.making import mount_of, mount_rotation
 from contactbench.pipeline.session.recompute import lay_out, newest_inputs

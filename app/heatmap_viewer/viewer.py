@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from contactbench.app.heatmap_viewer.how import HowRead
     from contactbench.app.heatmap_viewer.sources import Files, Opened, Source
     from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.widgets.scene import Pick
 
 # What computes takes seconds to import: that is done beside the window, when there is something to open.

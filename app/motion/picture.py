@@ -15,7 +15,7 @@ from contactbench.widgets.theme import is_dark
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.frames import Beginning, Frame
+    from contactbench.pipeline.control.frames import Beginning, LoopFrame
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.workbench.motion import Course
 
@@ -69,7 +69,7 @@ class Picture(QWidget):
         nearer = (_NEARER * scale, perspective, 0.0)
         self.scene.set_camera((_three(position + down), _three(focal + down), up, nearer))
 
-    def show_frame(self, beginning: Beginning, frame: Frame) -> None:
+    def show_frame(self, beginning: Beginning, frame: LoopFrame) -> None:
         """Show a period."""
         from contactbench.pipeline.workbench.motion import placed
 

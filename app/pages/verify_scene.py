@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.heatmap.finer import drawing_of
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
+from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
     from contactbench.pipeline.control.settings import Variant
     from contactbench.pipeline.control.trace import Trace
@@ -37,7 +37,7 @@ class Frames:
         self._robot = robot
         self._begun = self._gone = False
 
-    def take(self, command: Command, loop: Loop) -> bool:
+    def take(self, command: ControlCommand, loop: Loop) -> bool:
         """Write a period; returns whether somebody still reads."""
         if not self._begun:
             self._begun = True
@@ -117,8 +117,8 @@ def tune(
     """
     import math
 
-    from contactbench.pipeline.control.tuning import Wanted
-    from contactbench.pipeline.study.control_tuning import run as study
+    from contactbench.pipeline.control.gains import WantedMargins
+    from contactbench.pipeline.study.gain_trials import run as study
 
     chosen = _variant_of(variant)
     with Bar("trying gains", counted=True) as bar:
@@ -128,7 +128,7 @@ def tune(
             scene=scene,
             variant=chosen,
             force=force,
-            wanted=Wanted(gain_margin, math.radians(phase_margin), spread),
+            wanted=WantedMargins(gain_margin, math.radians(phase_margin), spread),
             seed=seed,
             progress=bar,
         )
@@ -136,7 +136,7 @@ def tune(
     if as_json():
         print_json(result.to_json())
     else:
-        show_tables(*(sheet.table() for sheet in result.sheets), result.report.table())
+        show_tables(*(sheet.table() for sheet in result.report.sheets), result.report.table())
     say(f"Written to {out}: gains.json is for `bundle export --settings`.")
     if not result.report.passed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
@@ -215,7 +215,7 @@ def run(
     show = Frames(robot) if frames else None
     with ended_by_signals() as ended:
 
-        def watch(command: Command, loop: Loop) -> None:
+        def watch(command: ControlCommand, loop: Loop) -> None:
             if show is not None and not show.take(command, loop):
                 ended.set()  # who watched has gone
             if command.change is not None:
@@ -259,13 +259,13 @@ def _motion(name: str, size: float, period: float) -> PlatformMotion | None:
     return PlatformMotion.along(axis, size / 1000 if axis == "z" else math.radians(size), period, _BEGIN_S)
 
 
-def _paced(watch: Callable[[Command, Loop], None]) -> Callable[[Command, Loop], None]:
+def _paced(watch: Callable[[ControlCommand, Loop], None]) -> Callable[[ControlCommand, Loop], None]:
     """Hold the loop back to the clock."""
     import time
 
     begin = time.monotonic()
 
-    def paced(command: Command, loop: Loop) -> None:
+    def paced(command: ControlCommand, loop: Loop) -> None:
         watch(command, loop)
         time.sleep(max(begin + loop.scene.time - time.monotonic(), 0.0))
 
@@ -275,16 +275,16 @@ def _paced(watch: Callable[[Command, Loop], None]) -> Callable[[Command, Loop], 
 def _facts(config: RuntimeConfig, trace: Trace) -> dict[str, Any]:
     import numpy as np
 
-    from contactbench.pipeline.control.states import State
+    from contactbench.pipeline.control.states import ControlState
 
     limit = config.model.limits.max_force_N
-    tracking = trace.was(State.TRACK)
+    tracking = trace.was(ControlState.TRACK)
     faults = []
     if (peak := float(trace.peak.max())) > limit:
         faults.append(f"the force reached {peak:.1f} N, over the limit of {limit:g} N.")
-    if trace.ended is not State.SAFE:
+    if trace.ended is not ControlState.SAFE:
         faults.append(f"it ended in the state {trace.ended}, not safe.")
-    back = [each for each in trace.changes if each.after is State.RETRACT]
+    back = [each for each in trace.changes if each.after is ControlState.RETRACT]
     if back and "stopped" not in back[0].reason:
         faults.append(f"it gave up after {back[0].time:.1f} s: {back[0].reason}")
     elif not tracking.any():

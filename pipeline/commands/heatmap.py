@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.heatmap import Heatmap
     from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 
@@ -106,9 +106,9 @@ def found_contacts(
         return read_contacts(files.contacts, wrenches)
     if wrenches is not None:
         raise typer.BadParameter("--wrenches is for a CSV file of contacts; a verification has forces.")
-    from contactbench.pipeline.heatmap.touched import touches_of
-    from contactbench.pipeline.report.making import check_sources, sha256_of
-    from contactbench.pipeline.report.reading import read_verification
+    from contactbench.pipeline.heatmap.contacts import touches_of
+    from contactbench.pipeline.report.report_file import check_sources, sha256_of
+    from contactbench.pipeline.report.verification_file import read_verification
 
     verification = read_verification(files.contacts)
     used = {"verification": files.contacts, "probe": files.probe}
@@ -266,7 +266,7 @@ def draw(
     judged = quantity is QuantityName.error and markers is None
     given = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
     refuse_overwriting(out, given)
-    from contactbench.pipeline.heatmap.windowing import Selection, windowed
+    from contactbench.pipeline.heatmap.selection import Selection, windowed
 
     metres = None if bandwidth is None else bandwidth / 1000
     selection = Selection(
@@ -292,7 +292,7 @@ def draw(
 def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
     """Refuse, with the file's name, a weight that the contacts do not have."""
     from contactbench.pipeline.heatmap import HeatmapError
-    from contactbench.pipeline.heatmap.windowing import weights_of
+    from contactbench.pipeline.heatmap.selection import weights_of
 
     try:
         weights_of(found, selection)
@@ -326,7 +326,7 @@ def _made(
     marker_distance: float,
 ) -> tuple[Heatmap, dict[str, int], list[str]]:
     """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
-    from contactbench.pipeline.heatmap.windowing import drawn
+    from contactbench.pipeline.heatmap.selection import drawn
 
     left_out, notes = dict(found.left_out), list(found.notes)
     values, use = _values(found, selection, markers, marker_distance, left_out, notes)
@@ -343,7 +343,7 @@ def _values(
     notes: list[str],
 ) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
     """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
-    from contactbench.pipeline.heatmap.windowing import shown
+    from contactbench.pipeline.heatmap.selection import shown
 
     if selection.quantity in (QuantityName.force, QuantityName.peak) and found.forces is None:
         raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
@@ -370,7 +370,7 @@ def _write_film(
 
     from contactbench.pipeline.heatmap.film import FilmSettings, write_film
     from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.windowing import in_order
+    from contactbench.pipeline.heatmap.selection import in_order
 
     if selection.quantity == QuantityName.error:
         errors, use = _errors(found, markers, marker_distance, {}, [])

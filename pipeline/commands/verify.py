@@ -254,7 +254,7 @@ def report(
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.durable import write_durably
     from contactbench.pipeline.errors import InputError
-    from contactbench.pipeline.report.making import report as make
+    from contactbench.pipeline.report.report_file import report as make
 
     serials = {device: number for device, _, number in pairs}
     name = f"report{out.suffix.lower()}"

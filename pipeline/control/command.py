@@ -12,21 +12,15 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.inverse import Step
-    from contactbench.pipeline.control.sensing import Sensed
-    from contactbench.pipeline.control.states import Change, State
+    from contactbench.pipeline.control.intake import Sensed
+    from contactbench.pipeline.control.inverse import JointStep
+    from contactbench.pipeline.control.states import ControlState, StateChange
 
 
 @dataclass(frozen=True, eq=False)
-class Mount:
+class SensorMount:
     """
     How the sensor sits on the flange.
-
-    Attributes
-    ----------
-    R_ES : (3, 3)
-    p_ES_E : (3,)
-        m.
 
     Raises
     ------
@@ -34,8 +28,8 @@ class Mount:
         It is no rotation, or a number is not finite.
     """
 
-    R_ES: NDArray[np.float64]
-    p_ES_E: NDArray[np.float64]
+    R_ES: NDArray[np.float64]  # (3, 3)
+    p_ES_E: NDArray[np.float64]  # (3,) m
 
     def __post_init__(self) -> None:
         R, p = np.array(self.R_ES, dtype=np.float64), np.array(self.p_ES_E, dtype=np.float64)
@@ -55,33 +49,15 @@ class Mount:
 
 
 @dataclass(frozen=True, eq=False)
-class Command:
-    """
-    What a step decided.
+class ControlCommand:
+    """What a step decided."""
 
-    Attributes
-    ----------
-    q : (n,)
-        Set-point of the joints at the end of the period.
-    state : State
-    change : Change or None
-        What changed in this step, and why.
-    twist : (6,)
-        Wanted velocity of the tip and angular velocity, in B, m/s and rad/s.
-    force : float
-        Pressing force, N; NaN without a fresh sample.
-    offset : (2,)
-        Contact minus wanted contact along S's x and y, m; NaN where it is not known.
-    sensed : Sensed
-    step : Step
-        What the arm makes of the twist.
-    """
-
-    q: NDArray[np.float64]
-    state: State
-    change: Change | None
-    twist: NDArray[np.float64]
-    force: float
+    q: NDArray[np.float64]  # (n,) Set-point of the joints at the end of the period
+    state: ControlState
+    change: StateChange | None  # what changed in this step, and why
+    twist: NDArray[np.float64]  # (6,) wanted velocity of the tip and angular velocity, in B, m/s and rad/s
+    force: float  # pressing force, N; NaN without a fresh sample
+    # (2,) contact minus wanted contact along S's x and y, m; NaN where it is not known
     offset: NDArray[np.float64]
     sensed: Sensed
-    step: Step
+    step: JointStep  # what the arm makes of the twist

@@ -10,16 +10,15 @@ import numpy as np
 
 from contactbench.pipeline.control.admittance import Admittance
 from contactbench.pipeline.control.axes import pressing
-from contactbench.pipeline.control.bundle import intake_of, mount_of
-from contactbench.pipeline.control.command import Command, Mount
-from contactbench.pipeline.control.content import settings_of
+from contactbench.pipeline.control.bundle import intake_of, mount_of, settings_of
+from contactbench.pipeline.control.command import ControlCommand, SensorMount
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.control.inverse import solve_step
-from contactbench.pipeline.control.probing import StiffnessProbe
 from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
-from contactbench.pipeline.control.states import Safety, State
-from contactbench.pipeline.control.surface import Surface
+from contactbench.pipeline.control.states import ControlState, Safety
+from contactbench.pipeline.control.stiffness_probe import StiffnessProbe
+from contactbench.pipeline.control.surface import TissueSurface
 from contactbench.pipeline.control.tare import Tare
 from contactbench.pipeline.control.tilt import Tilt
 from contactbench.pipeline.control.upright import Upright
@@ -32,8 +31,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
     from contactbench.pipeline.control.arms import Arm
-    from contactbench.pipeline.control.inverse import Step
-    from contactbench.pipeline.control.sensing import Intake, Sensed
+    from contactbench.pipeline.control.intake import SampleIntake, Sensed
+    from contactbench.pipeline.control.inverse import JointStep
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.mesh import Probe
 
@@ -54,20 +53,17 @@ class Controller:
 
     Parameters
     ----------
-    settings : ControlSettings
-    arm : Arm
     probe : Probe
         In S, its face towards +z.
-    intake : Intake
+    intake : SampleIntake
         What is believed of the sensor.
-    mount : Mount
     q : (n,)
         Joints at the beginning.
 
     Attributes
     ----------
     safety : Safety
-    surface : Surface
+    surface : TissueSurface
     """
 
     def __init__(
@@ -75,8 +71,8 @@ class Controller:
         settings: ControlSettings,
         arm: Arm,
         probe: Probe,
-        intake: Intake,
-        mount: Mount,
+        intake: SampleIntake,
+        mount: SensorMount,
         q: NDArray[np.float64],
     ) -> None:
         foundation, tool = Foundation(probe), intake.gravity
@@ -86,7 +82,7 @@ class Controller:
         force, torque = settings.calibration_sigma
         error = float(np.hypot(force * foundation.height, torque)) / settings.desired_force
         tilts = Tilt(*settings.lean, error), Tilt(*settings.lean, error)
-        self.surface = Surface(foundation, settings.bandwidth, tilts=tilts)
+        self.surface = TissueSurface(foundation, settings.bandwidth, tilts=tilts)
         self.safety = Safety(settings)
         wanted = self.surface.press(settings.desired_force)
         self.wanted_S = np.array([wanted.x, wanted.y, foundation.height])
@@ -104,7 +100,7 @@ class Controller:
         self._felt = np.zeros(6)  # what speeds up the tool
         self._moves = 0.0  # m/s, of the tissue along the axis, the largest of late
         self._speeds = np.zeros_like(self._q)
-        self._last: Step | None = None
+        self._last: JointStep | None = None
         self._before: Pose | None = None  # at the step before
         self._travelled = self._began_force = 0.0
         self._touching: tuple[float, float] | None = None  # where the tip was along its axis, and the force
@@ -128,8 +124,6 @@ class Controller:
 
         Parameters
         ----------
-        config : RuntimeConfig
-        arm : Arm
         q : (n,)
             Joints at the beginning.
         p_ES_E : (3,)
@@ -158,7 +152,7 @@ class Controller:
         return cls(chosen, arm, config.probe, intake_of(config, chosen, method), mount, q)
 
     @property
-    def state(self) -> State:
+    def state(self) -> ControlState:
         """What it does."""
         return self.safety.state
 
@@ -166,7 +160,9 @@ class Controller:
         """Have it go back and end."""
         self.safety.stop()
 
-    def step(self, now: float, q_measured: NDArray[np.float64], samples: Sequence[WrenchSample]) -> Command:
+    def step(
+        self, now: float, q_measured: NDArray[np.float64], samples: Sequence[WrenchSample]
+    ) -> ControlCommand:
         """
         Decide on the next set-point.
 
@@ -203,7 +199,7 @@ class Controller:
         )
         if state is not before:
             self._enter(before, state, force, None if follows else here)
-            if (before, state) == (State.APPROACH, State.CONTACT) and not self._probed:
+            if (before, state) == (ControlState.APPROACH, ControlState.CONTACT) and not self._probed:
                 self._guess(force, float(moved @ R_then[:, 2]))
         self._learn(now, sensed, force, offset, moved, R_then, dt)
         R_cmd = self._sent[0]
@@ -214,7 +210,7 @@ class Controller:
         self._q, self._last, self._sent = step.q, step, self._pose(step.q)
         self._travelled += abs(float(twist[:3] @ R_cmd[:, 2])) * step.share * dt
         change = self.safety.changes[-1] if len(self.safety.changes) > told else None
-        return Command(step.q, state, change, twist, force, offset, sensed, step)
+        return ControlCommand(step.q, state, change, twist, force, offset, sensed, step)
 
     def _arrived(self, q_measured: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
         """Return where the arm is, and whether that is near to where the last set-point should have brought it."""
@@ -252,16 +248,18 @@ class Controller:
         # In a period it turns by so little that the chord is as good as the arc.
         return R_BS - share * (R_BS - R_before), tip - share * (tip - before)
 
-    def _enter(self, before: State, state: State, force: float, here: NDArray[np.float64] | None) -> None:
+    def _enter(
+        self, before: ControlState, state: ControlState, force: float, here: NDArray[np.float64] | None
+    ) -> None:
         """Begin a state; `here` is where the arm stands, if it does not follow: then it goes on from there."""
         if here is not None:
             self._q, self._speeds, self._sent = here.copy(), np.zeros_like(here), self._pose(here)
         self._travelled = self._unseen = 0.0
         self._force.reset()
         self._upright.reset()
-        if state is State.APPROACH or before is State.HOLD:
+        if state is ControlState.APPROACH or before is ControlState.HOLD:
             self.surface.forget()
-        if before is State.APPROACH:
+        if before is ControlState.APPROACH:
             self._tare.over = True  # from now on something may touch
         self._began_force = max(force, 0.0) if np.isfinite(force) else 0.0
         self._probing = StiffnessProbe(self.settings.probing)
@@ -276,7 +274,7 @@ class Controller:
         R_BS: NDArray[np.float64],
         dt: float,
     ) -> None:
-        if sensed.fresh and self.state is State.APPROACH:
+        if sensed.fresh and self.state is ControlState.APPROACH:
             self._tare.take(sensed.wrench, sensed.count, dt)
             self._touching = float(tip @ R_BS[:, 2]), force
         self._unseen += dt
@@ -293,7 +291,7 @@ class Controller:
         faded = self._moves * math.exp(-self._unseen / _REMEMBERED_S)
         self._moves = max(abs(self.surface.speed_along(R_BS[:, 2], 0.0)), faded)
         self._unseen = 0.0
-        if self.state is not State.CONTACT or self._probed:
+        if self.state is not ControlState.CONTACT or self._probed:
             return
         self._probing.take(sensed.time, float(tip @ R_BS[:, 2]), force)
         if self._probing.over(now):
@@ -327,7 +325,7 @@ class Controller:
     def _twist(
         self,
         now: float,
-        state: State,
+        state: ControlState,
         sensed: Sensed,
         force: float,
         offset: NDArray[np.float64],
@@ -336,16 +334,16 @@ class Controller:
     ) -> NDArray[np.float64]:
         inward = R_BS[:, 2]
         twist = np.zeros(6)
-        if state is State.APPROACH:
+        if state is ControlState.APPROACH:
             if self._tare.over:
                 twist[:3] = self.settings.approach_speed * inward
-        elif state is State.RETRACT:
+        elif state is ControlState.RETRACT:
             twist[:3] = -self.settings.retract_speed * inward
-        elif state in (State.CONTACT, State.TRACK) and sensed.fresh:
+        elif state in (ControlState.CONTACT, ControlState.TRACK) and sensed.fresh:
             lead = now - sensed.time + dt / 2 + self.settings.servo_lag
             wanted = self._wanted(now)
             twist[:3] = (self._along(force, wanted, inward, lead, dt) + self._press(now, force)) * inward
-            if state is State.TRACK and self.safety.turning:
+            if state is ControlState.TRACK and self.safety.turning:
                 # About the tip: what is then dragged over the tissue leans the force against the turn. About the
                 # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
                 twist[3:] = self._upright.speed(offset, R_BS, lead, dt)
@@ -353,14 +351,14 @@ class Controller:
 
     def _wanted(self, now: float) -> float:
         """Return the wanted force, which grows at first touch."""
-        if self.state is not State.CONTACT:
+        if self.state is not ControlState.CONTACT:
             return self.settings.desired_force
         share = min((now - self.safety.since) / self.settings.ramp, 1.0)
         return self._began_force + share * (self.settings.desired_force - self._began_force)
 
     def _press(self, now: float, force: float) -> float:
         """Return the speed of the small press that measures the stiffness, once the force is there."""
-        if self._probed or self.state is not State.CONTACT:
+        if self._probed or self.state is not ControlState.CONTACT:
             return 0.0
         if self._ready(now, force):
             self._probing.begin(now)
@@ -382,7 +380,7 @@ class Controller:
         scale = self.settings.force_damping * self.settings.force_gain / stiffness
         # Before the stiffness is measured, or while the force grows, tissue that gives way would seem to flee.
         known = self._probed and self.safety.elapsed > self.settings.ramp
-        led = self.surface.speed_along(inward, lead) if known or self.state is State.TRACK else 0.0
+        led = self.surface.speed_along(inward, lead) if known or self.state is ControlState.TRACK else 0.0
         return led + self._force.step(self._calm * (wanted - force) * scale, dt)
 
     def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -20,7 +20,7 @@ USUAL_MODULUS = 3e6  # N/m³
 
 
 @dataclass(frozen=True)
-class Press:
+class FacePress:
     """
     One press.
 
@@ -88,14 +88,14 @@ class Foundation:
         self._numbers = np.arange(float(_DEPTHS))
         self.height = high
 
-    def at(self, force: float, modulus: float) -> Press:
+    def at(self, force: float, modulus: float) -> FacePress:
         """Return the press of a force, N, on tissue of a modulus, N/m³; beyond 12 mm that of 12 mm."""
         place = float(np.interp(force / modulus, self._force, self._numbers))
         first = min(int(place), _DEPTHS - 2)
         share = place - first
         found = (1 - share) * self._rows[first] + share * self._rows[first + 1]
         depth, slope, gain_x, gain_y, x, y = found.tolist()
-        return Press(depth, modulus * slope, gain_x, gain_y, x, y)
+        return FacePress(depth, modulus * slope, gain_x, gain_y, x, y)
 
     def modulus_of(self, force: float, stiffness: float) -> float:
         """Return the modulus, N/m³, that gives a stiffness, N/m, at a force, N; the nearest that the table has."""

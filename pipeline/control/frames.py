@@ -14,7 +14,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
 
     Three = tuple[float, float, float]
@@ -24,62 +24,34 @@ BEGIN, FRAME, END = "begin", "frame", "end"
 
 @dataclass(frozen=True)
 class Beginning:
-    """
-    What does not change.
-
-    Attributes
-    ----------
-    robot, variant : str
-    wanted_N, limit_N : float
-    period_s : float
-        Between frames.
-    rest_B_m : (3,)
-        Where the sensor is in B while the probe stands upright on the phantom at rest.
-    """
+    """What does not change."""
 
     robot: str
     variant: str
     wanted_N: float
     limit_N: float
-    period_s: float
-    rest_B_m: Three
+    period_s: float  # between frames
+    rest_B_m: Three  # (3,) where the sensor is in B while the probe stands upright on the phantom at rest
 
 
 @dataclass(frozen=True)
-class Frame:
-    """
-    A period, in the base's frame B, z up.
-
-    Attributes
-    ----------
-    time_s : float
-    state : str
-        A value of `State`.
-    reason : str or None
-        Why the state has changed in this period; None: it has not.
-    force_N : float
-        The true force along the probe's axis.
-    angles_rad : (in plane, out of plane)
-        How far the phantom's normal is from the probe's axis, see `MovedScene.angles`.
-    R_BS : (9,)
-        Row by row.
-    sensor_B_m : (3,)
-        Where S is.
-    phantom_B_m, normal_B : (3,)
-        The middle of the phantom's top, and what points out of it.
-    point_S_m, force_S_N : (3,) or None
-        The contact as it was located, and the force on the probe; None: not known.
-    """
+class LoopFrame:
+    """A period, in the base's frame B, z up."""
 
     time_s: float
-    state: str
-    reason: str | None
-    force_N: float
+    state: str  # a value of `ControlState`
+    reason: str | None  # why the state has changed in this period; None: it has not
+    force_N: float  # the true force along the probe's axis
+    # (in plane, out of plane) how far the phantom's normal is from the probe's axis, see
+    # `MovedScene.angles`
     angles_rad: tuple[float, float]
-    R_BS: tuple[float, ...]
-    sensor_B_m: Three
+    R_BS: tuple[float, ...]  # (9,) row by row
+    sensor_B_m: Three  # (3,) where S is
+    # phantom_B_m, normal_B: (3,) the middle of the phantom's top, and what points out of it
     phantom_B_m: Three
     normal_B: Three
+    # point_S_m, force_S_N: (3,) or None The contact as it was located, and the force on the probe; None:
+    # not known
     point_S_m: Three | None
     force_S_N: Three | None
 
@@ -92,7 +64,7 @@ def beginning_of(loop: Loop, robot: str) -> Beginning:
     return Beginning(robot, variant, force, settings.max_force, settings.period, _three(rest))
 
 
-def frame_of(command: Command, loop: Loop) -> Frame:
+def frame_of(command: ControlCommand, loop: Loop) -> LoopFrame:
     """Return the period that a loop has just gone on by."""
     from contactbench.pipeline.control.loop import arm_of  # not above: who reads frames needs no physics
 
@@ -101,7 +73,7 @@ def frame_of(command: Command, loop: Loop) -> Frame:
     phantom, normal = scene.surface()
     point = None if sensed.contact is None else sensed.contact.point
     within, out = scene.angles()
-    return Frame(
+    return LoopFrame(
         time_s=scene.time,
         state=command.state.value,
         reason=None if command.change is None else command.change.reason,
@@ -116,13 +88,13 @@ def frame_of(command: Command, loop: Loop) -> Frame:
     )
 
 
-def line_of(kind: str, content: Beginning | Frame | dict[str, Any]) -> str:
+def line_of(kind: str, content: Beginning | LoopFrame | dict[str, Any]) -> str:
     """Return a line of JSON, its end included."""
     plain = content if isinstance(content, dict) else asdict(content)
     return json.dumps({"kind": kind, **plain}, separators=(",", ":"), allow_nan=False) + "\n"
 
 
-def read_line(line: str | bytes) -> Beginning | Frame | dict[str, Any]:
+def read_line(line: str | bytes) -> Beginning | LoopFrame | dict[str, Any]:
     """
     Read a line; an end is plain data.
 
@@ -139,7 +111,7 @@ def read_line(line: str | bytes) -> Beginning | Frame | dict[str, Any]:
         if kind == BEGIN:
             return Beginning(**_checked(Beginning, content))
         if kind == FRAME:
-            return Frame(**_checked(Frame, content))
+            return LoopFrame(**_checked(LoopFrame, content))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         raise InputError(f"line of a closed loop: it cannot be read ({error!r:.100}).") from error
     raise InputError(f"line of a closed loop: its kind is {kind!a:.60}, not {BEGIN}, {FRAME} or {END}.")

@@ -22,7 +22,7 @@ _MARGIN = 0.02  # rad or m that are kept from a limit
 _PLANNED = 0.6
 
 
-class Held(StrEnum):
+class MotionLimit(StrEnum):
     """What kept the arm from going as it should."""
 
     SPEED = "joint speed"
@@ -31,29 +31,14 @@ class Held(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
-    """
-    One step of the joints.
+class JointStep:
+    """One step of the joints."""
 
-    Attributes
-    ----------
-    q : (n,)
-        Next joints.
-    share : float
-        Of the motion that was wanted, 0 to 1: the direction is kept, the length cut.
-    held : tuple of Held
-        Why it was cut, or bent by damping.
-    joint : int or None
-        Which one is at its limit.
-    smallest : float
-        Smallest singular value of the Jacobian, metres scaled by 0.3 m; 0 is a singularity.
-    """
-
-    q: NDArray[np.float64]
-    share: float
-    held: tuple[Held, ...]
-    joint: int | None
-    smallest: float
+    q: NDArray[np.float64]  # (n,) next joints
+    share: float  # of the motion that was wanted, 0 to 1: the direction is kept, the length cut
+    held: tuple[MotionLimit, ...]  # why it was cut, or bent by damping
+    joint: int | None  # which one is at its limit
+    smallest: float  # smallest singular value of the Jacobian, metres scaled by 0.3 m; 0 is a singularity
 
 
 def tip_jacobian(J: NDArray[np.float64], lever: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -72,7 +57,7 @@ def solve_step(
     twist: NDArray[np.float64],
     dt: float,
     before: NDArray[np.float64] | None = None,
-) -> Step:
+) -> JointStep:
     """
     Return the joints that move a tip by twist times dt.
 
@@ -81,7 +66,6 @@ def solve_step(
 
     Parameters
     ----------
-    arm : Arm
     q : (n,)
         Set-points of the step before.
     lever : (3,)
@@ -99,10 +83,10 @@ def solve_step(
     smallest = float(sizes[-1])
     damping = 0.0 if smallest >= _NEAR else _NEAR**2 * (1 - (smallest / _NEAR) ** 2)
     dq = Vt.T @ (sizes / (sizes**2 + damping) * (U.T @ e))
-    held: list[Held] = [Held.SINGULAR] if damping else []
+    held: list[MotionLimit] = [MotionLimit.SINGULAR] if damping else []
     share = _share(np.abs(dq), arm.velocity_limits * dt)
     if share < 1:
-        held.append(Held.SPEED)
+        held.append(MotionLimit.SPEED)
     dq = share * dq
     if before is not None:
         reach = _PLANNED * arm.acceleration_limits * dt * dt
@@ -111,8 +95,8 @@ def solve_step(
         dq = before * dt + _share(np.abs(change), reach) * change
     room, joint = _room(arm, q, dq)
     if room < 1:
-        held.append(Held.LIMIT)
-    return Step(q + room * dq, share * room, tuple(held), joint, smallest)
+        held.append(MotionLimit.LIMIT)
+    return JointStep(q + room * dq, share * room, tuple(held), joint, smallest)
 
 
 def _share(sizes: NDArray[np.float64], most: NDArray[np.float64]) -> float:

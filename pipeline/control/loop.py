@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.axes import cross
-from contactbench.pipeline.control.faults import FaultyLine, ScriptedFault
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.control.trace import STATES, Trace
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError
@@ -21,19 +21,29 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.control.arms import Arm
-    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.controller import Controller
-    from contactbench.pipeline.simulation.scenes import Moment, MovedScene
+    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment
     from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 WARM_S = 3600.0  # a sensor is used warm
 _LONGEST_S = 3600.0
-Watch = Callable[["Command", "Loop"], bool | None]
+Watch = Callable[["ControlCommand", "Loop"], bool | None]
+Line = Callable[[WrenchSample], WrenchSample | None]
 
 
 def arm_of(scene: MovedScene) -> Arm:
     """Return what carries the probe of a scene, as a controller sees it."""
     return scene.robot if isinstance(scene, ArmScene) else CartesianMount()
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """What a closed loop is made of."""
+
+    scene: MovedScene
+    controller: Controller
+    sensor: SensorModel
 
 
 class Loop:
@@ -42,11 +52,8 @@ class Loop:
 
     Parameters
     ----------
-    scene : MovedScene
-    controller : Controller
-    sensor : SensorModel
-    faults : sequence of ScriptedFault, optional
-        On the way from the sensor to the controller.
+    line : callable, optional
+        What arrives of a sample on its way from the sensor to the controller; None: nothing.
     switched_on : float
         How long before the scene began the sensor was switched on, s.
     """
@@ -56,25 +63,25 @@ class Loop:
         scene: MovedScene,
         controller: Controller,
         sensor: SensorModel,
-        faults: Sequence[ScriptedFault] = (),
+        line: Line | None = None,
         switched_on: float = WARM_S,
     ) -> None:
         self.scene, self.controller, self.sensor = scene, controller, sensor
-        self._line, self._on = FaultyLine(faults), switched_on
+        self._line, self._on = line, switched_on
         self._arm = arm_of(scene)
         self._period, self._rate = controller.settings.period, sensor.settings.rate
         self._periods = self._read = 0
         self._begin = scene.time
         self._rows: list[dict[str, Any]] = []
 
-    def step(self) -> Command:
+    def step(self) -> ControlCommand:
         """
         Go on by one period: read, decide, and give the servo its set-point.
 
         Raises
         ------
         PhysicsError
-            See `Scene.step`.
+            See `PhysicsScene.step`.
         """
         self._periods += 1
         end = self._begin + self._periods * self._period
@@ -118,9 +125,9 @@ class Loop:
         sample = WrenchSample(
             self.scene.time, (row[0], row[1], row[2]), (row[3], row[4], row[5]), self._read, status
         )
-        return self._line.carry(sample), moment.force
+        return self._line(sample) if self._line else sample, moment.force
 
-    def _note(self, command: Command, peak: float, took: tuple[float, float]) -> None:
+    def _note(self, command: ControlCommand, peak: float, took: tuple[float, float]) -> None:
         scene = self.scene
         moment = scene.moment()
         contact = moment.contact
@@ -158,7 +165,7 @@ class Loop:
         return float((point - p_BP) @ R_BP[:, 2]), float(np.arctan2(x, z)), float(np.arctan2(-y, z))
 
 
-def _shift(moment: Moment) -> float:
+def _shift(moment: SceneMoment) -> float:
     """Return how far the wrench's axis passes from the point of contact, m: |F x torsion n| / |F|², NaN in the air."""
     force = moment.contact[:3]
     size2 = float(force @ force)
@@ -174,7 +181,7 @@ def run_loop(
     sensor: SensorModel,
     seconds: float,
     *,
-    faults: Sequence[ScriptedFault] = (),
+    line: Line | None = None,
     stop_after: float | None = None,
     watch: Watch | None = None,
 ) -> Trace:
@@ -183,7 +190,7 @@ def run_loop(
 
     Parameters
     ----------
-    scene, controller, sensor, faults
+    scene, controller, sensor, line
         As of `Loop`.
     seconds : float
         How long, s; it ends before, once the controller stands still for good.
@@ -197,17 +204,17 @@ def run_loop(
     InputError
         A time is out of range.
     PhysicsError
-        See `Scene.step`.
+        See `PhysicsScene.step`.
     """
     if not 0 < seconds <= _LONGEST_S:
         raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
-    loop = Loop(scene, controller, sensor, faults)
+    loop = Loop(scene, controller, sensor, line)
     begin = scene.time
     while scene.time < begin + seconds - 1e-9:
         if stop_after is not None and scene.time - begin >= stop_after:
             controller.stop()
         command = loop.step()
         ended = watch is not None and bool(watch(command, loop))
-        if ended or command.state is State.SAFE:
+        if ended or command.state is ControlState.SAFE:
             break
     return loop.trace()

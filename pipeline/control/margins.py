@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from contactbench.pipeline.control.admittance import Admittance
-from contactbench.pipeline.control.following import Follower
+from contactbench.pipeline.control.follower import Follower
 from contactbench.pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
 from contactbench.pipeline.errors import InputError
 
@@ -29,64 +29,32 @@ _MOST = 1e3
 
 
 @dataclass(frozen=True)
-class Loop:
-    """
-    One loop, in the path that it controls: m along the axis, or rad about one.
+class LoopModel:
+    """One loop, in the path that it controls: m along the axis, or rad about one."""
 
-    Attributes
-    ----------
-    gain : float
-        1/s: speed per path that is missing, in the steady state.
-    settling : float
-        Mass over damping, s.
-    spring : float
-        Stiffness over damping, 1/s.
-    ratio : float
-        What is sensed over what there is: true over assumed stiffness, or gain of the place.
-    bandwidth : float
-        1/s, of the estimate that is led by; 0: nothing leads.
-    smoothing : float
-        s, of what is led by; 0: none.
-    inertia : float
-        s²: path that is sensed too little for each unit of acceleration: the share of the tool's inertia that was not
-        taken off.
-    lag : float
-        How late the arm is, s.
-    period : float
-        s.
-    """
-
-    gain: float
-    settling: float
-    spring: float = 0.0
+    gain: float  # 1/s: speed per path that is missing, in the steady state
+    settling: float  # mass over damping, s
+    spring: float = 0.0  # stiffness over damping, 1/s
+    # what is sensed over what there is: true over assumed stiffness, or gain of the place
     ratio: float = 1.0
-    bandwidth: float = 0.0
-    smoothing: float = 0.0
+    bandwidth: float = 0.0  # 1/s, of the estimate that is led by; 0: nothing leads
+    smoothing: float = 0.0  # s, of what is led by; 0: none
+    # s²: path that is sensed too little for each unit of acceleration: the share of the tool's inertia that
+    # was not taken off
     inertia: float = 0.0
-    lag: float = 0.0
-    period: float = 0.02
+    lag: float = 0.0  # how late the arm is, s
+    period: float = 0.02  # s
 
 
 @dataclass(frozen=True)
 class Margins:
-    """
-    What a loop has left.
-
-    Attributes
-    ----------
-    stable : bool
-    gain : float
-        Factor by which the loop may grow before it swings; below 1: it swings, and must shrink by that much.
-    phase : float
-        rad, smallest at a frequency where the loop's gain is 1; 0 if it swings.
-    crossover : float
-        rad/s, the largest such frequency.
-    """
+    """What a loop has left."""
 
     stable: bool
+    # factor by which the loop may grow before it swings; below 1: it swings, and must shrink by that much
     gain: float
-    phase: float
-    crossover: float
+    phase: float  # rad, smallest at a frequency where the loop's gain is 1; 0 if it swings
+    crossover: float  # rad/s, the largest such frequency
 
 
 def loop_of(
@@ -97,18 +65,16 @@ def loop_of(
     *,
     assumed: float | None = None,
     unknown: float = LEFT,
-) -> Loop:
+) -> LoopModel:
     """
     Return a loop of a controller on tissue.
 
     Parameters
     ----------
-    settings : ControlSettings
     foundation : Foundation
         Of the probe.
     modulus : float
         Of the tissue, N/m³.
-    axis : {"force", "about x", "about y"}
     assumed : float, optional
         What the aware variant takes the modulus to be; left out, it has measured it. The plain one does not ask.
     unknown : float
@@ -146,7 +112,7 @@ def loop_of(
         drive, smoothing = force, settings.smoothing
         lever = TO_TIP_M if aware else TO_TIP_M**2 / real  # by the lean of the force, or by the place
         felt = unknown * TOOL_KG * lever / force
-    common = Loop(
+    common = LoopModel(
         gain=drive * real / damping,
         settling=mass / damping,
         spring=spring / damping,
@@ -161,7 +127,7 @@ def loop_of(
     return replace(common, gain=wanted, ratio=real / believed, bandwidth=bandwidth, smoothing=smoothing)
 
 
-def margins(loop: Loop) -> Margins:
+def margins(loop: LoopModel) -> Margins:
     """
     Return the margins of a loop, from its discrete-time response L(exp(i w T)).
 
@@ -198,7 +164,7 @@ def sweep(
     ]
 
 
-def response(loop: Loop, w: NDArray[np.float64]) -> NDArray[np.complex128]:
+def response(loop: LoopModel, w: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Return L at angular frequencies (n,), rad/s."""
     T = loop.period
     late = np.exp(-1j * w * T)  # z^-1
@@ -223,7 +189,7 @@ def response(loop: Loop, w: NDArray[np.float64]) -> NDArray[np.complex128]:
 
 
 def _controller(
-    loop: Loop, w: NDArray[np.float64]
+    loop: LoopModel, w: NDArray[np.float64]
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128] | float]:
     """Return speed per path that is missing, and speed that is led by per path that is seen, at w."""
     T = loop.period

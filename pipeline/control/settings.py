@@ -39,109 +39,74 @@ class ControlSettings:
     """
     All that a controller needs beside a probe, an arm and a calibration.
 
-    Attributes
-    ----------
-    desired_force : float
-        N.
-    force_mass, force_damping, force_stiffness : float
-        Of Eq. 7: kg, N·s/m, N/m. A tissue of k N/m is followed with a gain of k / damping, per s.
-    angle_inertia, angle_damping, angle_stiffness : (about x, about y)
-        Of Eq. 8, with the torque ``desired_force`` times the contact's offset: kg·m², N·m·s/rad, N·m/rad.
-    period : float
-        s between set-points.
-    servo_lag : float
-        How much later than its set-point the arm is there, s.
-    max_force : float
-        N that must never be passed; the probe is drawn back from 80 % of it on.
-    max_speed, max_turn : float
-        Of the tip, m/s and rad/s.
-    approach_speed, retract_speed : float
-        m/s.
-    approach_travel, retract_travel : float
-        m: so far it looks for tissue, and so far it goes back.
-    touch_force, low_force : float
-        N: above the first it has met tissue, below the second it has lost it.
-    ramp : float
-        s in which the wanted force grows at first touch.
-    stale : float
-        s without a fresh sample after which nothing moves any more; after `give_up` it goes back the way it came.
-    give_up : float
-        s.
-    attempts : int
-        How often it approaches again after tissue was lost.
-    probing : float
-        m, the small press by which the stiffness is measured before tracking; 0: not at all.
-    variant : Variant
-    bandwidth : (place, tilt about x, tilt about y)
-        1/s, of the estimate of the tissue's motion. Of the tilt about x, out of plane, the contact's place tells little
-        on a narrow face.
-    smoothing : float
-        s, time constant of the turns that the aware variant leads by: they shake the tool, and the sensor feels that.
-    lean : (rad, s)
-        What friction does to the direction of the tissue's force, and for how long: see `Tilt`.
-    calibration_sigma : (N, N·m)
-        What is left of a sensor's bias after gravity and `taring`.
-    taring : float
-        s that it waits in the air and takes off what the sensor still reads; 0: not at all.
-    gyration : float
-        m, radius of gyration of the tool about its centre of mass, from its drawing: a tool of 0.45 kg needs it to
-        a third. 0: what turning it takes is left out.
-    following : float
-        s, by how much an arm may be late at the largest speeds before it counts as not following.
-    max_tilt : float
-        rad, between the probe's axis and the one that it began with; beyond it the probe goes back. What turns it so
-        far is no tissue but a place that is wrong: a bias on a narrow face, or an edge.
-    max_torque : float
-        N·m about the sensor's origin that must never be passed; as `max_force`.
-    settling : float
-        s, mass over damping of the aware variant's turns: it gets its tilt from more than the place, and needs less.
-    angle_gains : (about x, about y)
-        1/s, how fast the aware variant turns towards what it knows.
-    force_gain : float
-        1/s, how fast it goes towards the wanted force.
-
     Raises
     ------
     InputError
         A number is out of range.
     """
 
-    desired_force: float = 7.0
+    desired_force: float = 7.0  # N
+    # force_mass, force_damping, force_stiffness: of Eq. 7: kg, N·s/m, N/m. A tissue of k N/m is followed
+    # with a gain of k / damping, per s.
     force_mass: float = 13.0
     force_damping: float = USUAL_STIFFNESS / USUAL_GAIN
     force_stiffness: float = 0.0
+    # angle_inertia, angle_damping, angle_stiffness: (about x, about y) of Eq. 8, with the torque
+    # ``desired_force`` times the contact's offset: kg·m², N·m·s/rad, N·m/rad.
     angle_inertia: tuple[float, float] = (0.0003, 0.0027)
     angle_damping: tuple[float, float] = (0.0075, 0.067)
     angle_stiffness: tuple[float, float] = (0.0, 0.0)
-    period: float = 0.02
-    servo_lag: float = 0.0
-    max_force: float = 30.0
+    period: float = 0.02  # s between set-points
+    servo_lag: float = 0.0  # how much later than its set-point the arm is there, s
+    max_force: float = 30.0  # N that must never be passed; the probe is drawn back from 80 % of it on
+    # max_speed, max_turn: of the tip, m/s and rad/s
     max_speed: float = 0.1
     max_turn: float = 1.0
+    # approach_speed, retract_speed: m/s
     approach_speed: float = 0.006
     retract_speed: float = 0.06
+    # approach_travel, retract_travel: m: so far it looks for tissue, and so far it goes back
     approach_travel: float = 0.05
     retract_travel: float = 0.03
+    # touch_force, low_force: N: above the first it has met tissue, below the second it has lost it
     touch_force: float = 0.7
     low_force: float = 0.7
-    ramp: float = 0.5
+    ramp: float = 0.5  # s in which the wanted force grows at first touch
+    # s without a fresh sample after which nothing moves any more; after `give_up` it goes back the way it
+    # came
     stale: float = 0.06
-    give_up: float = 0.2
-    attempts: int = 3
+    give_up: float = 0.2  # s
+    attempts: int = 3  # how often it approaches again after tissue was lost
+    # m, the small press by which the stiffness is measured before tracking; 0: not at all
     probing: float = 0.00015
     variant: Variant = Variant.AWARE
+    # (place, tilt about x, tilt about y) 1/s, of the estimate of the tissue's motion. Of the tilt about x,
+    # out of plane, the contact's place tells little on a narrow face.
     bandwidth: tuple[float, float, float] = (20.0, 13.0, 13.0)
+    # s, time constant of the turns that the aware variant leads by: they shake the tool, and the sensor
+    # feels that
     smoothing: float = 0.08
+    # (rad, s) what friction does to the direction of the tissue's force, and for how long: see `Tilt`
     lean: tuple[float, float] = (0.025, 0.8)
+    # (N, N·m) what is left of a sensor's bias after gravity and `taring`
     calibration_sigma: tuple[float, float] = (0.01, 0.0005)
+    # s that it waits in the air and takes off what the sensor still reads; 0: not at all
     taring: float = 0.5
+    # m, radius of gyration of the tool about its centre of mass, from its drawing: a tool of 0.45 kg needs
+    # it to a third. 0: what turning it takes is left out.
     gyration: float = 0.035
+    # s, by how much an arm may be late at the largest speeds before it counts as not following
     following: float = 0.05
+    # rad, between the probe's axis and the one that it began with; beyond it the probe goes back. What
+    # turns it so far is no tissue but a place that is wrong: a bias on a narrow face, or an edge.
     max_tilt: float = 0.5
-    max_torque: float = 6.0
+    max_torque: float = 6.0  # N·m about the sensor's origin that must never be passed; as `max_force`
+    # s, mass over damping of the aware variant's turns: it gets its tilt from more than the place, and
+    # needs less
     settling: float = _SETTLING_S
+    # (about x, about y) 1/s, how fast the aware variant turns towards what it knows
     angle_gains: tuple[float, float] = (6.0, 6.0)
-    force_gain: float = 6.0
+    force_gain: float = 6.0  # 1/s, how fast it goes towards the wanted force
 
     def __post_init__(self) -> None:
         for each in fields(self):
@@ -226,7 +191,6 @@ def for_tool(settings: ControlSettings, mass: float, lever: float) -> ControlSet
 
     Parameters
     ----------
-    settings : ControlSettings
     mass : float
         kg.
     lever : float

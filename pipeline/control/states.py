@@ -44,12 +44,12 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.control.inverse import Held
-from contactbench.pipeline.control.sensing import Fault
+from contactbench.pipeline.control.intake import SensingFault
+from contactbench.pipeline.control.inverse import MotionLimit
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.control.inverse import Step
-    from contactbench.pipeline.control.sensing import Sensed
+    from contactbench.pipeline.control.intake import Sensed
+    from contactbench.pipeline.control.inverse import JointStep
     from contactbench.pipeline.control.settings import ControlSettings
 
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
@@ -62,7 +62,7 @@ _PRESSED = 1.5  # of the wanted force: who stands still does not give in
 _LITTLE = 0.5  # of a step: less is no going on
 
 
-class State(StrEnum):
+class ControlState(StrEnum):
     """What the controller does."""
 
     APPROACH = "approach"
@@ -74,12 +74,12 @@ class State(StrEnum):
 
 
 @dataclass(frozen=True)
-class Change:
+class StateChange:
     """A change of state: when (s), from and to what, and why, in a sentence."""
 
     time: float
-    before: State
-    after: State
+    before: ControlState
+    after: ControlState
     reason: str
 
 
@@ -87,14 +87,10 @@ class Safety:
     """
     The state machine; it moves nothing, and knows nothing of geometry.
 
-    Parameters
-    ----------
-    settings : ControlSettings
-
     Attributes
     ----------
-    state : State
-    changes : list of Change
+    state : ControlState
+    changes : list of StateChange
     elapsed : float
         s in this state, by the periods: it goes on when a clock does not.
     turning : bool
@@ -103,8 +99,8 @@ class Safety:
 
     def __init__(self, settings: ControlSettings) -> None:
         self.settings = settings
-        self.state = State.APPROACH
-        self.changes: list[Change] = []
+        self.state = ControlState.APPROACH
+        self.changes: list[StateChange] = []
         self.turning = True
         self.since = 0.0
         self.elapsed = 0.0
@@ -114,7 +110,7 @@ class Safety:
         self._stop = False
         self._loads = (math.nan, math.nan)  # |F| and |M| of the newest fresh step
         self._load_age = 0.0
-        self._held_from = State.APPROACH
+        self._held_from = ControlState.APPROACH
         self._patience = settings.give_up
 
     def stop(self) -> None:
@@ -128,13 +124,13 @@ class Safety:
         force: float,
         *,
         travelled: float,
-        last: Step | None,
+        last: JointStep | None,
         probed: bool,
         dt: float,
         follows: bool = True,
         turned: float = 0.0,
         rising: float = 0.0,
-    ) -> State:
+    ) -> ControlState:
         """
         Decide what to do in this step.
 
@@ -142,12 +138,11 @@ class Safety:
         ----------
         now : float
             s.
-        sensed : Sensed
         force : float
             How hard the tissue is pressed, N; NaN without a fresh sample.
         travelled : float
             m since the state began: into the tissue in `approach`, back in `retract`.
-        last : Step or None
+        last : JointStep or None
             What became of the motion of the step before.
         probed : bool
             Whether the stiffness is known.
@@ -163,31 +158,33 @@ class Safety:
         self._now = now
         self.elapsed += dt
         self._count(sensed, force, last, follows, dt)
-        if self.state is not State.SAFE and self._alarm(sensed, force, turned, dt):
+        if self.state is not ControlState.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
         late = self._late > _LATE_S
         match self.state:
-            case State.APPROACH | State.CONTACT | State.TRACK if sensed.fault is not None:
+            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
+                sensed.fault is not None
+            ):
                 self._wait(f"the sensor is {sensed.fault.value}: nothing moves on old readings.", rising)
-            case State.APPROACH | State.CONTACT | State.TRACK if late:
+            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if late:
                 self._behind(rising)
-            case State.APPROACH:
+            case ControlState.APPROACH:
                 self._approach(force, travelled)
-            case State.CONTACT:
+            case ControlState.CONTACT:
                 self._contact(force, probed, dt)
-            case State.TRACK:
+            case ControlState.TRACK:
                 self._track()
-            case State.HOLD:
+            case ControlState.HOLD:
                 self._hold(sensed, force)
-            case State.RETRACT:
+            case ControlState.RETRACT:
                 self._retract(sensed, force, travelled, last)
-            case State.SAFE:
+            case ControlState.SAFE:
                 pass
         return self.state
 
     # ---- what is counted -------------------------------------------------------------------------
 
-    def _count(self, sensed: Sensed, force: float, last: Step | None, follows: bool, dt: float) -> None:
+    def _count(self, sensed: Sensed, force: float, last: JointStep | None, follows: bool, dt: float) -> None:
         def longer(so_far: float, holds: bool) -> float:
             return so_far + dt if holds else 0.0
 
@@ -201,19 +198,19 @@ class Safety:
     def _alarm(self, sensed: Sensed, force: float, turned: float, dt: float) -> bool:
         """Have it go back at once, if it must; tell whether it does from now on."""
         overload = self._overload(sensed, dt)  # always: it remembers the loads
-        if self.state is State.RETRACT:
+        if self.state is ControlState.RETRACT:
             return False
         reason = self._danger(sensed) or overload or self._askew(turned) or self._squeezed(sensed, force)
         if reason is not None:
-            self._to(State.RETRACT, reason)
+            self._to(ControlState.RETRACT, reason)
         return reason is not None
 
     def _danger(self, sensed: Sensed) -> str | None:
         if self._stop:
             return "it was stopped."
-        if sensed.fault is Fault.SATURATED:
+        if sensed.fault is SensingFault.SATURATED:
             return "the sensor is at the end of its range: the force may be anything."
-        if self._blocked > _STOPPED_S and self.state is not State.HOLD:
+        if self._blocked > _STOPPED_S and self.state is not ControlState.HOLD:
             return "the arm can go no farther: a joint limit or a singularity."
         return None
 
@@ -235,12 +232,16 @@ class Safety:
         return None
 
     def _askew(self, turned: float) -> str | None:
-        if self.state in (State.CONTACT, State.TRACK) and turned > self.settings.max_tilt:
+        if self.state in (ControlState.CONTACT, ControlState.TRACK) and turned > self.settings.max_tilt:
             return f"it is turned by {math.degrees(turned):.0f} degrees from where it began: no tissue asks for that."
         return None
 
     def _squeezed(self, sensed: Sensed, force: float) -> str | None:
-        if self.state is State.HOLD and sensed.fresh and force > _PRESSED * self.settings.desired_force:
+        if (
+            self.state is ControlState.HOLD
+            and sensed.fresh
+            and force > _PRESSED * self.settings.desired_force
+        ):
             return f"the tissue pushes with {force:.1f} N while it stands still."
         return None
 
@@ -248,10 +249,10 @@ class Safety:
 
     def _approach(self, force: float, travelled: float) -> None:
         if force > self.settings.touch_force:
-            self._to(State.CONTACT, f"it touches, with {force:.1f} N.")
+            self._to(ControlState.CONTACT, f"it touches, with {force:.1f} N.")
         elif travelled > self.settings.approach_travel:
             far = 1000 * self.settings.approach_travel
-            self._to(State.RETRACT, f"there was no tissue within {far:.0f} mm.")
+            self._to(ControlState.RETRACT, f"there was no tissue within {far:.0f} mm.")
 
     def _contact(self, force: float, probed: bool, dt: float) -> None:
         if self._again():
@@ -259,37 +260,39 @@ class Safety:
         near = abs(force - self.settings.desired_force) < _NEAR * self.settings.desired_force
         self._steady = self._steady + dt if near else 0.0
         if self._steady >= _STEADY_S and probed and self.elapsed > self.settings.ramp:
-            self._to(State.TRACK, f"the force is {force:.1f} N.")
+            self._to(ControlState.TRACK, f"the force is {force:.1f} N.")
 
     def _track(self) -> None:
         if not self._again() and self._lost > _GIVEN_UP_S:
-            self._to(State.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s.")
+            self._to(ControlState.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s.")
 
     def _again(self) -> bool:
         if self._low < _LOW_S:
             return False
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(State.RETRACT, f"the tissue was lost {self._attempts} times.")
+            self._to(ControlState.RETRACT, f"the tissue was lost {self._attempts} times.")
         else:
-            self._to(State.APPROACH, "the tissue was lost: it looks for it again.")
+            self._to(ControlState.APPROACH, "the tissue was lost: it looks for it again.")
         return True
 
     def _behind(self, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(State.RETRACT, f"the arm was not where it was sent {self._attempts} times.")
+            self._to(ControlState.RETRACT, f"the arm was not where it was sent {self._attempts} times.")
         else:
             self._wait("the arm is not where it was sent: nothing moves until it is.", rising)
 
     def _hold(self, sensed: Sensed, force: float) -> None:
         if sensed.fresh and self._late == 0:
-            after = State.CONTACT if force > self.settings.touch_force else State.APPROACH
-            if self._held_from is State.TRACK and after is State.CONTACT:
-                after = State.TRACK  # all is known; and tissue that moves does not wait
+            after = ControlState.CONTACT if force > self.settings.touch_force else ControlState.APPROACH
+            if self._held_from is ControlState.TRACK and after is ControlState.CONTACT:
+                after = ControlState.TRACK  # all is known; and tissue that moves does not wait
             self._to(after, "the readings are fresh, and the arm is where it should be.")
         elif self.elapsed > self._patience:
-            self._to(State.RETRACT, f"{self.elapsed:.2g} s did not help: it goes back the way it came.")
+            self._to(
+                ControlState.RETRACT, f"{self.elapsed:.2g} s did not help: it goes back the way it came."
+            )
 
     def _wait(self, reason: str, rising: float) -> None:
         """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
@@ -297,21 +300,21 @@ class Safety:
         room = _ALARM * self.settings.max_force - self._loads[0]
         time = room / rising - _REACTION_S if rising > 0 else math.inf
         self._patience = min(self.settings.give_up, max(time, 0.0))
-        self._to(State.HOLD, reason)
+        self._to(ControlState.HOLD, reason)
 
-    def _retract(self, sensed: Sensed, force: float, travelled: float, last: Step | None) -> None:
+    def _retract(self, sensed: Sensed, force: float, travelled: float, last: JointStep | None) -> None:
         away = travelled >= self.settings.retract_travel
         free = not sensed.fresh or force < self.settings.low_force
         stuck = self.elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
         if (away and free) or travelled >= 2 * self.settings.retract_travel or stuck:
-            self._to(State.SAFE, "it has gone back." if not stuck else "it can go back no farther.")
+            self._to(ControlState.SAFE, "it has gone back." if not stuck else "it can go back no farther.")
 
-    def _to(self, state: State, reason: str) -> None:
-        self.changes.append(Change(self._now, self.state, state, reason))
+    def _to(self, state: ControlState, reason: str) -> None:
+        self.changes.append(StateChange(self._now, self.state, state, reason))
         self.state, self.since, self.elapsed = state, self._now, 0.0
         self._low = self._lost = self._blocked = self._steady = self._late = 0.0
         self.turning = True
 
 
-def _blocked(step: Step) -> bool:
-    return Held.SINGULAR in step.held or (Held.LIMIT in step.held and step.share < _LITTLE)
+def _blocked(step: JointStep) -> bool:
+    return MotionLimit.SINGULAR in step.held or (MotionLimit.LIMIT in step.held and step.share < _LITTLE)

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.control.axes import cross
-from contactbench.pipeline.control.following import Follower
+from contactbench.pipeline.control.follower import Follower
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
-from contactbench.pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.tilt import Tilt, TiltReading
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.foundation import Foundation, Press
+    from contactbench.pipeline.control.foundation import FacePress, Foundation
 
 _SOFTEST, _STIFFEST = USUAL_MODULUS / 20, USUAL_MODULUS * 20
 
 
-class Surface:
+class TissueSurface:
     """
     Follows the tissue's undeformed surface, as a place along the probe's axis and as a normal.
 
@@ -30,7 +30,6 @@ class Surface:
 
     Parameters
     ----------
-    foundation : Foundation
     bandwidth : (place, tilt about x, tilt about y)
         1/s.
     modulus : float
@@ -62,7 +61,7 @@ class Surface:
         self.modulus = modulus
         self.tilt = (0.0, 0.0)
 
-    def press(self, force: float) -> Press:
+    def press(self, force: float) -> FacePress:
         """Return what is known of a press of that force, N."""
         return self._foundation.at(max(force, 0.1), self.modulus)
 
@@ -125,7 +124,7 @@ class Surface:
         gains = (press.gain_y, press.gain_x)
         noise = sigmas[0] / force, sigmas[1] / force
         about_x, about_y = (
-            tilt.update(Reading(lean, place, gain, self._foundation.height, *noise), dt)
+            tilt.update(TiltReading(lean, place, gain, self._foundation.height, *noise), dt)
             for tilt, lean, place, gain in zip(self._tilts, leaning, places, gains, strict=True)
         )
         self.tilt = (about_x, about_y)

@@ -11,28 +11,14 @@ _WALK = 2e-5  # m per root second, how the place's own error wanders
 
 
 @dataclass(frozen=True)
-class Reading:
-    """
-    What one wrench says about one axis.
+class TiltReading:
+    """What one wrench says about one axis."""
 
-    Attributes
-    ----------
-    lean : float
-        Angle of the force against S's z, rad.
-    place : float
-        Of the contact from where it should be, m; positive where a positive tilt moves it.
-    gain : float
-        How far a tilt moves the place, m/rad.
-    lever : float
-        Height of the place over the sensor's origin, m.
-    force_sigma, torque_sigma : float
-        Of the wrench over its force: rad and m.
-    """
-
-    lean: float
-    place: float
-    gain: float
-    lever: float
+    lean: float  # angle of the force against S's z, rad
+    place: float  # of the contact from where it should be, m; positive where a positive tilt moves it
+    gain: float  # how far a tilt moves the place, m/rad
+    lever: float  # height of the place over the sensor's origin, m
+    # force_sigma, torque_sigma: of the wrench over its force: rad and m
     force_sigma: float
     torque_sigma: float
 
@@ -76,7 +62,7 @@ class Tilt:
         self.drag = self.error = 0.0
         self._bb, self._bc, self._cc = self._sigma2, 0.0, self._error2
 
-    def update(self, reading: Reading, dt: float) -> float:
+    def update(self, reading: TiltReading, dt: float) -> float:
         """Take a reading, dt (s) after the one before; returns the likeliest tilt, rad."""
         kept = math.exp(-dt / self._seconds)
         self.drag *= kept
@@ -87,19 +73,19 @@ class Tilt:
         self._separate(reading)
         return tilt
 
-    def sigma(self, reading: Reading) -> float:
+    def sigma(self, reading: TiltReading) -> float:
         """Return the standard deviation of the tilt that a reading like this gives now, rad."""
         s11, s12, s22 = self._covariance(reading)
         second = reading.gain - reading.lever
         return math.sqrt((s11 * s22 - s12 * s12) / (s22 - 2 * s12 * second + s11 * second * second))
 
-    def _covariance(self, r: Reading) -> tuple[float, float, float]:
+    def _covariance(self, r: TiltReading) -> tuple[float, float, float]:
         """S = B P B^T + R of m = (lean, place - lever lean): B = [[1, 0], [-z, 1]], and R is diagonal."""
         z, bb, bc, cc = r.lever, self._bb, self._bc, self._cc
         s22 = z * z * bb - 2 * z * bc + cc + r.torque_sigma**2
         return bb + r.force_sigma**2, -z * bb + bc, s22
 
-    def _likeliest(self, r: Reading) -> float:
+    def _likeliest(self, r: TiltReading) -> float:
         """Generalised least squares: m = a tilt + B (drag, error) + noise, m = (lean, place - lever lean)."""
         z = r.lever
         first, second = 1.0, r.gain - z
@@ -110,7 +96,7 @@ class Tilt:
         w1, w2 = s22 * first - s12 * second, s11 * second - s12 * first
         return (w1 * m1 + w2 * m2) / (w1 * first + w2 * second)
 
-    def _separate(self, r: Reading) -> None:
+    def _separate(self, r: TiltReading) -> None:
         """Kalman update by place - gain lean = error - gain drag + noise, from which the tilt is gone."""
         g = r.gain
         off = r.place - g * r.lean - (self.error - g * self.drag)

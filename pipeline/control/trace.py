@@ -7,75 +7,48 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.states import Change
+    from contactbench.pipeline.control.states import StateChange
 
-STATES = tuple(State)
+STATES = tuple(ControlState)
 
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """
-    A closed loop, a row per period.
+    """A closed loop, a row per period."""
 
-    Attributes
-    ----------
-    time : (n,)
-        s, of the scene, at the end of the period.
-    force : (n,)
-        How hard the tissue is truly pressed along the probe's axis, N.
-    peak : (n,)
-        Largest |F| of the true contact in the period, N.
-    sensed : (n,)
-        What the controller took the force for, N; NaN without a fresh sample.
-    offset : (n, 2)
-        Sensed place of the contact less the wanted one, S, m; NaN where it was not known.
-    place : (n, 2)
-        Where it truly was at the end of the period, the same way; NaN in the air.
-    torsion : (n,)
-        Torque of the true contact about the normal at its point, N·m; NaN in the air.
-    shift : (n,)
-        How far that moves the wrench's axis away from the point, m: what a method that neglects it is off by.
-    angles : (n, 2)
-        Between the probe's axis and the phantom's normal, in plane and out of plane, rad.
-    phantom, probe : (n, 3)
-        Height of the phantom's middle and of the probe's tip, m, and their tilts in plane and out of plane, rad, in the
-        frame P where the phantom rests.
-    joints : (n, k)
-        Set-points, rad or m.
-    state : (n,) int
-        Index in `STATES`.
-    share : (n,)
-        What the arm's limits left of the wanted motion.
-    step_s : (n,)
-        How long the controller took, s.
-    step_cpu_s : (n,)
-        How long the processor worked for it, s: without what else ran on the machine. These two are all that is not
-        the same each time.
-    changes : tuple of Change
-    """
-
-    time: NDArray[np.float64]
-    force: NDArray[np.float64]
-    peak: NDArray[np.float64]
+    time: NDArray[np.float64]  # (n,) s, of the scene, at the end of the period
+    force: NDArray[np.float64]  # (n,) how hard the tissue is truly pressed along the probe's axis, N
+    peak: NDArray[np.float64]  # (n,) largest |F| of the true contact in the period, N
+    # (n,) what the controller took the force for, N; NaN without a fresh sample
     sensed: NDArray[np.float64]
+    # (n, 2) sensed place of the contact less the wanted one, S, m; NaN where it was not known
     offset: NDArray[np.float64]
+    # (n, 2) where it truly was at the end of the period, the same way; NaN in the air
     place: NDArray[np.float64]
+    # (n,) torque of the true contact about the normal at its point, N·m; NaN in the air
     torsion: NDArray[np.float64]
+    # (n,) how far that moves the wrench's axis away from the point, m: what a method that neglects it is
+    # off by
     shift: NDArray[np.float64]
+    # (n, 2) between the probe's axis and the phantom's normal, in plane and out of plane, rad
     angles: NDArray[np.float64]
+    # phantom, probe: (n, 3) height of the phantom's middle and of the probe's tip, m, and their tilts in
+    # plane and out of plane, rad, in the frame P where the phantom rests
     phantom: NDArray[np.float64]
     probe: NDArray[np.float64]
-    joints: NDArray[np.float64]
-    state: NDArray[np.int_]
-    share: NDArray[np.float64]
-    step_s: NDArray[np.float64]
+    joints: NDArray[np.float64]  # (n, k) Set-points, rad or m
+    state: NDArray[np.int_]  # (n,) index in `STATES`
+    share: NDArray[np.float64]  # (n,) what the arm's limits left of the wanted motion
+    step_s: NDArray[np.float64]  # (n,) how long the controller took, s
+    # (n,) how long the processor worked for it, s: without what else ran on the machine. These two are all
+    # that is not the same each time.
     step_cpu_s: NDArray[np.float64]
-    changes: tuple[Change, ...] = ()
+    changes: tuple[StateChange, ...] = ()
 
     def __len__(self) -> int:
         return len(self.time)
@@ -86,7 +59,7 @@ class Trace:
         cut = {each.name: getattr(self, each.name)[rows] for each in fields(self) if each.name != "changes"}
         return replace(self, **cut)
 
-    def was(self, state: State) -> NDArray[np.bool_]:
+    def was(self, state: ControlState) -> NDArray[np.bool_]:
         """Return when it was in a state, (n,)."""
         return np.asarray(self.state == STATES.index(state))
 
@@ -96,7 +69,7 @@ class Trace:
         return np.asarray(np.arctan(np.linalg.norm(np.tan(self.angles), axis=1)))
 
     @property
-    def ended(self) -> State:
+    def ended(self) -> ControlState:
         """The state at the end."""
         return STATES[int(self.state[-1])]
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.control.settings import ControlSettings
-    from contactbench.pipeline.control.surface import Surface
+    from contactbench.pipeline.control.surface import TissueSurface
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -26,12 +26,11 @@ class Upright:
 
     Parameters
     ----------
-    settings : ControlSettings
-    surface : Surface
+    surface : TissueSurface
         What is known of the tissue.
     """
 
-    def __init__(self, settings: ControlSettings, surface: Surface) -> None:
+    def __init__(self, settings: ControlSettings, surface: TissueSurface) -> None:
         self._settings, self._surface = settings, surface
         inertia, damping, stiffness = settings.angle_inertia, settings.angle_damping, settings.angle_stiffness
         if settings.variant is Variant.AWARE:
@@ -58,7 +57,6 @@ class Upright:
         R_BS : (3, 3)
         lead : float
             How much older than the middle of that time what was sensed is, s.
-        dt : float
         """
         settings = self._settings
         if settings.variant is Variant.AWARE:

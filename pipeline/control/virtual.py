@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +11,7 @@ from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.config.runtime.values import gates_of
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.loop import arm_of
+from contactbench.pipeline.control.loop import Rig, arm_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import (
@@ -23,7 +22,7 @@ from contactbench.pipeline.simulation.scenes import (
     PlatformScene,
     ServoSettings,
     Tissue,
-    Truth,
+    TrueSurface,
 )
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings
 
@@ -37,15 +36,6 @@ ROBOTS = ("virtual://arm", "virtual://platform")
 _FASTEST_HZ = 1000.0
 
 
-@dataclass(frozen=True, eq=False)
-class VirtualRobot:
-    """What a closed loop is made of: see `run_loop`."""
-
-    scene: MovedScene
-    controller: Controller
-    sensor: SensorModel
-
-
 def virtual_robot(
     config: RuntimeConfig,
     address: str = ROBOTS[0],
@@ -57,7 +47,7 @@ def virtual_robot(
     friction: float = 0.1,
     quaternion_ES: ArrayLike | None = None,
     seed: int = 0,
-) -> VirtualRobot:
+) -> Rig:
     """
     Make a robot that a bundle fits.
 
@@ -66,19 +56,14 @@ def virtual_robot(
 
     Parameters
     ----------
-    config : RuntimeConfig
     address : str
         One of `ROBOTS`.
     variant : Variant, optional
         Another one than the bundle's.
-    method : str
-    motion : PlatformMotion, optional
     stiffness : float, optional
         Of the phantom at the wanted force, N/m; left out, that of soft tissue.
-    friction : float
     quaternion_ES : (4,), optional
         How the sensor is turned on the flange, w, x, y, z, for a bundle that does not say.
-    seed : int
 
     Raises
     ------
@@ -106,7 +91,7 @@ def virtual_robot(
         method=method,
         variant=variant,
     )
-    return VirtualRobot(scene, controller, SensorModel(_sensor(config, force_bias, torque_bias), rng))
+    return Rig(scene, controller, SensorModel(_sensor(config, force_bias, torque_bias), rng))
 
 
 def check_address(address: str) -> None:
@@ -133,7 +118,7 @@ def _scene(
     tissue: Tissue,
     motion: PlatformMotion | None,
 ) -> MovedScene:
-    truth, part = Truth(config.probe), config.model.controller
+    truth, part = TrueSurface(config.probe), config.model.controller
     period = ControlSettings.period if part is None else part.period_s
     if address == ROBOTS[0]:
         servo = ServoSettings(period=period)

@@ -9,22 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.checking import check, clear
 from contactbench.pipeline.demo.compare import compare_methods
-from contactbench.pipeline.demo.files import write_bytes, write_csv
-from contactbench.pipeline.demo.gravity import calibrate_folder
+from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.gravity import calibrate_folder, weigh_by_formula, weigh_on_bench
 from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
-from contactbench.pipeline.demo.picture import Located, PictureError, draw
+from contactbench.pipeline.demo.picture import LocatedProbe, PictureError, draw
 from contactbench.pipeline.demo.report import DemoReport, ProbeResult, ours
 from contactbench.pipeline.demo.tool import draw_tool
-from contactbench.pipeline.demo.touching import draw_points, locate_folder, press_markers
-from contactbench.pipeline.demo.weighing import weigh_by_formula, weigh_on_bench
-from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.demo.touches import draw_points, locate_folder, press_markers
+from contactbench.pipeline.demo.verification import check, clear
+from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh import Probe, load_probe
+from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
-from contactbench.pipeline.simulation.scenes import Truth
 from contactbench.pipeline.simulation.scenes.physics import physics
+from contactbench.pipeline.simulation.virtual.bench import bundled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -33,14 +32,14 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.demo.compare import MethodErrors
     from contactbench.pipeline.demo.gravity import GravityResult
-    from contactbench.pipeline.demo.tool import Tool
-    from contactbench.pipeline.demo.touching import Found, Pressed
+    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.touches import LocatedTouches, Pressed
+    from contactbench.pipeline.mesh import Probe
 
     Prepared = tuple[MeshResult | None, str | None]
 
 FEWEST_TOUCHES = 10
 
-_TRUE_FACETS = 20_000
 _ON_BENCH = ("gravity.mcap", "touches.mcap", "recording.csv", "wrenches.csv", "touches.csv", "truth.csv")
 _DRAWN = "drawn"
 
@@ -52,7 +51,7 @@ class _Job:
     name: str
     folder: Path
     seed: int
-    tool: Tool
+    tool: DemoTool
     calibration: Calibration
     gravity: GravityResult
     pressed: Pressed | None
@@ -92,10 +91,6 @@ def run(
     progress : callable, optional
         Told what is being done, in a few words.
 
-    Returns
-    -------
-    DemoReport
-
     Raises
     ------
     InputError
@@ -122,7 +117,7 @@ def run(
     sigmas = job.tool.settings.noise.tolist()
     report = DemoReport(out, touches, seed, sigmas[0], sigmas[3], tuple(results), picture, tuple(notes))
     write_csv(out / "errors.csv", *report.csv_rows())
-    write_bytes(out / "errors.md", report.markdown().encode())
+    write_file(out / "errors.md", report.markdown().encode())
     return report
 
 
@@ -151,7 +146,7 @@ def _weigh_and_press(
     tool = draw_tool(_chance(seed, name, 0))
     pressed: Pressed | None = None
     if bench:
-        truth = Truth(Probe.from_arrays(*assets.make(name, _TRUE_FACETS), name=name))
+        truth = bundled(name)
         progress(f"{name}: weighing the tool on the virtual bench")
         bumped = weigh_on_bench(folder, tool, truth, _chance(seed, name, 1))
     else:
@@ -172,7 +167,7 @@ def _locate(
     touches: int,
     notes: list[str],
     progress: Callable[[str], None],
-) -> tuple[ProbeResult, Located]:
+) -> tuple[ProbeResult, LocatedProbe]:
     """Locate the touches as ``contactbench locate`` would, and compare all methods."""
     progress(f"{job.name}: preparing the mesh")
     mesh, note = prepared.result()
@@ -197,22 +192,22 @@ def _locate(
     region = int(np.count_nonzero(probe.region))
     result = ProbeResult(job.name, len(probe.faces), region, touched, drawn, job.gravity, mesh, checked)
     if job.pressed is None:
-        return result, Located(job.name, found_drawn.batch, points.points, ours(drawn).mean_mm)
-    return result, Located(job.name, found.batch, job.pressed.points, ours(touched).mean_mm)
+        return result, LocatedProbe(job.name, found_drawn.batch, points.points, ours(drawn).mean_mm)
+    return result, LocatedProbe(job.name, found.batch, job.pressed.points, ours(touched).mean_mm)
 
 
 def _compare(
     job: _Job, probe: Probe, folder: Path, pressed: Pressed, said: list[str]
-) -> tuple[tuple[MethodErrors, ...], Found]:
+) -> tuple[tuple[MethodErrors, ...], LocatedTouches]:
     found = locate_folder(folder, probe, job.calibration, job.tool, pressed)
     errors, left_out = compare_methods(probe, found.noise, found.wrenches, pressed.points, pressed.where)
     said += left_out
     return tuple(errors), found
 
 
-def _draw(file: Path, located: Sequence[Located], notes: list[str]) -> Path | None:
+def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path | None:
     try:
-        write_bytes(file, draw(located))
+        write_file(file, draw(located))
     except PictureError as error:
         file.unlink(missing_ok=True)  # an older one would not show these contacts
         notes.append(f"There is no picture: {error}")

@@ -11,16 +11,16 @@ import json
 import subprocess
 import sys
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from contactbench import assets
-from contactbench.pipeline.demo.view import View
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,37 +35,64 @@ _BODY, _REGION = "#e2e2e2", "#a9dccd"  # light grey; Okabe-Ito's bluish green, p
 _LIGHTS = (((-0.8, 0.7, 1.6), 0.70), ((1.2, -0.8, 1.4), 0.35))
 
 Image = NDArray[np.uint8]
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Body:
-    """One image to render.
+class PaperView:
+    """A look at the probe with +z of S upwards on paper."""
 
-    Attributes
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    view : View
-        How to look at it.
-    pixels : int
-        Width of the image; the height follows from the view.
-    """
+    focal: tuple[float, float, float]  # (x, y, z) point of S in the middle of the paper, m
+    # azimuth, elevation: where the camera is, degrees: azimuth from -y towards +x, elevation above the
+    # flange plane
+    azimuth: float
+    elevation: float
+    # width, height: what the paper shows, mm
+    width: float
+    height: float
 
-    probe: str
-    view: View
-    pixels: int
+    @cached_property
+    def toward(self) -> Array:
+        """Unit vector (3,) of S from the focal point to the camera."""
+        a, e = np.radians([self.azimuth, self.elevation])
+        return np.array([np.sin(a) * np.cos(e), -np.cos(a) * np.cos(e), np.sin(e)])
+
+    @cached_property
+    def right(self) -> Array:
+        """Unit vector (3,) of S that points to the right on paper."""
+        a = np.radians(self.azimuth)
+        return np.array([np.cos(a), np.sin(a), 0.0])
+
+    @cached_property
+    def up(self) -> Array:
+        """Unit vector (3,) of S that points upwards on paper."""
+        return np.cross(self.toward, self.right)
+
+    def project(self, points: ArrayLike) -> Array:
+        """Return where points (..., 3) of S, m, lie on paper: (..., 2), mm from the middle."""
+        offset = np.asarray(points, dtype=np.float64) - self.focal
+        return np.asarray(offset @ np.column_stack([self.right, self.up]) * 1e3)
+
+
+@dataclass(frozen=True)
+class BodyOrder:
+    """One image to render."""
+
+    probe: str  # one of assets.PROBE_NAMES
+    view: PaperView  # how to look at it
+    pixels: int  # width of the image; the height follows from the view
 
 
 class PictureError(InputError):
     """No picture can be drawn on this machine; the message says what to install."""
 
 
-def render_bodies(bodies: Sequence[Body]) -> list[Image]:
+def render_bodies(bodies: Sequence[BodyOrder]) -> list[Image]:
     """Render bundled probes on white, their contact regions tinted.
 
     Parameters
     ----------
-    bodies : sequence of Body
+    bodies : sequence of BodyOrder
         What to render.
 
     Returns
@@ -95,7 +122,7 @@ def render_bodies(bodies: Sequence[Body]) -> list[Image]:
             ) from error
 
 
-def _render(body: Body) -> Image:
+def _render(body: BodyOrder) -> Image:
     import pyvista as pv
 
     view = body.view
@@ -128,7 +155,9 @@ def _rgb(colour: str) -> list[int]:
 
 def _main() -> None:
     orders = json.load(sys.stdin)
-    images = [_render(Body(order["probe"], View(**order["view"]), order["pixels"])) for order in orders]
+    images = [
+        _render(BodyOrder(order["probe"], PaperView(**order["view"]), order["pixels"])) for order in orders
+    ]
     np.savez(sys.argv[1], *images)
 
 

@@ -32,43 +32,24 @@ _BARE = TouchModel(torsion_arm=1000.0, model_error=WrenchNoise(0.0, 0.0), mesh_c
 
 @dataclass(frozen=True)
 class MethodErrors:
-    """One method on the touches of one part of one probe.
+    """One method on the touches of one part of one probe."""
 
-    Attributes
-    ----------
-    method : str
-        As in contactbench.pipeline.contact.methods.
-    where : str
-        Which touches: "all"; "face" and "head" where they were drawn; "0°" and "30°" on markers.
-    touches : int
-        How many.
-    mean_mm, p95_mm, max_mm : float or None
-        Distance from the true point, mm, over the settled touches: those whose answer is accepted. This and
-        the next two are None where no touch is settled.
-    bound_mm : float or None
-        The noise bound: the root mean square error that noise and calibration alone give, mm; the root of the
-        mean trace of the covariance of the settled touches.
-    over_bound : float or None
-        Their root mean square error over the bound: 1 is as good as the noise allows.
-    answered : float
-        Share of the touches that got a point.
-    ambiguous : float
-        Share of the touches that got one with the warning that another is as likely.
-    median_us : float or None
-        Median time of a compiled solve, µs; None where there is none.
-    """
-
-    method: str
-    where: str
-    touches: int
+    method: str  # as in contactbench.pipeline.contact.methods
+    where: str  # which touches: "all"; "face" and "head" where they were drawn; "0°" and "30°" on markers
+    touches: int  # how many
+    # mean_mm, p95_mm, max_mm: distance from the true point, mm, over the settled touches: those whose
+    # answer is accepted. This and the next two are None where no touch is settled.
     mean_mm: float | None
     p95_mm: float | None
     max_mm: float | None
+    # the noise bound: the root mean square error that noise and calibration alone give, mm; the root of the
+    # mean trace of the covariance of the settled touches
     bound_mm: float | None
+    # their root mean square error over the bound: 1 is as good as the noise allows
     over_bound: float | None
-    answered: float
-    ambiguous: float
-    median_us: float | None
+    answered: float  # share of the touches that got a point
+    ambiguous: float  # share of the touches that got one with the warning that another is as likely
+    median_us: float | None  # median time of a compiled solve, µs; None where there is none
 
 
 def compare_methods(
@@ -119,11 +100,6 @@ def compare_methods(
     return errors, notes
 
 
-def settled(batch: Batch) -> NDArray[np.bool_]:
-    """Tell which answers give a point without doubt, (n,)."""
-    return batch.accepted
-
-
 def errors_mm(batch: Batch, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance from the true points (n, 3), mm, (n,); NaN without an answer."""
     return np.asarray(np.linalg.norm(batch.points - points, axis=1) * 1e3)
@@ -138,7 +114,7 @@ def _errors(
     rows: NDArray[np.intp],
     median_us: float | None,
 ) -> MethodErrors:
-    sure = rows[settled(batch)[rows]]
+    sure = rows[batch.accepted[rows]]
     error = errors_mm(batch, points)[sure]
     mean, p95, largest, bound, ratio = _statistics(error, covariances[sure])
     return MethodErrors(

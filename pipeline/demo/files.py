@@ -8,8 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.demo.tool import RATE_HZ
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.durable import write_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -18,32 +17,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.simulation import Touches
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 
 _CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
-def write_bytes(file: Path, data: bytes) -> None:
-    """Put `data` in a file, in one step: whoever reads it sees the old content or the new.
-
-    Raises
-    ------
-    InputError
-        It cannot be written; a file that was there is left as it was.
-    """
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
-        ) from error
-
-
 def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
     """Write a table; numbers as ``repr`` gives them, so that reading them back loses nothing; None empty."""
     lines = [",".join(columns), *(",".join(map(_cell, row)) for row in rows)]
-    write_bytes(file, ("\n".join(lines) + "\n").encode())
+    write_file(file, ("\n".join(lines) + "\n").encode())
 
 
 def write_recording(file: Path, readings: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
@@ -61,16 +44,16 @@ def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
     write_csv(file, ("t", "x", "y", "z", "nx", "ny", "nz", "k", "where"), rows)
 
 
-def write_marked(file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[Moment]) -> None:
+def write_marked(
+    file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[SceneMoment]
+) -> None:
     """
     Write the truth about touches of markers.
 
     Parameters
     ----------
-    file : Path
     rows : sequence of (time, marker, tilt)
         s, from 1, degrees.
-    moments : sequence of Moment
     """
     columns = ("t", "marker", "tilt", "x", "y", "z", "nx", "ny", "nz", *_CHANNELS, "k")
     cells = (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.files import write_bytes
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.probe import Probe
@@ -38,29 +38,18 @@ _R_SP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 @dataclass(frozen=True)
 class MeshResult:
-    """How the preparation did.
+    """How the preparation did."""
 
-    Attributes
-    ----------
-    facets_before, facets : int
-        Of the housing's file, and of the probe.
-    openings : int
-        That were closed.
-    invented_share : float
-        Of the probe's area.
-    deviation_mm, true_size_mm : float
-        What 95 % of the probe's head stay within of the design, and the probe's length.
-    closed : bool
-        Whether it is one closed surface that faces outwards.
-    """
-
+    # facets_before, facets: of the housing's file, and of the probe
     facets_before: int
     facets: int
-    openings: int
-    invented_share: float
+    openings: int  # that were closed
+    invented_share: float  # of the probe's area
+    # deviation_mm, true_size_mm: what 95 % of the probe's head stay within of the design, and the probe's
+    # length
     deviation_mm: float
     true_size_mm: float
-    closed: bool
+    closed: bool  # whether it is one closed surface that faces outwards
 
     @property
     def verified(self) -> bool:
@@ -95,7 +84,7 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
         A file cannot be written.
     """
     design, T_SP = _design(name)
-    write_bytes(folder / "housing.stl", _housing(name))
+    write_file(folder / "housing.stl", _housing(name))
     try:
         # From here on only the file counts: what works here works for files from elsewhere.
         content, openings = _prepare(folder / "housing.stl", name, T_SP)

@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.body import Body, PictureError, render_bodies
-from contactbench.pipeline.demo.compare import errors_mm, settled
-from contactbench.pipeline.demo.view import View
+from contactbench.pipeline.demo.body import BodyOrder, PaperView, PictureError, render_bodies
+from contactbench.pipeline.demo.compare import errors_mm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.contact import Batch, Contact
 
-__all__ = ["Located", "PictureError", "draw"]
+__all__ = ["LocatedProbe", "PictureError", "draw"]
 
 _FACETS = 2_000
 _SHOWN = 25
@@ -57,33 +56,21 @@ _AXES = (("x", "#d55e00"), ("y", "#009e73"), ("z", "#0072b2"))
 
 
 @dataclass(frozen=True, eq=False)
-class Located:
-    """What to draw on one probe.
+class LocatedProbe:
+    """What to draw on one probe."""
 
-    Attributes
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    batch : Batch
-        Answers, S, m.
-    points : (n, 3)
-        True points, S, m.
-    mean_mm : float or None
-        Mean error for the title.
-    """
-
-    probe: str
-    batch: Batch
-    points: NDArray[np.float64]
-    mean_mm: float | None
+    probe: str  # one of assets.PROBE_NAMES
+    batch: Batch  # answers, S, m
+    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    mean_mm: float | None  # mean error for the title
 
 
-def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:
+def draw(located: Sequence[LocatedProbe], pixels_per_inch: int = 100) -> bytes:
     """Draw the probes side by side.
 
     Parameters
     ----------
-    located : sequence of Located
+    located : sequence of LocatedProbe
         From left to right.
     pixels_per_inch : int
         A probe is 6 inches wide, the picture 8 inches high.
@@ -103,7 +90,7 @@ def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:
     close_pixels = round(_PANEL * pixels_per_inch)
     inset_pixels = round(_INSET * pixels_per_inch)
     bodies = [
-        Body(one.probe, view, pixels)
+        BodyOrder(one.probe, view, pixels)
         for one, pair in zip(located, views, strict=True)
         for view, pixels in zip(pair, (close_pixels, inset_pixels), strict=True)
     ]
@@ -129,34 +116,34 @@ def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:
 # ---- what to show ------------------------------------------------------------------------------
 
 
-def _end_of_colours(located: Sequence[Located]) -> float:
+def _end_of_colours(located: Sequence[LocatedProbe]) -> float:
     """Return the error, mm, with the last colour: small ones should not all look the same."""
     means = [one.mean_mm for one in located if one.mean_mm is not None]
     return _LARGEST_FILTERED_MM if means and max(means) < _LARGEST_FILTERED_MM else _LARGEST_MM
 
 
-def _close(probe: str) -> View:
+def _close(probe: str) -> PaperView:
     """Look at the head: near, with room for the arrows around it and for the inset on the left."""
     width = _CLOSE_MM[probe]
-    view = View((0.0, 0.0, 0.0), *_ANGLES, width, width * _BODY_HEIGHT / _PANEL)
+    view = PaperView((0.0, 0.0, 0.0), *_ANGLES, width, width * _BODY_HEIGHT / _PANEL)
     top = float(view.project(assets.make(probe, _FACETS)[0])[:, 1].max())
     focal = 1e-3 * ((top + 15.0 - view.height / 2) * view.up - 0.07 * width * view.right)
     return replace(view, focal=(float(focal[0]), float(focal[1]), float(focal[2])))
 
 
-def _whole(probe: str) -> View:
+def _whole(probe: str) -> PaperView:
     height = _tip(probe)
-    return View((0.0, 0.0, 0.48 * height), *_ANGLES, _WHOLE_MM, _WHOLE_MM * _INSET_SHAPE)
+    return PaperView((0.0, 0.0, 0.48 * height), *_ANGLES, _WHOLE_MM, _WHOLE_MM * _INSET_SHAPE)
 
 
 def _tip(probe: str) -> float:
     return float(assets.make(probe, _FACETS)[0][:, 2].max())
 
 
-def _choose(one: Located) -> list[int]:
+def _choose(one: LocatedProbe) -> list[int]:
     """Rows of settled contacts that the camera sees, spread out: each the farthest from those before it."""
     view = _close(one.probe)
-    rows = np.flatnonzero(settled(one.batch))
+    rows = np.flatnonzero(one.batch.accepted)
     rows = rows[:: 1 + len(rows) // _TRIED]
     facing = one.batch.normals[rows] @ view.toward > _FACING
     rows = rows[facing & _unhidden(one, view, rows)]
@@ -171,7 +158,7 @@ def _choose(one: Located) -> list[int]:
     return [int(row) for row in rows[chosen]]
 
 
-def _unhidden(one: Located, view: View, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _unhidden(one: LocatedProbe, view: PaperView, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Tell which points no facet hides, (n,)."""
     vertices, faces = assets.make(one.probe, _FACETS)
     corners, depth = view.project(vertices)[faces], (vertices @ view.toward)[faces]
@@ -201,7 +188,9 @@ def _axes(figure: Any, x: float, y: float, width: float, height: float) -> Any:
     return axes
 
 
-def _show(axes: Any, view: View, image: NDArray[np.uint8], fade: tuple[float, float] | None = None) -> None:
+def _show(
+    axes: Any, view: PaperView, image: NDArray[np.uint8], fade: tuple[float, float] | None = None
+) -> None:
     """Lay an image on the paper; white is clear, and below `fade` (from, to; mm on paper) all is."""
     half = (view.width / 2, view.height / 2)
     opaque = (255.0 - image.min(axis=2)).clip(0, 24) / 24
@@ -215,9 +204,9 @@ def _show(axes: Any, view: View, image: NDArray[np.uint8], fade: tuple[float, fl
 
 def _draw_close(
     axes: Any,
-    view: View,
+    view: PaperView,
     image: NDArray[np.uint8],
-    one: Located,
+    one: LocatedProbe,
     rows: Sequence[int],
     colours: Any,
     largest: float,
@@ -234,7 +223,7 @@ def _draw_close(
     axes.text(x - 10, y + 0.012 * view.width, "20 mm", ha="center", va="bottom", color=_FAINT, fontsize=11)
 
 
-def _draw_contact(axes: Any, view: View, contact: Contact, colour: Any) -> None:
+def _draw_contact(axes: Any, view: PaperView, contact: Contact, colour: Any) -> None:
     point, normal, ellipse = contact.point, contact.normal, contact.ellipse
     if point is None or normal is None or ellipse is None:
         return
@@ -260,7 +249,7 @@ def _arrow(axes: Any, tail: Any, tip: Any, colour: str, width: float) -> None:
     axes.annotate("", tip, tail, arrowprops=style, zorder=3, annotation_clip=False)
 
 
-def _draw_whole(axes: Any, view: View, image: NDArray[np.uint8]) -> None:
+def _draw_whole(axes: Any, view: PaperView, image: NDArray[np.uint8]) -> None:
     """Draw the whole probe, small, with the axes of S at its flange."""
     _show(axes, view, image)
     origin = view.project([0.0, 0.0, 0.0])
@@ -271,7 +260,7 @@ def _draw_whole(axes: Any, view: View, image: NDArray[np.uint8]) -> None:
         axes.text(*place, letter, color=colour, fontsize=13, weight="bold", ha="center", va="center")
 
 
-def _title(figure: Any, x: float, one: Located) -> None:
+def _title(figure: Any, x: float, one: LocatedProbe) -> None:
     width, height = figure.get_size_inches()
     place = {"ha": "center", "color": _INK}
     figure.text(x / width, 1 - 0.42 / height, one.probe, fontsize=20, weight="bold", **place)

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from contactbench.pipeline.demo.checking import CheckResult
     from contactbench.pipeline.demo.compare import MethodErrors
     from contactbench.pipeline.demo.gravity import GravityResult
     from contactbench.pipeline.demo.housing import MeshResult
+    from contactbench.pipeline.demo.verification import CheckResult
 
 # Noise alone gives a mean error of 0.9 times the bound, and the facets add little; a wrong sign, frame or unit
 # gives many times it. The mean, because one rare wrong facet would rule the root mean square of few touches.
@@ -30,34 +30,19 @@ _HEADINGS = ("mean", "p95", "max", "× bound", "answered", "ambiguous", "µs")
 
 @dataclass(frozen=True)
 class ProbeResult:
-    """One probe.
+    """One probe."""
 
-    Attributes
-    ----------
-    probe : str
-        Its name.
-    facets, region_facets : int
-        Of the mesh, and of its contact region.
-    touched : tuple of MethodErrors
-        Every method on the markers of the virtual bench; empty without MuJoCo.
-    drawn : tuple of MethodErrors
-        Every method on touches drawn by formula.
-    gravity : GravityResult
-        How its gravity calibration did.
-    mesh : MeshResult or None
-        How the preparation of its mesh did; None where it could not be done, and a note says why.
-    checked : CheckResult or None
-        Its verification and bundle; None without MuJoCo.
-    """
-
-    probe: str
+    probe: str  # its name
+    # facets, region_facets: of the mesh, and of its contact region
     facets: int
     region_facets: int
+    # every method on the markers of the virtual bench; empty without MuJoCo
     touched: tuple[MethodErrors, ...]
-    drawn: tuple[MethodErrors, ...]
-    gravity: GravityResult
+    drawn: tuple[MethodErrors, ...]  # every method on touches drawn by formula
+    gravity: GravityResult  # how its gravity calibration did
+    # how the preparation of its mesh did; None where it could not be done, and a note says why
     mesh: MeshResult | None
-    checked: CheckResult | None
+    checked: CheckResult | None  # its verification and bundle; None without MuJoCo
 
     @property
     def shown(self) -> tuple[MethodErrors, ...]:
@@ -75,31 +60,18 @@ class ProbeResult:
 
 @dataclass(frozen=True)
 class DemoReport:
-    """Everything that the demo found.
+    """Everything that the demo found."""
 
-    Attributes
-    ----------
-    out : Path
-        The folder with the files.
-    touches, seed : int
-        Drawn touches per probe, and the seed of chance.
-    force_noise, torque_noise : float
-        Standard deviations of one reading of the simulated sensor, N and N·m.
-    probes : tuple of ProbeResult
-    picture : Path or None
-        None when it could not be drawn; a note says why.
-    notes : tuple of str
-        What was left out, and how to get it.
-    """
-
-    out: Path
+    out: Path  # the folder with the files
+    # touches, seed: drawn touches per probe, and the seed of chance
     touches: int
     seed: int
+    # force_noise, torque_noise: standard deviations of one reading of the simulated sensor, N and N·m
     force_noise: float
     torque_noise: float
     probes: tuple[ProbeResult, ...]
-    picture: Path | None
-    notes: tuple[str, ...]
+    picture: Path | None  # None when it could not be drawn; a note says why
+    notes: tuple[str, ...]  # what was left out, and how to get it
 
     @property
     def verified(self) -> bool:

@@ -19,37 +19,28 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.tool import Tool
-    from contactbench.pipeline.simulation.scenes import Scene
+    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.simulation.scenes import PhysicsScene
 
 STEP_S = 1 / RATE_HZ
 _STARTED_NS = 1_700_000_000 * 10**9  # any day, but always the same: the same seed gives the same bytes
 
 
 @dataclass(eq=False)
-class Tape:
-    """
-    What a perfect sensor and the robot would say, sample by sample.
+class DemoTape:
+    """What a perfect sensor and the robot would say, sample by sample."""
 
-    Attributes
-    ----------
-    times : list of float
-        s.
-    readings : list of (6,)
-        Contact, weight and inertia, S.
-    R_WS : list of (3, 3)
-    """
-
-    times: list[float] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)  # s
+    # list of (6,): Contact, weight and inertia, S
     readings: list[NDArray[np.float64]] = field(default_factory=list)
-    R_WS: list[NDArray[np.float64]] = field(default_factory=list)
+    R_WS: list[NDArray[np.float64]] = field(default_factory=list)  # list of (3, 3)
 
     @property
     def end(self) -> float:
         """Time of the last sample, s; 0 for an empty tape."""
         return self.times[-1] if self.times else 0.0
 
-    def run(self, scene: Scene, seconds: float, start: float | None = None) -> None:
+    def run(self, scene: PhysicsScene, seconds: float, start: float | None = None) -> None:
         """Let a scene go on, and record it at 200 Hz, from `start` (s) or after the last sample."""
         begin = self.end + STEP_S if start is None else start
         for number in range(round(seconds / STEP_S)):
@@ -59,7 +50,7 @@ class Tape:
             self.readings.append(moment.reading)
             self.R_WS.append(moment.R_WS)
 
-    def write(self, file: Path, tool: Tool, rng: np.random.Generator) -> None:
+    def write(self, file: Path, tool: DemoTool, rng: np.random.Generator) -> None:
         """
         Write what the tool's sensor made of it, and the robot's poses in its base, as an MCAP file.
 

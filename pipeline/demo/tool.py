@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -10,15 +10,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.scenes.physics import Payload
-from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
-from contactbench.pipeline.simulation.weighing import draw_load
+from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SENSOR = "paper"
 SENSOR_MODEL = "virtual, paper-like"
 RATE_HZ = 200
 WARM_S = 3600.0  # since the sensor was switched on: as long as one should wait before a calibration
@@ -29,25 +27,11 @@ _USE_TILT = np.radians(45.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Tool:
-    """
-    A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright.
+class DemoTool(LoadedSensor):
+    """A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright."""
 
-    Attributes
-    ----------
-    load : GravityModel
-        Weight in the world W, centre of mass, and biases of the cold sensor.
-    R_BW : (3, 3)
-        What the robot does not know: half a degree from the identity.
-    """
-
-    load: GravityModel
-    R_BW: NDArray[np.float64]
-
-    @cached_property
-    def settings(self) -> SensorSettings:
-        """The sensor: the preset with the biases of this one."""
-        return replace(preset(SENSOR), bias=np.concatenate([self.load.force_bias, self.load.torque_bias]))
+    # what the robot does not know: half a degree from the identity
+    R_BW: NDArray[np.float64] = field(kw_only=True)
 
     @cached_property
     def truth(self) -> GravityModel:
@@ -67,21 +51,11 @@ class Tool:
         """The load as physics wants it."""
         return Payload(self.load.mass, self.load.centre_of_mass_S)
 
-    def noise(self, left: float = 1.0) -> WrenchNoise:
-        """Return that of one reading, with the steps of the readings; `left`: the share that a filter leaves."""
-        sigma = left * np.sqrt(self.settings.noise**2 + self.settings.resolution**2 / 12)
-        return WrenchNoise(sigma[:3], sigma[3:])
 
-    def weight(self, R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return what a perfect sensor reads of the load at rest, (n, 6), at orientations (n, 3, 3)."""
-        bias = np.concatenate([self.load.force_bias, self.load.torque_bias])
-        return np.asarray(self.load.predict(R_WS) - bias)
-
-
-def draw_tool(rng: np.random.Generator) -> Tool:
+def draw_tool(rng: np.random.Generator) -> DemoTool:
     """Draw a load and biases."""
     tilt = Rotation.from_rotvec(_BASE_TILT * np.array([0.6, -0.8, 0.0])).as_matrix()
-    return Tool(draw_load(rng, _MASS), tilt)
+    return DemoTool(draw_load(rng, _MASS), R_BW=tilt)
 
 
 def orientations_in_use(count: int, rng: np.random.Generator) -> NDArray[np.float64]:

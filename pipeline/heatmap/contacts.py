@@ -11,7 +11,7 @@ from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.judging import measured_noise, settled, usual_step, with_calibration
+from contactbench.pipeline.heatmap.samples import measured_noise, settled, usual_step, with_calibration
 from contactbench.pipeline.tables import TableReader, Wording
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.verification.figures import Verification
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
@@ -44,51 +45,25 @@ _POINTS = Wording(
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """
-    Contacts as arrays; n of them.
+    """Contacts as arrays; n of them."""
 
-    Attributes
-    ----------
-    points : (n, 3)
-        S, m.
-    seconds : (n,)
-        How long each stands for: until the next sample, at most five usual steps.
-    sigmas : (n,)
-        Largest standard deviation of each point, m; NaN: unknown.
-    forces : (n,) or None
-        |F|, N; None: unknown.
-    duration : float
-        Of the whole recording, s.
-    left_out : dict of str to int
-        Samples without a contact, by reason.
-    notes : tuple of str
-        Sentences.
-    counted : {"samples", "touches"}
-        What one of them is.
-    known_errors : (n,) or None
-        Distance to the marker that was touched, m; None: not known by itself.
-    settled : (n,) or None
-        Where the force was steady; None: not known.
-    times : (n,) or None
-        s since the recording's first sample, or the start of the first touch; None: not known.
-    confidences : (n,) or None
-        How sure each place is, 0 to 1; None: not known.
-    noise : WrenchNoise or None
-        Of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs.
-    """
-
-    points: NDArray[np.float64]
+    points: NDArray[np.float64]  # (n, 3) S, m
+    # (n,) how long each stands for: until the next sample, at most five usual steps
     seconds: NDArray[np.float64]
-    sigmas: NDArray[np.float64]
-    forces: NDArray[np.float64] | None
-    duration: float
-    left_out: dict[str, int]
-    notes: tuple[str, ...] = ()
-    counted: str = "samples"
+    sigmas: NDArray[np.float64]  # (n,) largest standard deviation of each point, m; NaN: unknown
+    forces: NDArray[np.float64] | None  # (n,) or None |F|, N; None: unknown
+    duration: float  # of the whole recording, s
+    left_out: dict[str, int]  # samples without a contact, by reason
+    notes: tuple[str, ...] = ()  # sentences
+    counted: str = "samples"  # what one of them is
+    # (n,) or None Distance to the marker that was touched, m; None: not known by itself
     known_errors: NDArray[np.float64] | None = None
-    settled: NDArray[np.bool_] | None = None
+    settled: NDArray[np.bool_] | None = None  # (n,) or None Where the force was steady; None: not known
+    # of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs
     noise: WrenchNoise | None = None
+    # (n,) or None s since the recording's first sample, or the start of the first touch; None: not known
     times: NDArray[np.float64] | None = None
+    # (n,) or None How sure each place is, 0 to 1; None: not known
     confidences: NDArray[np.float64] | None = None
 
     @property
@@ -168,6 +143,33 @@ def read_points(file: Path) -> NDArray[np.float64]:
         raise _unread(file, error) from error
 
 
+def touches_of(verification: Verification) -> Contacts:
+    """
+    Return a verification's accepted touches, with their distances to the marker; `left_out` counts the others.
+
+    Raises
+    ------
+    HeatmapError
+        No touch was accepted.
+    """
+    used = [t for t in verification.touches if t.accepted and t.point_mm and t.distance_mm is not None]
+    if not used:
+        raise HeatmapError("the verification has no accepted touch: see its reasons, and touch again.")
+    starts = np.array([t.start_s for t in verification.touches])
+    ends = np.array([t.time_s for t in verification.touches])
+    return Contacts(
+        points=1e-3 * np.array([t.point_mm for t in used], dtype=np.float64),
+        seconds=np.array([max(t.time_s - t.start_s, 0.0) for t in used]),
+        sigmas=1e-3 * np.array([np.nan if t.predicted_mm is None else t.predicted_mm for t in used]),
+        forces=np.array([t.force_N for t in used]),
+        duration=float(ends.max() - starts.min()),
+        left_out=dict(verification.rejected),
+        counted="touches",
+        times=np.array([t.time_s for t in used]) - float(starts.min()),
+        known_errors=1e-3 * np.array([t.distance_mm for t in used], dtype=np.float64),
+    )
+
+
 def locate_recording(
     file: Path,
     probe: Probe,
@@ -184,13 +186,10 @@ def locate_recording(
 
     Parameters
     ----------
-    file : path
     probe : Probe
         In S.
-    model : GravityModel
     noise : WrenchNoise, optional
         Of a sample; measured in the recording by default. What the calibration leaves uncertain is added.
-    gates : Gates, optional
     R_ES : (3, 3), optional
         Orientation of the sensor in the flange.
     delay : float

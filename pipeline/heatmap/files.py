@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import __version__
-from contactbench.pipeline.heatmap.bells import vertex_normals
 from contactbench.pipeline.heatmap.colours import colours, linear
+from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 
 if TYPE_CHECKING:
     from contactbench.pipeline.heatmap.heatmap import Heatmap

@@ -18,11 +18,8 @@ import numpy as np
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import picture
-from contactbench.pipeline.heatmap.bells import vertex_normals
-from contactbench.pipeline.heatmap.colours import colours
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.windowing import empty_words
-from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.heatmap.selection import empty_words
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 
 if TYPE_CHECKING:
@@ -32,7 +29,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
 
 SUFFIXES = (".mp4", ".gif")
 SLOWEST, FASTEST = 0.1, 50.0  # times the real speed
@@ -44,22 +41,11 @@ _INK, _TRACK, _BAR = (34, 34, 34), (222, 224, 228), (0, 90, 156)
 
 @dataclass(frozen=True)
 class FilmSettings:
-    """
-    How contacts are shown through time.
+    """How contacts are shown through time."""
 
-    Attributes
-    ----------
-    speed : float
-        Seconds of the recording in a second of the film, 0.1 to 50.
-    window : float or None
-        s: only the last seconds are shown; None: what was touched stays.
-    pixels : int
-        Width of each of the two looks.
-    """
-
-    speed: float = 1.0
-    window: float | None = None
-    pixels: int = 400
+    speed: float = 1.0  # seconds of the recording in a second of the film, 0.1 to 50
+    window: float | None = None  # s: only the last seconds are shown; None: what was touched stays
+    pixels: int = 400  # width of each of the two looks
 
     def check(self) -> None:
         """Refuse what makes no film; HeatmapError."""
@@ -96,13 +82,13 @@ def frames(
     parts = moments(playback, selection, settings, rate)
     whole = playback.heatmap(selection)
     largest = playback.top(selection, settings.window)
-    views = [_View(whole, look, settings.pixels) for look in picture.looks(whole)]
+    views = [picture.SurfaceView(whole.probe, look, settings.pixels) for look in picture.looks(whole)]
     page = _Page(playback, whole, settings, largest)
     first, last = parts[0].end or 0.0, parts[-1].end or 0.0
     for number, part in enumerate(parts):
         at = part.end or 0.0
         made = playback.heatmap(part)
-        looks = [view.seen(made, largest) for view in views]
+        looks = [view.drawn(made, largest) for view in views]
         yield (
             (number + 1) / len(parts),
             page.drawn(looks, at, (at - first) / max(last - first, 1e-9), made.contacts),
@@ -125,10 +111,8 @@ def write_film(
     ----------
     file : Path
         Ends in .mp4 or .gif.
-    playback : Playback
     selection : Selection
         Its time window is what the film runs through.
-    settings : FilmSettings, optional
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
 
@@ -227,62 +211,13 @@ def _write_gif(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> No
         )
 
 
-class _View:
-    """
-    One look at a probe: what lies under each pixel, found once.
-
-    Its `seen` is what `picture.render` gives, with a scale of colours of its own.
-    """
-
-    def __init__(self, heatmap: Heatmap, look: picture.Look, pixels: int) -> None:
-        probe = heatmap.probe
-        fine, rows = picture._SMOOTHING, round(picture._HIGH * pixels)
-        step = look.width / (fine * pixels)
-        across, down = (np.arange(fine * n) + 0.5 - 0.5 * fine * n for n in (pixels, rows))
-        x, y = np.meshgrid(step * across, -step * down)
-        eye = look.middle + 4.0 * probe.size * look.toward
-        origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
-        directions = np.ascontiguousarray(np.broadcast_to(-look.toward, origins.shape))
-        t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
-        self._hit = faces >= 0
-        self._shape = (rows, fine, pixels, fine, 3)
-        self._corners = probe.faces[faces[self._hit]]
-        points = origins[self._hit] - t[self._hit, None] * look.toward
-        self._shares = _barycentric(probe.vertices[self._corners], points)
-        lit = (self._shares[..., None] * vertex_normals(probe)[self._corners]).sum(axis=1)
-        lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
-        light = np.asarray(picture._LIGHT) @ np.stack([look.right, look.up, look.toward])
-        self._bright = np.clip(lit @ light, 0.0, 1.0)
-
-    def seen(self, heatmap: Heatmap, largest: float) -> NDArray[np.uint8]:
-        """Return (h, w, 3)."""
-        base = np.einsum("ij,ijk->ik", self._shares, colours(heatmap, largest)[self._corners])
-        known = np.einsum("ij,ij->i", self._shares, heatmap.known[self._corners])
-        bright = self._bright
-        shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
-        image = np.ones((len(self._hit), 3))
-        image[self._hit] = np.clip(base * shade[:, None], 0.0, 1.0)
-        blocks = image.reshape(self._shape).mean(axis=(1, 3))
-        return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
-
-
-def _barycentric(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the weights (k, 3) of points (k, 3) on facets with these corners (k, 3, 3)."""
-    a, b, c = np.moveaxis(corners, 1, 0)
-    normal = np.cross(b - a, c - a)
-    double = np.einsum("ij,ij->i", normal, normal)
-    v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
-    w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
-    return np.column_stack([1 - v - w, v, w])
-
-
 class _Page:
     """What is around the looks: a heading, the scale, and how late it is."""
 
     def __init__(self, playback: Playback, whole: Heatmap, settings: FilmSettings, largest: float) -> None:
         pixels = settings.pixels
         self._head = 2 * round(_HEAD * pixels / 2)
-        self._high = round(picture._HIGH * pixels)
+        self._high = round(picture.HIGH * pixels)
         foot = round(_FOOT * pixels)
         height = self._head + self._high + foot
         self._page = _background(whole, largest, pixels, (2 * pixels, height + height % 2))

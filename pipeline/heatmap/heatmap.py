@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.heatmap.bells import REACH, Bells, vertex_areas
+from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -102,9 +102,7 @@ class Heatmap:
 
         One wrong contact would else leave a single colour for all the others.
         """
-        known = self.values[self.known]
-        high = float(np.percentile(known, _TOP))
-        return high if 0 < high < _NEARLY * self.largest else self.largest
+        return end_of_colours(self.values)
 
     def facts(self) -> dict[str, Any]:
         """Return what is known about it as JSON values."""
@@ -125,6 +123,42 @@ class Heatmap:
             "surface_mm2": 1e6 * float(areas.sum()),
             "notes": list(self.notes),
         }
+
+
+def end_of_colours(values: NDArray[np.float64]) -> float:
+    """Return where the colours of values (v,) end, see `Heatmap.top`; 0 where none is known."""
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return 0.0
+    high, largest = float(np.percentile(known, _TOP)), float(known.max())
+    return high if 0 < high < _NEARLY * largest else largest
+
+
+def unit_of(quantity: Quantity, normalisation: Normalisation) -> str:
+    """Return the unit of a quantity, for people."""
+    return _UNITS.get(quantity, _DENSITY_UNITS[normalisation])
+
+
+def scale_of(quantity: Quantity) -> float:
+    """Return what a quantity in SI units is multiplied by to have its `unit_of`."""
+    return _SCALES.get(quantity, 1.0)
+
+
+def quantity_at(
+    bells: Bells,
+    quantity: Quantity,
+    weights: NDArray[np.float64],
+    values: NDArray[np.float64] | None,
+    rows: NDArray[np.intp] | None = None,
+) -> NDArray[np.float64]:
+    """Return a quantity (v,) of contacts, or of these `rows` of them, see `Bells.spread`; NaN: no data."""
+    scale = scale_of(quantity)
+    if quantity == "density":
+        spread = bells.spread(weights, rows)
+        return np.where(spread > 0, scale * spread, np.nan)
+    if values is None:
+        return np.full(len(bells.areas), np.nan)
+    return scale * (bells.peak(values, rows) if quantity == "peak" else bells.mean(values, weights, rows))
 
 
 def default_bandwidth(sigmas: ArrayLike | None = None) -> float:
@@ -175,22 +209,20 @@ def heatmap(
         There is no contact, a shape or number is wrong, or the bandwidth does not suit the probe.
     """
     at, w = _checked(points, weights)
-    _check_bandwidth(probe, bandwidth)
+    check_bandwidth(probe, bandwidth)
     if quantity not in get_args(Quantity) or normalisation not in get_args(Normalisation):
         raise HeatmapError(
             f"quantity {quantity!r}, normalisation {normalisation!r}: there is no such heatmap."
         )
-    bells = Bells(probe, at, bandwidth)
-    scale, unit = _SCALES.get(quantity, 1.0), _UNITS.get(quantity, _DENSITY_UNITS[normalisation])
+    bells, scale = Bells(probe, at, bandwidth), scale_of(quantity)
     if quantity == "density":
         if normalisation == "rate":
             w = w / _positive(duration, "duration", "s")
-        spread = bells.spread(w)
-        result, total = np.where(spread > 0, scale * spread, np.nan), float(w.sum())
+        v, total = None, float(w.sum())
     else:
         v = _numbers(values, len(at), "values")
-        result = scale * (bells.peak(v) if quantity == "peak" else bells.mean(v, w))
         total = scale * float(v.max() if quantity == "peak" else np.average(v, weights=w))
+    result, unit = quantity_at(bells, quantity, w, v), unit_of(quantity, normalisation)
     notes = _notes(probe, result, bandwidth)
     return Heatmap(probe, result, quantity, unit, bandwidth, normalisation, len(at), total, notes, counted)
 
@@ -222,7 +254,8 @@ def _positive(value: float | None, name: str, unit: str) -> float:
     return value
 
 
-def _check_bandwidth(probe: Probe, bandwidth: float) -> None:
+def check_bandwidth(probe: Probe, bandwidth: float) -> None:
+    """Refuse a bandwidth, m, that does not suit a probe; HeatmapError."""
     largest = _LARGEST_SHARE * probe.size
     if not 1e-5 <= bandwidth <= largest:
         raise HeatmapError(

@@ -14,20 +14,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.bells import vertex_normals
 from contactbench.pipeline.heatmap.colours import MAP, NO_DATA, colours
+from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.mesh import Probe
 
 _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
 _MARGIN = 1.25  # of the touched part's size
 _LEAST_M = 0.03  # shown, at least
 _LONG = 1.3  # a touched part this much longer than wide is shown lengthwise
-_HIGH = 0.78  # of the width
+HIGH = 0.78  # of the width
 _SMOOTHING = 2  # rays per pixel and axis
 _LIGHT = (-0.35, 0.55, 0.76)  # right, up, toward the eye
 _INK, _FAINT = "#222222", "#595959"
@@ -36,7 +37,7 @@ _NICE = np.array([1.0, 2.0, 5.0])
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class PictureLook:
     """An orthographic look: its middle in S (m), unit vectors right, up and toward the eye, and its width (m)."""
 
     middle: NDArray[np.float64]
@@ -52,7 +53,6 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
 
     Parameters
     ----------
-    heatmap : Heatmap
     pixels : int
         Width of each of the two looks.
     note : str
@@ -65,7 +65,7 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
 
     first, second = looks(heatmap)
     side, low, high = 4.0, 1.15, 0.55 if legend else 0.25
-    size = (2 * side, _HIGH * side + low + high)
+    size = (2 * side, HIGH * side + low + high)
     style: dict[Any, Any] = {"font.family": ["DejaVu Sans"], "font.size": 11.0, "text.parse_math": False}
     with mpl.rc_context(style), warnings.catch_warnings():
         # A name in letters that the font lacks is drawn as boxes; that is no matter for a warning by Python.
@@ -73,11 +73,14 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
         figure = Figure(figsize=size, dpi=pixels / side)
         for column, look in enumerate((first, second)):
             axes = figure.add_axes(
-                (column * side / size[0], low / size[1], side / size[0], _HIGH * side / size[1])
+                (column * side / size[0], low / size[1], side / size[0], HIGH * side / size[1])
             )
-            axes.imshow(render(heatmap, look, pixels), extent=(-0.5, 0.5, -_HIGH / 2, _HIGH / 2))
+            axes.imshow(
+                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap),
+                extent=(-0.5, 0.5, -HIGH / 2, HIGH / 2),
+            )
             axes.set_axis_off()
-            axes.set(xlim=(-0.5, 0.5), ylim=(-_HIGH / 2, _HIGH / 2))
+            axes.set(xlim=(-0.5, 0.5), ylim=(-HIGH / 2, HIGH / 2))
             _triad(axes, look)
         if legend:
             words = f"{heatmap.title} on {heatmap.probe.name}"
@@ -90,7 +93,7 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
     return data.getvalue()
 
 
-def looks(heatmap: Heatmap) -> tuple[Look, Look]:
+def looks(heatmap: Heatmap) -> tuple[PictureLook, PictureLook]:
     """Return two looks at the part with data, from the side that has most of it and from the opposite one."""
     probe, known = heatmap.probe, heatmap.known
     touched = probe.vertices[known]
@@ -113,62 +116,69 @@ def _longest(flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     return longest, float(np.sqrt(values[1] / max(values[0], 1e-12 * values[1]))) if values[1] > 0 else 1.0
 
 
-def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float) -> Look:
+def _look(
+    touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float
+) -> PictureLook:
     e = np.radians(low * _ELEVATION)
     toward = np.array([np.sin(azimuth) * np.cos(e), -np.cos(azimuth) * np.cos(e), np.sin(e)])
     right = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
     up = np.cross(toward, right)
     flat = (touched - middle) @ np.column_stack([right, up])
-    width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, _HIGH]).max()))
+    width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, HIGH]).max()))
     centre = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
     middle = middle + centre[0] * right + centre[1] * up
-    return Look(middle, right, up, toward, width)
+    return PictureLook(middle, right, up, toward, width)
 
 
-def render(heatmap: Heatmap, look: Look, pixels: int) -> NDArray[np.uint8]:
-    """Return the surface on white as one sees it, `pixels` wide: (height, pixels, 3)."""
-    probe, rows = heatmap.probe, round(_HIGH * pixels)
-    step = look.width / (_SMOOTHING * pixels)
-    across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
-    x, y = np.meshgrid(step * across, -step * down)
-    eye = look.middle + 4.0 * probe.size * look.toward
-    origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
-    directions = np.broadcast_to(-look.toward, origins.shape)
-    t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, np.ascontiguousarray(directions))
-    hit = faces >= 0
-    image = np.ones((len(origins), 3))
-    points = origins[hit] - t[hit, None] * look.toward
-    image[hit] = _seen(heatmap, look, probe.faces[faces[hit]], points)
-    blocks = image.reshape(rows, _SMOOTHING, pixels, _SMOOTHING, 3).mean(axis=(1, 3))
-    return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
+class SurfaceView:
+    """A look at a probe: which facet lies under each pixel, and how it is lit, found once; `pixels` wide."""
+
+    def __init__(self, probe: Probe, look: PictureLook, pixels: int) -> None:
+        rows = round(HIGH * pixels)
+        step = look.width / (_SMOOTHING * pixels)
+        across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
+        x, y = np.meshgrid(step * across, -step * down)
+        eye = look.middle + 4.0 * probe.size * look.toward
+        origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
+        directions = np.ascontiguousarray(np.broadcast_to(-look.toward, origins.shape))
+        t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
+        self._hit = faces >= 0
+        self._shape = (rows, _SMOOTHING, pixels, _SMOOTHING, 3)
+        self._corners = probe.faces[faces[self._hit]]
+        points = origins[self._hit] - t[self._hit, None] * look.toward
+        a, b, c = np.moveaxis(probe.vertices[self._corners], 1, 0)
+        normal = np.cross(b - a, c - a)
+        double = np.einsum("ij,ij->i", normal, normal)
+        v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
+        w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
+        self._shares = np.column_stack([1 - v - w, v, w])[..., None]
+        lit = (self._shares * vertex_normals(probe)[self._corners]).sum(axis=1)
+        lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
+        light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
+        self._bright = np.clip(lit @ light, 0.0, 1.0)
+
+    def drawn(self, heatmap: Heatmap, largest: float | None = None) -> NDArray[np.uint8]:
+        """Return the surface on white as one sees it, (height, pixels, 3); `largest` has the last colour."""
+        known = (self._shares[..., 0] * heatmap.known[self._corners]).sum(axis=1)
+        # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
+        return self._lit((self._shares * colours(heatmap, largest)[self._corners]).sum(axis=1), known)
+
+    def plain(self, colour: tuple[float, float, float]) -> NDArray[np.uint8]:
+        """Return the surface in one colour, sRGB, 0 to 1; see `drawn`."""
+        return self._lit(np.array([colour]), np.zeros(1))
+
+    def _lit(self, base: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray[np.uint8]:
+        bright = self._bright
+        shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
+        image = np.ones((len(self._hit), 3))
+        image[self._hit] = np.clip(base * shade[:, None], 0.0, 1.0)
+        blocks = image.reshape(self._shape).mean(axis=(1, 3))
+        return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
 
 
-def _seen(
-    heatmap: Heatmap, look: Look, corners: NDArray[np.int32], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the colour (k, 3) of points on facets: interpolated and lit, data less than the rest."""
-    probe = heatmap.probe
-    a, b, c = np.moveaxis(probe.vertices[corners], 1, 0)
-    normal = np.cross(b - a, c - a)
-    double = np.einsum("ij,ij->i", normal, normal)
-    v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
-    w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
-    shares = np.column_stack([1 - v - w, v, w])[..., None]
-    base = (shares * colours(heatmap)[corners]).sum(axis=1)
-    lit = (shares * vertex_normals(probe)[corners]).sum(axis=1)
-    lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
-    light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
-    bright = np.clip(lit @ light, 0.0, 1.0)
-    known = (shares[..., 0] * heatmap.known[corners]).sum(axis=1)
-    # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
-    shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
-    lit_colour: NDArray[np.float64] = np.clip(base * shade[:, None], 0.0, 1.0)
-    return lit_colour
-
-
-def _triad(axes: Any, look: Look) -> None:
+def _triad(axes: Any, look: PictureLook) -> None:
     """Draw the axes of S in the lower left corner."""
-    origin = np.array([-0.41, 0.09 - _HIGH / 2])
+    origin = np.array([-0.41, 0.09 - HIGH / 2])
     for letter, axis in zip("xyz", np.eye(3), strict=True):
         along = 0.075 * np.array([axis @ look.right, axis @ look.up])
         if np.linalg.norm(along) < 0.02:
@@ -183,7 +193,7 @@ def _triad(axes: Any, look: Look) -> None:
         axes.text(*place, letter, ha="center", va="center", color=_INK, fontsize=10)
 
 
-def _ruler(figure: Any, look: Look, size: tuple[float, float], side: float) -> None:
+def _ruler(figure: Any, look: PictureLook, size: tuple[float, float], side: float) -> None:
     """Draw a length for scale beside the colours; both looks have the same."""
     length = _nice(0.15 * 1e3 * look.width)
     share = 1e-3 * length / look.width * side / size[0]

@@ -14,18 +14,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.bells import Bells
-from contactbench.pipeline.heatmap.finer import drawing_of
 from contactbench.pipeline.heatmap.heatmap import (
-    _DENSITY_UNITS,
-    _SCALES,
-    _UNITS,
     Heatmap,
     HeatmapError,
-    _check_bandwidth,
+    check_bandwidth,
     default_bandwidth,
+    end_of_colours,
+    quantity_at,
+    scale_of,
+    unit_of,
 )
-from contactbench.pipeline.heatmap.windowing import Selection, force_mask, shown, weights_of
+from contactbench.pipeline.heatmap.selection import Selection, force_mask, shown, weights_of
+from contactbench.pipeline.heatmap.subdivide import drawing_of
+from contactbench.pipeline.heatmap.surface_kde import Bells, barycentric
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,46 +35,25 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
 
 _WINDOWS = 16  # places of the window at which the end of the colours is looked for
-_TOP = 95.0  # per cent of the known vertices are below the last colour
-_NEARLY = 0.8  # of the largest value: nearer than that, the colours end at it
 _PAUSE = 0.5  # s without a contact: the next one is another touch
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
-    """
-    A heatmap at one moment.
+class HeatmapFrame:
+    """A heatmap at one moment."""
 
-    Attributes
-    ----------
-    values : (v,)
-        In `unit`; NaN: no data.
-    unit : str
-    contacts : int
-        How many are in it.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # (v,) in `unit`; NaN: no data
     unit: str
-    contacts: int
+    contacts: int  # how many are in it
 
 
 @dataclass(frozen=True)
 class Value:
-    """
-    What a frame says of one place.
+    """What a frame says of one place."""
 
-    Attributes
-    ----------
-    value : float
-        In `unit`; NaN: no data.
-    plus_minus : float
-        1 sigma, in `unit`: of a density, by the number of touches behind it; of a mean, the spread of what it is
-        the mean of; of a peak, the sensor's noise; NaN: unknown.
-    unit : str
-    """
-
-    value: float
+    value: float  # in `unit`; NaN: no data
+    # 1 sigma, in `unit`: of a density, by the number of touches behind it; of a mean, the spread of what it
+    # is the mean of; of a peak, the sensor's noise; NaN: unknown
     plus_minus: float
     unit: str
 
@@ -87,7 +67,6 @@ class Playback:
 
     Parameters
     ----------
-    probe : Probe
     contacts : Contacts
         In order of time; see `in_order`.
     bandwidth : float, optional
@@ -104,46 +83,32 @@ class Playback:
         self.bandwidth = default_bandwidth(contacts.sigmas) if bandwidth is None else bandwidth
         if not len(contacts.points):
             raise HeatmapError("there is no contact to draw: touch the probe while recording.")
-        _check_bandwidth(probe, self.bandwidth)
+        check_bandwidth(probe, self.bandwidth)
         self._bells = Bells(self.probe, contacts.points, self.bandwidth)
         self._tops: dict[tuple[object, ...], float] = {}
         self._masks: dict[tuple[object, ...], NDArray[np.bool_]] = {}
-        self._matrix = self._bells._bells.T.tocsr()
-        self._peaks = _Peaks(self._bells, len(self.probe.vertices))
 
     @property
     def duration(self) -> float:
         """Of the recording, s; the last contact is not later."""
         return max(self.contacts.duration, float(self.contacts.moments[-1]))
 
-    def unit(self, selection: Selection) -> str:
-        """Return the unit of a quantity, for people."""
-        return _UNITS.get(selection.quantity, _DENSITY_UNITS[selection.normalisation])
-
     # ---- frames ----------------------------------------------------------------------------------
 
-    def frame(self, selection: Selection) -> Frame:
+    def frame(self, selection: Selection) -> HeatmapFrame:
         """
         Return what a selection looks like; its bandwidth is not looked at.
 
         Nothing selected is no error: every value is NaN then. HeatmapError: the contacts do not have the quantity.
         """
         rows, values = self._chosen(selection)
-        nothing = np.full(len(self.probe.vertices), np.nan)
+        quantity, unit = selection.quantity, unit_of(selection.quantity, selection.normalisation)
         if not len(rows):
-            return Frame(nothing, self.unit(selection), 0)
-        scale = _SCALES.get(selection.quantity, 1.0)
-        if selection.quantity == "density":
-            spread = self._spread(rows, self._weights(rows, selection))
-            result = np.where(spread > 0, scale * spread, np.nan)
-        elif values is None:
-            result = nothing
-        elif selection.quantity == "peak":
-            weights_of(self.contacts, selection)  # refuses what cannot be weighed
-            result = self._peaks.of(self._bells._source_of[rows], values[rows])
-        else:
-            result = scale * self._mean(rows, values[rows], self._counts(rows, selection))
-        return Frame(result, self.unit(selection), len(rows))
+            return HeatmapFrame(np.full(len(self.probe.vertices), np.nan), unit, 0)
+        # A peak has no weights, but what cannot be weighed is refused.
+        weights = self._weights(rows, selection) if quantity == "density" else self._counts(rows, selection)
+        picked = None if values is None else values[rows]
+        return HeatmapFrame(quantity_at(self._bells, quantity, weights, picked, rows), unit, len(rows))
 
     def heatmap(self, selection: Selection) -> Heatmap:
         """Return a frame as a heatmap, to be drawn."""
@@ -179,15 +144,16 @@ class Playback:
         key = (selection, window)
         if key not in self._tops:
             self._tops[key] = max(
-                (_top(self.frame(part).values) for part in self._moments(selection, window)), default=0.0
+                (end_of_colours(self.frame(part).values) for part in self._moments(selection, window)),
+                default=0.0,
             )
         return self._tops[key]
 
-    def at(self, selection: Selection, frame: Frame, face: int, point: NDArray[np.float64]) -> Value:
+    def at(self, selection: Selection, frame: HeatmapFrame, face: int, point: NDArray[np.float64]) -> Value:
         """Return what a frame of a selection says at a point (3,) of a facet, S, m."""
         corners = self.probe.faces[face]
         values = frame.values[corners]
-        shares = _shares(self.probe.vertices[corners], point)
+        shares = barycentric(self.probe.vertices[corners][None], point[None])[0]
         known = np.isfinite(values) & (shares > 1e-9)
         if not known.any():
             return Value(float("nan"), float("nan"), frame.unit)
@@ -223,20 +189,6 @@ class Playback:
         weights = weights_of(self.contacts, selection)
         return np.ones(len(rows)) if weights is None else weights[rows]
 
-    def _spread(self, rows: NDArray[np.intp], weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        sums = np.bincount(self._bells._source_of[rows], weights, minlength=self._matrix.shape[1])
-        spread: NDArray[np.float64] = self._matrix @ sums
-        return spread
-
-    def _mean(
-        self, rows: NDArray[np.intp], values: NDArray[np.float64], weights: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        total = self._spread(rows, weights)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            mean = self._spread(rows, weights * values) / total
-        # as the heatmap has it: a mean lies among its values, whatever rounding says far out in the bells
-        return np.where(total > 0, np.clip(mean, values.min(initial=0), values.max(initial=0)), np.nan)
-
     def _moments(self, selection: Selection, window: float | None) -> list[Selection]:
         start = selection.start or 0.0
         end = self.duration if selection.end is None else selection.end
@@ -259,11 +211,8 @@ class Playback:
                 if noise is None
                 else float(np.sqrt(np.linalg.eigvalsh(noise.covariance[:3, :3])[-1]))
             )
-        begin, end = self._matrix.indptr[vertex : vertex + 2]
-        heights = np.zeros(self._matrix.shape[1])
-        heights[self._matrix.indices[begin:end]] = self._matrix.data[begin:end]
-        bell = heights[self._bells._source_of[rows]]
-        scale = _SCALES.get(selection.quantity, 1.0)
+        bell = self._bells.at(vertex, rows)
+        scale = scale_of(selection.quantity)
         if selection.quantity == "density":
             # samples of one touch say the same thing: what counts is how many touches there were
             each = np.bincount(self._touch_of[rows], bell * self._weights(rows, selection))
@@ -280,49 +229,3 @@ class Playback:
         if self.contacts.counted == "touches":
             return np.arange(len(self.contacts.points))
         return np.concatenate([[0], np.cumsum(np.diff(self.contacts.moments) > _PAUSE)])
-
-
-class _Peaks:
-    """The largest value within one bandwidth, by pairs of a vertex and a source in order of the vertices."""
-
-    def __init__(self, bells: Bells, count: int) -> None:
-        rows, vertices, distances = bells._reached
-        near = distances <= bells._bandwidth
-        corners = bells._probe.faces[bells._faces]
-        sources = np.concatenate([rows[near], np.repeat(np.arange(len(corners)), 3)])
-        vertices = np.concatenate([vertices[near], corners.ravel()])
-        order = np.argsort(vertices, kind="stable")
-        self._sources, self._count, self._there = sources[order], len(corners), count
-        self._vertices, self._begins = np.unique(vertices[order], return_index=True)
-
-    def of(self, source_of: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
-        largest = np.full(self._count, -np.inf)
-        np.maximum.at(largest, source_of, values)
-        result = np.full(self._there, np.nan)
-        found = np.maximum.reduceat(largest[self._sources], self._begins)
-        result[self._vertices] = np.where(np.isfinite(found), found, np.nan)
-        return result
-
-
-def _top(values: NDArray[np.float64]) -> float:
-    known = values[np.isfinite(values)]
-    if not len(known):
-        return 0.0
-    high, largest = float(np.percentile(known, _TOP)), float(known.max())
-    return high if 0 < high < _NEARLY * largest else largest
-
-
-def _shares(corners: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the barycentric weights (3,) of a point on a facet."""
-    a, b, c = corners
-    normal = np.cross(b - a, c - a)
-    parts = np.array(
-        [
-            np.cross(c - b, point - b) @ normal,
-            np.cross(a - c, point - c) @ normal,
-            np.cross(b - a, point - a) @ normal,
-        ]
-    )
-    parts = np.clip(parts, 0.0, None)
-    total = parts.sum()
-    return parts / total if total > 0 else np.full(3, 1 / 3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import UTC
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import scipy
 from contactbench import __version__
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
+from contactbench.pipeline.page import moment
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT
 
 if TYPE_CHECKING:
@@ -216,7 +216,7 @@ def calibration_facts(record: CalibrationRecord) -> dict[str, Any]:
         "poses": len(calibration.poses),
         "used": int(calibration.kept.sum()),
         "share": plain(1e3 * calibration.contact_error),
-        "created": None if created is None else created.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "created": moment(created),
         "tool": record.tool,
         "source": record.source,
     }

@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from contactbench.pipeline.report.text import printable
+from contactbench.pipeline.page import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -58,7 +58,7 @@ _MOST_NAMES = 30
 
 
 @dataclass(frozen=True)
-class Figures:
+class VerificationFigures:
     """SVG elements; empty where there is nothing to draw. `scatter` has one for each row of markers."""
 
     markers: str
@@ -74,24 +74,21 @@ def draw(
     views: Sequence[MarkerView],
     limits: Limits,
     diagnosis: Diagnosis | None,
-) -> Figures:
+) -> VerificationFigures:
     """Draw all pictures of a report.
 
     Parameters
     ----------
     touches : sequence of TouchFigure
         Accepted ones.
-    per_marker : sequence of Summary
     views : sequence of MarkerView
         The markers whose scatter is shown.
-    limits : Limits
-    diagnosis : Diagnosis or None
     """
     repeated = [each for each in per_marker if each.touches >= FEWEST_REPEATS and each.scatter_mm is not None]
     with _style():
         rows = [views[i : i + COLUMNS] for i in range(0, len(views), COLUMNS)]
         reach = max([1.15e3 * limits.max_m, *(1.15 * float(np.abs(v.flat_mm).max()) for v in views)])
-        return Figures(
+        return VerificationFigures(
             _svg(_markers(per_marker, limits), "m", "Errors by marker") if per_marker else "",
             _svg(_force(touches, limits), "f", "Error by contact force") if touches else "",
             tuple(

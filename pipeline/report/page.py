@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import base64
 from dataclasses import dataclass, field
-from datetime import UTC
 from typing import TYPE_CHECKING, Any
 
 from contactbench import __version__
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions.exchange import mesh_hash
-from contactbench.pipeline.report.errors import ReportError
+from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.report.facts import (
     calibration_facts,
     check_rows,
@@ -25,7 +25,6 @@ from contactbench.pipeline.report.facts import (
     vector_words,
     versions,
 )
-from contactbench.pipeline.report.text import printable
 from contactbench.pipeline.report.touches import MOST_SHOWN, error_map, marker_views
 from contactbench.pipeline.verification.model_error import model_error_words
 
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.verification.figures import Verification
 
-__all__ = ["ReportContent", "ReportError", "report_html"]
+__all__ = ["ReportContent", "report_html"]
 
 _PIXELS = 480  # of each look at the probe
 
@@ -82,23 +81,20 @@ def report_html(content: ReportContent) -> str:
 
     Raises
     ------
-    ReportError
+    InputError
         The probe was not aligned with the sensor, or `created` has no time zone.
     """
-    if content.created is not None and content.created.tzinfo is None:
-        raise ReportError("created: the time has no zone: use datetime.now(UTC).")
+    when = moment(content.created)
     if content.probe.frame != "S" and content.probe.history:
-        raise ReportError(
+        raise InputError(
             f"{content.probe.probe.name}: the probe is not aligned with the sensor: run `contactbench probe align`."
         )
-    page: str = _template().render(**_context(content), **_pictures(content))
-    return page
+    return render(__package__, created=when, **_context(content), **_pictures(content))
 
 
 def _context(content: ReportContent) -> dict[str, Any]:
     verification, probe = content.verification, content.probe.probe
     accepted = [touch for touch in verification.touches if touch.accepted]
-    when = content.created
     return {
         "probe": probe,
         "mesh_sha256": mesh_hash(probe),
@@ -117,7 +113,6 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "settings": settings_rows(verification.settings),
         "versions": versions(),
         "steps": mesh_steps(content.probe),
-        "created": None if when is None else when.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "operator": content.operator,
         "session": content.session,
         "serials": dict(content.serials),
@@ -144,19 +139,3 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     figures = draw(accepted, verification.per_marker, shown, verification.limits, verification.diagnosis)
     hidden = len(views) - len(shown)
     return {"figures": figures, "map": picture, "hidden": hidden, "fewest": FEWEST_REPEATS}
-
-
-def _template() -> Any:
-    from importlib.resources import files
-
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, finalize=_printable
-    )
-    return environment.from_string(files(__package__).joinpath("page.html.jinja").read_text("utf-8"))
-
-
-def _printable(value: Any) -> Any:
-    """Replace what no page can hold; markup, a class of its own, stays as it is."""
-    return printable(value) if type(value) is str else value

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.heatmap import Heatmap, heatmap
-from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -25,23 +25,12 @@ _BANDWIDTH = 3e-3  # m: markers are usually some 10 mm apart
 
 @dataclass(frozen=True, eq=False)
 class MarkerView:
-    """
-    The touches of a marker in its tangent plane, seen from outside.
-
-    Attributes
-    ----------
-    name : str
-    point : (3,)
-        The marker, S, m.
-    flat_mm : (n, 2)
-        Located minus marker, to the right and up, mm.
-    right, up : str
-        Which way they point, in words: the axis of S that lies nearest.
-    """
+    """The touches of a marker in its tangent plane, seen from outside."""
 
     name: str
-    point: NDArray[np.float64]
-    flat_mm: NDArray[np.float64]
+    point: NDArray[np.float64]  # (3,) the marker, S, m
+    flat_mm: NDArray[np.float64]  # (n, 2) located minus marker, to the right and up, mm
+    # right, up: which way they point, in words: the axis of S that lies nearest
     right: str
     up: str
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.report.making import ReportParameters, report
+from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import main_file
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.make_calibration import (

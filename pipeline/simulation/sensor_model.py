@@ -23,39 +23,24 @@ def _six(force: float, torque: float) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class SensorSettings:
-    """
-    A sensor's figures; every array (6,) is Fx Fy Fz Mx My Mz in S, N and N·m about the sensor's origin.
+    """A sensor's figures; every array (6,) is Fx Fy Fz Mx My Mz in S, N and N·m about the sensor's origin."""
 
-    Attributes
-    ----------
-    noise : (6,)
-        Standard deviation of one reading; white and Gaussian.
-    bias : (6,)
-        What it reads without load, at `reference` temperature.
-    crosstalk : (6, 6)
-        The true wrench times this is what the elements feel; the identity for a perfect one.
-    drift : (6,)
-        How the bias moves, per kelvin.
-    warm_up : (kelvin, seconds)
-        How much warmer it gets than where it stands, and the time constant.
-    resolution : (6,)
-        Step of the readings; 0 for none.
-    limit : (6,)
-        Largest reading of either sign; a larger one is given as this, and marked.
-    rate : float
-        Readings a second, up to 1000 Hz.
-    ambient : float
-        Temperature of the room, °C, which is also the temperature that `bias` belongs to.
-    """
-
+    # (6,) standard deviation of one reading; white and Gaussian
     noise: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    # (6,) what it reads without load, at `reference` temperature
     bias: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    # (6, 6) the true wrench times this is what the elements feel; the identity for a perfect one
     crosstalk: NDArray[np.float64] = field(default_factory=lambda: np.eye(6))
+    # (6,) how the bias moves, per kelvin
     drift: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    # (kelvin, seconds) how much warmer it gets than where it stands, and the time constant
     warm_up: tuple[float, float] = (0.0, 600.0)
+    # (6,) step of the readings; 0 for none
     resolution: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    # (6,) largest reading of either sign; a larger one is given as this, and marked
     limit: NDArray[np.float64] = field(default_factory=lambda: np.full(6, np.inf))
-    rate: float = 200.0
+    rate: float = 200.0  # readings a second, up to 1000 Hz
+    # temperature of the room, °C, which is also the temperature that `bias` belongs to
     ambient: float = 22.0
 
     def __post_init__(self) -> None:
@@ -135,23 +120,12 @@ def preset(name: str) -> SensorSettings:
 
 
 @dataclass(frozen=True, eq=False)
-class Readings:
-    """
-    What the sensor gave.
+class SensorReadings:
+    """What the sensor gave."""
 
-    Attributes
-    ----------
-    wrenches : (n, 6)
-        S, N and N·m.
-    saturated : (n,) bool
-        Whether a channel is at its limit.
-    temperatures : (n,)
-        °C.
-    """
-
-    wrenches: NDArray[np.float64]
-    saturated: NDArray[np.bool_]
-    temperatures: NDArray[np.float64]
+    wrenches: NDArray[np.float64]  # (n, 6) S, N and N·m
+    saturated: NDArray[np.bool_]  # (n,) bool Whether a channel is at its limit
+    temperatures: NDArray[np.float64]  # (n,) °C
 
 
 class SensorModel:
@@ -160,7 +134,6 @@ class SensorModel:
 
     Parameters
     ----------
-    settings : SensorSettings
     seed : int or numpy.random.Generator
         Of the noise: the same one gives the same readings.
     """
@@ -195,7 +168,7 @@ class SensorModel:
         drift = self.settings.drift * (self.temperature(time)[0] - self.settings.ambient)
         self._offset = -self.settings.crosstalk @ np.asarray(wrench, dtype=np.float64) - drift
 
-    def read(self, times: ArrayLike, wrenches: ArrayLike) -> Readings:
+    def read(self, times: ArrayLike, wrenches: ArrayLike) -> SensorReadings:
         """
         Read true wrenches.
 
@@ -217,4 +190,4 @@ class SensorModel:
             np.round(given[:, stepped] / settings.resolution[stepped]) * settings.resolution[stepped]
         )
         saturated: NDArray[np.bool_] = np.any(np.abs(given) >= settings.limit, axis=1)
-        return Readings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)
+        return SensorReadings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)

@@ -2,26 +2,76 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import shlex
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, Noun, print_json, say
+from contactbench.pipeline.console import Bar, JsonOption, Noun, print_json, say, show_tables
+from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.ablation.commands import add_ablation_command
-from contactbench.pipeline.study.confidence.commands import add_confidence_command
-from contactbench.pipeline.study.finishing import (
-    NOT_GOOD_ENOUGH,
-    MarkdownOption,
-    SeedOption,
-    show,
-    write,
-)
-from contactbench.pipeline.study.rivals.commands import add_rivals_command
-from contactbench.pipeline.study.stability_commands import add_stability_commands
-from contactbench.pipeline.study.sweep_commands import add_sweep_commands
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from contactbench.pipeline.study.results import Results
 
 study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
+
+_NOT_GOOD_ENOUGH = 1
+_OTHERS = ("hard", "ablation", "rivals")
+
+SeedOption = Annotated[int, typer.Option(help="Seed of the touches and the noise.")]
+MarkdownOption = Annotated[
+    Path | None, typer.Option("--out", help="Also write the tables to this Markdown file.")
+]
+ProbesOption = Annotated[
+    list[str] | None,
+    typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the bundled ones]."),
+]
+BundledOption = Annotated[list[str] | None, typer.Option(help="Bundled probe; may be repeated [all].")]
+
+
+class _Report(Protocol):
+    """What a study gives."""
+
+    @property
+    def passed(self) -> bool: ...
+
+    def to_json(self) -> dict[str, Any]: ...
+
+    def tables(self) -> list[Table]: ...
+
+
+def _finish(report: _Report, *, as_json: bool) -> None:
+    """Print, and leave with the exit code of a report that says whether it reached its targets."""
+    from rich.console import Console
+
+    if as_json:
+        print_json(report.to_json())
+    else:
+        console = Console()
+        for table in report.tables():
+            console.print(table)
+    if not report.passed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _typed(*given: str, **options: object) -> str:
+    """Return a command as it is typed; without what is None or False, and without the folders of files."""
+    words = ["contactbench", "study", *given]
+    for option, value in options.items():
+        if value is True:
+            words.append(f"--{option}")
+        elif value is not None and value is not False:
+            for each in value if isinstance(value, list) else (value,):
+                words += [f"--{option}", Path(str(each)).name]
+    return shlex.join(words)
+
+
+# ---- methods, hard cases, scenes -----------------------------------------------------------------
 
 
 @study_app.command(example="study speed --probe linear --out speed.md")
@@ -43,18 +93,22 @@ def speed(
     ever disagreed.
     """
     from contactbench.pipeline.study import speed as study
-    from contactbench.pipeline.study.speed_tables import markdown, tables
 
     counts = sorted(_whole_number(text) for text in facets.split(","))
     report = study.run(probe, counts, touches=touches, stream=stream, rounds=rounds, seed=seed, progress=say)
     if out:
-        write(out, markdown(report))
-    if as_json:
-        print_json(report.to_json())
-    else:
-        show(tables(report))
-    if report.stream_differences:
-        raise typer.Exit(NOT_GOOD_ENOUGH)
+        write_file(out, report.markdown().encode())
+    _finish(report, as_json=as_json)
+
+
+def _whole_number(text: str) -> int:
+    try:
+        value = int(text)
+    except ValueError:
+        raise InputError(f"--facets: {text!r} is no whole number; give for instance 1000,20000") from None
+    if value < 300:
+        raise InputError(f"--facets: {value} is too coarse for a bundled probe; give at least 300")
+    return value
 
 
 @study_app.command("hard-cases", example="study hard-cases --samples 500")
@@ -72,13 +126,8 @@ def hard_cases(
 
     report = study.run(samples=samples, seed=seed, progress=say)
     if out:
-        write(out, study.markdown(report))
-    if as_json:
-        print_json(report.to_json())
-    else:
-        show([study.table(report)])
-    if not all(case.passed for case in report.cases):
-        raise typer.Exit(NOT_GOOD_ENOUGH)
+        write_file(out, report.markdown().encode())
+    _finish(report, as_json=as_json)
 
 
 @study_app.command(example="study scenes --probe convex --period 2")
@@ -91,23 +140,327 @@ def scenes(
     from contactbench.pipeline.study import scene_limits as study
 
     report = study.run(probe, period, progress=say)
-    say(study.markdown(report))
+    say(report.markdown())
     if as_json:
         print_json(report.to_json())
 
 
-def _whole_number(text: str) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        raise InputError(f"--facets: {text!r} is no whole number; give for instance 1000,20000") from None
-    if value < 300:
-        raise InputError(f"--facets: {value} is too coarse for a bundled probe; give at least 300")
-    return value
+# ---- sweeps, and pages of all studies --------------------------------------------------------------
 
 
-add_sweep_commands(study_app)
-add_ablation_command(study_app)
-add_rivals_command(study_app)
-add_stability_commands(study_app)
-add_confidence_command(study_app)
+@study_app.command(example="study run --preset quick --out quick-study")
+def run(
+    study: Annotated[Path | None, typer.Argument(metavar="[STUDY.toml]", help="What to vary.")] = None,
+    preset: Annotated[
+        str | None,
+        typer.Option(
+            help="Or one of paper, resolution, quick, steep; hard, ablation and rivals are the studies of that kind."
+        ),
+    ] = None,
+    probe: Annotated[
+        list[str] | None,
+        typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the plan's]."),
+    ] = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder; what is done in it is kept.")] = Path(
+        "contactbench-study"
+    ),
+    workers: Annotated[
+        int | None,
+        typer.Option(min=1, help="Processes [one per core]. For times give 1: they share the machine."),
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(help="Address of a Dask scheduler, tcp://HOST:PORT [this machine].")
+    ] = None,
+    touches: Annotated[int | None, typer.Option(help="In each cell [the plan's].")] = None,
+    seed: Annotated[int | None, typer.Option(help="Of the touches [the plan's].")] = None,
+    times: Annotated[bool, typer.Option(help="Measure times, too.")] = True,
+    as_json: JsonOption = False,
+) -> None:
+    """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
+
+    Errors are the same whatever the number of workers. Stopped with Ctrl-C or killed, it goes on from where it was.
+    Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are no sweeps: they run
+    `study stability`, `study ablation` and `study rivals`, where more can be chosen.
+    """
+    from contactbench.pipeline.study.sweep.plan import SweepPlan, preset_plan
+    from contactbench.pipeline.study.sweep.run import run as sweep
+
+    if (study is None) == (preset is None):
+        raise InputError("study run: give either a STUDY.toml or a --preset.")
+    if preset in _OTHERS:
+        given = {
+            "--workers": workers,
+            "--scheduler": scheduler,
+            "--no-times": not times,
+            "--touches": None if preset == "hard" else touches,
+        }
+        if unknown := [name for name, value in given.items() if value]:
+            raise InputError(f"--preset {preset}: {', '.join(unknown)}: it has no such option: leave it out.")
+        common: dict[str, Any] = {"out": out, "probe": probe or None, "seed": seed or 0, "as_json": as_json}
+        if preset == "hard":
+            stability(**common, **({} if touches is None else {"samples": touches}))
+        elif preset == "ablation":
+            ablation(**common)
+        else:
+            rivals(**common)
+        return
+    plan = (preset_plan(str(preset)) if study is None else SweepPlan.read(study)).changed(
+        probe or (), touches, seed
+    )
+    command = _typed(
+        "run",
+        *([] if study is None else [study.name]),
+        preset=preset,
+        probe=probe,
+        touches=touches,
+        seed=seed,
+    )
+    say(f"{plan.name}: up to {len(plan):,} cells of {plan.touches:,} touches")
+    with Bar("computing", counted=True) as bar:
+        done = sweep(
+            plan,
+            out,
+            command=command,
+            scheduler=scheduler,
+            workers=workers,
+            timed=times,
+            progress=bar,
+        )
+    for missing in done.left_out:
+        say(f"left out: {missing}", "yellow")
+    for fault in done.faults:
+        say(f"not computed: {fault}", "red")
+    say(f"{done.results}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
+    if as_json:
+        print_json(done.to_json())
+    if done.failed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+@study_app.command(example="study compare quick-study full-study")
+def compare(
+    small: Annotated[Path, typer.Argument(metavar="SMALL", help="Folder of a quick sweep.")],
+    large: Annotated[Path, typer.Argument(metavar="LARGE", help="Folder of a full one.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Compare what two sweeps conclude: the order of methods in time and error, and exponents of growth.
+
+    Exit code 1: a clear order is reversed, or an exponent differs by more than 0.1.
+    """
+    from dataclasses import asdict
+
+    from rich.table import Table
+
+    from contactbench.pipeline.study.sweep.compare import compare as compared
+
+    found = compared(list(_sweep(small).rows), list(_sweep(large).rows))
+    differ = sum(not each.same for each in found)
+    if as_json:
+        print_json({"same": not differ, "findings": [asdict(each) for each in found]})
+    else:
+        table = Table(
+            "conclusion", "small", "large", "", title=f"{len(found) - differ} of {len(found)} the same"
+        )
+        for each in found:
+            table.add_row(each.what, each.small, each.large, "" if each.same else "differs")
+        show_tables(table)
+    if differ:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _sweep(place: Path) -> Results:
+    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.run import KIND
+
+    results = read_results(place)
+    if results.kind != KIND:
+        raise InputError(f"{place}: a study of kind {results.kind!r}: give the folder of a sweep.")
+    return results
+
+
+@study_app.command(example="study page quick-study --out docs")
+def page(
+    studies: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders with results.parquet.")],
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Put them together as results.md in this folder.")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Make tables and plots of studies from their Parquet files alone: page.md in each, and one page of all.
+
+    Exit code 1: a sweep misses a target.
+    """
+    from contactbench.pipeline.study.pages import PAGE, gather, make_page
+    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.run import KIND
+    from contactbench.pipeline.study.sweep.targets import targets
+
+    if out is None:
+        for folder in studies:
+            make_page(folder)
+        pages = [folder / PAGE for folder in studies]
+    else:
+        pages = [gather(studies, out)]
+    sweeps = [results for results in map(read_results, studies) if results.kind == KIND]
+    judged = [target for results in sweeps for target in targets(results.rows)]
+    missed = [target for target in judged if not target.met]
+    for target in missed:
+        say(f"missed: {target.what}: {target.measured}", "red")
+    say(", ".join(map(str, pages)))
+    if as_json:
+        shown = [{"what": target.what, "measured": target.measured} for target in missed]
+        print_json({"pages": [str(p) for p in pages], "targets": len(judged), "missed": shown})
+    if missed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+# ---- studies that keep their results ---------------------------------------------------------------
+
+
+@study_app.command(example="study ablation --quick --out ablation")
+def ablation(
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Folder for results.parquet, page.md, pictures.")
+    ] = Path("contactbench-ablation"),
+    probe: BundledOption = None,
+    scene: Annotated[
+        list[str] | None,
+        typer.Option(help="touch, press, bench, platform or arm; may be repeated [all]."),
+    ] = None,
+    seeds: Annotated[
+        int | None, typer.Option(help="Repetitions with other noise, for the spread [5].")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of the first repetition.")] = 0,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="One probe, two scenes, few touches: a look.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure what each modelling choice buys, mm, and costs, µs, in each scene: model this, leave that out.
+
+    Needs MuJoCo. Local torque, smooth normals, the friction gate, drift, the mount's rotation, crosstalk,
+    a phantom that yields, an arm with dynamics.
+    """
+    from contactbench.pipeline.study.ablation import run as study
+    from contactbench.pipeline.study.ablation.verdicts import about_choices
+    from contactbench.pipeline.study.pages import publish
+
+    sizes = _sized(study.QUICK if quick else study.AblationSizes(), probes=probe, scenes=scene, seeds=seeds)
+    make_folder(out)
+    rows = study.run(sizes, seed=seed, progress=say)
+    command = _typed("ablation", quick=quick, probe=probe, scene=scene, seeds=sizes.seeds, seed=seed)
+    place = publish(out, study.KIND, command, rows)
+    found = about_choices(rows)
+    for each in found:
+        say(each.sentence)
+    say(f"{place}: tables and curves.")
+    if as_json:
+        print_json({"page": str(place), "rows": len(rows), "choices": [c.to_json() for c in found]})
+
+
+@study_app.command(example="study rivals --quick --out rivals")
+def rivals(
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Folder for results.parquet, page.md, pictures.")
+    ] = Path("contactbench-rivals"),
+    probe: BundledOption = None,
+    rounds: Annotated[int | None, typer.Option(help="Timed rounds of each, in turn [15].")] = None,
+    seed: Annotated[int, typer.Option(help="Of touches and noise.")] = 0,
+    quick: Annotated[bool, typer.Option("--quick", help="One probe, one mesh, few rounds: a look.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Locate the same touches with the literal Algorithm 1, ray tracers, Levenberg-Marquardt and ours, in one run.
+
+    What is not installed is said: pip install contactbench[rivals]. Exit code 1: a rival locates contacts both faster
+    and more accurately.
+    """
+    from contactbench.pipeline.study.pages import publish
+    from contactbench.pipeline.study.rivals import run as study
+    from contactbench.pipeline.study.rivals.rows import duels
+
+    sizes = _sized(study.QUICK if quick else study.RivalsSizes(), probes=probe, rounds=rounds)
+    make_folder(out)
+    rows = study.run(sizes, seed=seed, progress=say)
+    command = _typed("rivals", quick=quick, probe=probe, rounds=sizes.rounds, seed=seed)
+    place = publish(out, study.KIND, command, rows)
+    for row in rows:
+        if row["kind"] == "missing":
+            say(f"{row['contender']}: {row['note']}")
+    winners = [duel.words for duel in duels(rows) if duel.beats]
+    for words in winners:
+        say(f"Faster and more accurate: {words}.")
+    say(f"{place}: all tables.")
+    if as_json:
+        print_json({"page": str(place), "rows": len(rows), "faster_and_more_accurate": winners})
+    if winners:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+@study_app.command(example="study stability --out stability-study")
+def stability(
+    probe: ProbesOption = None,
+    samples: Annotated[int, typer.Option(help="Touches for each figure, at least 50.")] = 1_000,
+    quick: Annotated[bool, typer.Option("--quick", help="At most 50 touches for each figure.")] = False,
+    seed: SeedOption = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Keep the results here, with a page of tables and plots."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure how steady answers are on a probe's mesh, against a truth in long double.
+
+    Exit code 1 when a stated bound is broken.
+    """
+    from contactbench.assets import PROBE_NAMES
+    from contactbench.pipeline.study import stability as study
+    from contactbench.pipeline.study.pages import publish
+
+    samples = min(samples, study.FEWEST) if quick else samples
+    report = study.run(tuple(probe or PROBE_NAMES), samples=samples, seed=seed, progress=say)
+    if out:
+        command = _typed("stability", samples=samples, seed=seed, probe=probe)
+        say(f"{publish(out, study.KIND, command, [row.to_json() for row in report.rows])}: page and plots")
+    _finish(report, as_json=as_json)
+
+
+@study_app.command(example="study confidence --quick --out confidence-study")
+def confidence(
+    probe: ProbesOption = None,
+    touches: Annotated[
+        int | None, typer.Option(min=100, help="Touches for each figure and seed [10,000].")
+    ] = None,
+    seeds: Annotated[int | None, typer.Option(min=1, help="Repetitions, for the spread [5].")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Few touches, coarse meshes: a look.")] = False,
+    seed: SeedOption = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Keep the results here, with a page of tables and the diagram."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure how far an answer's own word can be trusted: thin fins, regions, pulls, two touches, the ellipse.
+
+    Exit code 1 when a figure misses its bound.
+    """
+    from dataclasses import asdict
+
+    from contactbench.assets import PROBE_NAMES
+    from contactbench.pipeline.study.confidence import study
+    from contactbench.pipeline.study.pages import publish
+
+    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), touches=touches, seeds=seeds)
+    report = study.run(tuple(probe or PROBE_NAMES), sizes, seed=seed, progress=say)
+    if out:
+        command = _typed(
+            "confidence", quick=quick, touches=sizes.touches, seeds=sizes.seeds, seed=seed, probe=probe
+        )
+        place = publish(out, study.KIND, command, [asdict(row) for row in report.rows])
+        say(f"{place}: tables and the reliability diagram")
+    _finish(report, as_json=as_json)
+
+
+def _sized(sizes: Any, **given: Any) -> Any:
+    """Return how much is measured, with what was given; what is None is left as it is."""
+    values = {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
+    return replace(sizes, **{name: value for name, value in values.items() if value not in (None, ())})

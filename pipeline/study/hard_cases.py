@@ -18,23 +18,21 @@ from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_meshes import Body, Drawn, places, press
+from contactbench.pipeline.study.hard_meshes import Drawn, SolidBody, places, press
 from contactbench.pipeline.study.hard_trials import (
     CURVED,
     EXACT,
-    Case,
+    HardCase,
     HardCasesReport,
-    Outcome,
+    HardOutcome,
+    HardTrial,
     Rule,
-    Trial,
     certified,
     complete,
     exact,
     judged,
     like,
-    markdown,
     refused,
-    table,
     within,
 )
 
@@ -43,7 +41,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.hard_meshes import Float, Place, Solutions
 
-__all__ = ["Case", "HardCasesReport", "Outcome", "Rule", "Trial", "markdown", "run", "table"]
+__all__ = ["HardCase", "HardCasesReport", "HardOutcome", "HardTrial", "Rule", "run"]
 
 Rng = np.random.Generator
 
@@ -92,7 +90,7 @@ def run(
 # ---- the cases ---------------------------------------------------------------------------------------
 
 
-def _tangential(n: int, rng: Rng) -> Iterator[Trial]:
+def _tangential(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.bundled("t-shape", 1000)
     for angles in ((80.0, 85.0), (89.0, 89.9)):
         said = " and ".join(f"{a:g}" for a in angles)
@@ -103,16 +101,16 @@ def _tangential(n: int, rng: Rng) -> Iterator[Trial]:
         # From 89 degrees on a graze and a miss are one: far from a closed probe some edge-on vertex always
         # answers, and calling that a touch would leave nothing to call a miss.
         reasons = [Reason.TANGENTIAL] if max(angles) < 89.0 else [Reason.TANGENTIAL, Reason.IMPLAUSIBLE]
-        yield Trial(f"tangential {said}", what, refused(*reasons), body.probe(), outside)
+        yield HardTrial(f"tangential {said}", what, refused(*reasons), body.probe(), outside)
         first = drawn.take(np.array([_wins(f, p) for f, p in zip(found, drawn.points, strict=True)]))
         what = (
             f"the same, cone opened to {_OPEN.friction_angle} degrees, the truth has clearly the least torque"
         )
         name, probe = f"tangential {said}, open cone", body.probe()
-        yield Trial(name, what, exact("1e-6 m"), probe, first, gates=_OPEN, tolerance_mm=1e-3)
+        yield HardTrial(name, what, exact("1e-6 m"), probe, first, gates=_OPEN, tolerance_mm=1e-3)
 
 
-def _force(n: int, rng: Rng) -> Iterator[Trial]:
+def _force(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.ellipsoid()
     drawn = press(*places(body, n, rng), rng)
     unit = drawn.wrenches / np.linalg.norm(drawn.wrenches[:, :3], axis=1, keepdims=True)
@@ -132,12 +130,12 @@ def _force(n: int, rng: Rng) -> Iterator[Trial]:
         ("force of 1e200 N", 1e200, Gates(), clipped),
     ):
         what = f"ellipsoid, |F| = {size:.10g} N, gate {gates.min_force:g} N, torque in proportion"
-        yield Trial(
+        yield HardTrial(
             name, what, rule, body.probe(), Drawn(size * unit, drawn.points), gates=gates, tolerance_mm=_NM
         )
 
 
-def _numbers(n: int, rng: Rng) -> Iterator[Trial]:
+def _numbers(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.bundled("t-shape", 1000)
     drawn = press(*places(body, max(1, n // 100), rng), rng)
 
@@ -148,12 +146,12 @@ def _numbers(n: int, rng: Rng) -> Iterator[Trial]:
         return Drawn(rows, np.full((len(rows), 3), np.nan))
 
     bad = spoilt((np.nan, np.inf, -np.inf))
-    yield Trial(
+    yield HardTrial(
         "not finite", "NaN and infinity in each channel", refused(Reason.NOT_FINITE), body.probe(), bad
     )
     gates = Gates(saturation=(60.0, 60.0, 60.0, 8.0, 8.0, 8.0))
     full = spoilt((60.0, -60.0, 1e9))
-    yield Trial(
+    yield HardTrial(
         "saturated",
         "each channel at or past its limit",
         refused(Reason.SATURATED),
@@ -163,7 +161,7 @@ def _numbers(n: int, rng: Rng) -> Iterator[Trial]:
     )
 
 
-def _borders(n: int, rng: Rng) -> Iterator[Trial]:
+def _borders(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.ellipsoid()
     probe = body.probe()
     spots: tuple[tuple[Place, str], ...] = (("edge", "on edges"), ("vertex", "on vertices"))
@@ -172,11 +170,13 @@ def _borders(n: int, rng: Rng) -> Iterator[Trial]:
     for place, name in spots:
         drawn = press(*places(body, n, rng, place), rng, arm=0.0)
         what = f"ellipsoid, contacts exactly {name}, no local torque"
-        yield Trial(f"{name}, k = 0", what, exact("1e-9 m"), probe, drawn, gates=_OPEN, tolerance_mm=_NM)
+        yield HardTrial(f"{name}, k = 0", what, exact("1e-9 m"), probe, drawn, gates=_OPEN, tolerance_mm=_NM)
         drawn = press(*places(body, n, rng, place), rng, arm=0.003)
         what = f"ellipsoid, contacts exactly {name}, local torque about the normal of one of the facets there"
         check = certified(body, drawn.wrenches)
-        yield Trial(f"{name}, k != 0", what, Rule(words, wrong=0.0), probe, drawn, gates=_OPEN, check=check)
+        yield HardTrial(
+            f"{name}, k != 0", what, Rule(words, wrong=0.0), probe, drawn, gates=_OPEN, check=check
+        )
     body = hm.box()
     top = body.normals[:, 2] > 0.5
     points = np.concatenate([places(body, n // 2, rng, place, among=top)[0] for place, _ in spots])
@@ -186,16 +186,16 @@ def _borders(n: int, rng: Rng) -> Iterator[Trial]:
     k = np.resize([0.0, 0.125, -0.125], len(up))[:, None] * up
     drawn = Drawn(np.hstack([-8.0 * up, np.cross(points[inner], -8.0 * up) + k]), points[inner])
     what = "box of dyadic numbers, force straight down on edges and vertices: many moments exactly zero"
-    yield Trial("exact ties", what, exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
+    yield HardTrial("exact ties", what, exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
 
 
-def _gaps(n: int, rng: Rng) -> Iterator[Trial]:
+def _gaps(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.ellipsoid()
     pitch = rng.choice([0.0003, 0.03, 0.3], n)
     drawn = press(*places(body, n, rng, "cone"), rng, pitch=pitch)
     rule = Rule("every wrench answered, within 4.5 of the standard deviations that are stated", unflagged=1.0)
     what = "ellipsoid, wrenches that in the closed form only a vertex answers, pitch 0.3 to 300 mm"
-    yield Trial("gaps at vertices", what, rule, body.probe(), drawn, model=CURVED, check=within(drawn))
+    yield HardTrial("gaps at vertices", what, rule, body.probe(), drawn, model=CURVED, check=within(drawn))
     few = n // 4
     inside = np.einsum("nc,ncx->nx", rng.dirichlet(np.ones(4), few), rng.choice(body.vertices, (few, 4)))
     force = 9.0 * _directions(few, rng)
@@ -207,10 +207,10 @@ def _gaps(n: int, rng: Rng) -> Iterator[Trial]:
     gates = Gates(friction_angle=89.9999)
     name, drawn = "every axis through a convex body", Drawn(wrenches, truth)
     check = within(drawn)
-    yield Trial(name, what, rule, body.probe(), drawn, gates=gates, model=CURVED, check=check)
+    yield HardTrial(name, what, rule, body.probe(), drawn, gates=gates, model=CURVED, check=check)
 
 
-def _ambiguity(n: int, rng: Rng) -> Iterator[Trial]:
+def _ambiguity(n: int, rng: Rng) -> Iterator[HardTrial]:
     body, noise = hm.bundled("t-shape", 1000), WrenchNoise()
     probe = body.probe()
     # A share of 0.02 % takes many touches to tell from chance.
@@ -218,19 +218,19 @@ def _ambiguity(n: int, rng: Rng) -> Iterator[Trial]:
     rule = Rule("at least 98 % answered, no error over 10 mm that is not flagged", (0.98, 1.0))
     facets = press(*places(body, 10 * n, rng), rng, angle=(0.0, 30.0))
     what = "T-shape, touches of its facets up to 30 degrees, no noise, and the solver expects none, but any torsion"
-    yield Trial("ambiguity, exact", what, rule, probe, facets)
+    yield HardTrial("ambiguity, exact", what, rule, probe, facets)
     what = "T-shape, touches of the true surface up to 30 degrees"
     clean = Drawn(touches.wrenches, touches.points)
     usual = TouchModel()
     what_clean = f"{what}, no noise, solver as delivered"
-    yield Trial("ambiguity, no noise", what_clean, rule, probe, clean, noise, model=usual)
+    yield HardTrial("ambiguity, no noise", what_clean, rule, probe, clean, noise, model=usual)
     words = "at least 98 % answered, at most 0.02 % with an error over 10 mm that is not flagged"
     noisy = Drawn(add_noise(touches.wrenches, noise, rng), touches.points)
     rule = Rule(words, (0.98, 1.0), 2e-4)
-    yield Trial("ambiguity, noise", f"{what}, default noise", rule, probe, noisy, noise, model=usual)
+    yield HardTrial("ambiguity, noise", f"{what}, default noise", rule, probe, noisy, noise, model=usual)
 
 
-def _saddles(n: int, rng: Rng) -> Iterator[Trial]:
+def _saddles(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.bundled("t-shape", 1000)
     height = body.corners[:, :, 2].mean(axis=1)
     neck = np.asarray((height > 0.085) & (height < 0.108))
@@ -238,10 +238,10 @@ def _saddles(n: int, rng: Rng) -> Iterator[Trial]:
     drawn = press(*places(body, few, rng, among=neck), rng, pitch=rng.uniform(0.02, 0.5, few))
     what = "T-shape, touches on the saddle of its neck, pitch 20 to 500 mm: several contacts fit one wrench"
     check = complete(drawn)
-    yield Trial("overlaps at saddles", what, _COMPLETE, body.probe(), drawn, gates=_OPEN, check=check)
+    yield HardTrial("overlaps at saddles", what, _COMPLETE, body.probe(), drawn, gates=_OPEN, check=check)
 
 
-def _delivered(n: int, rng: Rng) -> Iterator[Trial]:
+def _delivered(n: int, rng: Rng) -> Iterator[HardTrial]:
     body, noise, few = hm.bundled("t-shape", 1000), WrenchNoise(), n // 8
     touches = draw_touches(assets.surface("t-shape"), few, rng, above=0.02)
     real = Drawn(add_noise(touches.wrenches, noise, rng), touches.points)
@@ -268,10 +268,12 @@ def _delivered(n: int, rng: Rng) -> Iterator[Trial]:
         ("rough mesh", "a mesh off by 0.2 mm", real, replace(usual, mesh_deviation=2e-4)),
     ):
         name, check = f"as delivered, {name}", judged(drawn)
-        yield Trial(name, f"T-shape, {what}", _JUDGED, body.probe(), drawn, noise, model=model, check=check)
+        yield HardTrial(
+            name, f"T-shape, {what}", _JUDGED, body.probe(), drawn, noise, model=model, check=check
+        )
 
 
-def _meshes(n: int, rng: Rng) -> Iterator[Trial]:
+def _meshes(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.ellipsoid()
     drawn = press(*places(body, n, rng), rng)
     tenth = rng.permutation(len(body.faces))[: len(body.faces) // 10]
@@ -280,17 +282,17 @@ def _meshes(n: int, rng: Rng) -> Iterator[Trial]:
         ("duplicate facets", "every tenth facet twice", body.probe(doubled)),
         ("sliver facets", "every tenth facet split, one part of aspect 1e6", split.probe()),
     ):
-        yield Trial(name, f"ellipsoid, {what}", exact("1e-7 m"), probe, drawn, tolerance_mm=1e-4)
+        yield HardTrial(name, f"ellipsoid, {what}", exact("1e-7 m"), probe, drawn, tolerance_mm=1e-4)
     rule = Rule("every wrench answered, within 10 mm or flagged")
     what = "the same through a binary STL file: single precision makes the slivers' normals rounding"
     rounded = hm.through_stl(split)
-    yield Trial("slivers in single precision", what, rule, rounded, drawn)
+    yield HardTrial("slivers in single precision", what, rule, rounded, drawn)
     rule = Rule("at least 90 % answered, no wrong point", (0.9, 1.0), wrong=0.0)
     what = "ellipsoid, unmerged: no facet shares a vertex, so no vertex can answer"
-    yield Trial("soup", what, rule, hm.soup(body).probe(), drawn, tolerance_mm=1e-4)
+    yield HardTrial("soup", what, rule, hm.soup(body).probe(), drawn, tolerance_mm=1e-4)
     what = "ellipsoid, written as binary STL and read again"
     probe = hm.through_stl(body)
-    yield Trial("soup through an STL file", what, exact("1e-6 m"), probe, drawn, tolerance_mm=1e-3)
+    yield HardTrial("soup through an STL file", what, exact("1e-6 m"), probe, drawn, tolerance_mm=1e-3)
     some = body.faces.copy()
     some[tenth] = some[tenth, ::-1]
     rule = Rule(
@@ -300,17 +302,19 @@ def _meshes(n: int, rng: Rng) -> Iterator[Trial]:
         ("inside out", "all facets turned over: the far side answers", body.faces[:, ::-1]),
         ("a tenth turned over", "every tenth facet turned over: the far side or nothing answers there", some),
     ):
-        yield Trial(
+        yield HardTrial(
             name, f"ellipsoid, {what}", rule, body.probe(faces), drawn, tolerance_mm=1e-4, known_bad_mesh=True
         )
 
 
-def _origins(n: int, rng: Rng) -> Iterator[Trial]:
+def _origins(n: int, rng: Rng) -> Iterator[HardTrial]:
     round_body, square = hm.ellipsoid(), hm.box()
     through = np.abs(np.einsum("fi,fi->f", square.normals, square.corners[:, 0])) < 1e-12
     drawn = press(*places(square, n, rng, among=np.asarray(through)), rng)
     what = "box with the sensor origin at a corner, touches on the three sides whose plane runs through it"
-    yield Trial("planes through the origin", what, exact("1e-9 m"), square.probe(), drawn, tolerance_mm=_NM)
+    yield HardTrial(
+        "planes through the origin", what, exact("1e-9 m"), square.probe(), drawn, tolerance_mm=_NM
+    )
     far = np.array([0.6, -0.64, 0.48])
     middle = round_body.vertices.mean(axis=0)
     for name, origin in (
@@ -321,10 +325,12 @@ def _origins(n: int, rng: Rng) -> Iterator[Trial]:
     ):
         body = round_body.moved(-origin)
         drawn = press(*places(body, n, rng), rng)
-        yield Trial(name, f"ellipsoid, sensor {name}", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
+        yield HardTrial(
+            name, f"ellipsoid, sensor {name}", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM
+        )
 
 
-def _sizes(n: int, rng: Rng) -> Iterator[Trial]:
+def _sizes(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.bundled("t-shape", 1000)
     drawn = press(*places(body, n, rng), rng, angle=(0.0, 40.0))
     words = "the same reasons and points as the plain mesh, to 1e-9 of its size"
@@ -333,23 +339,25 @@ def _sizes(n: int, rng: Rng) -> Iterator[Trial]:
     # What lies in front has odds of its own from 3 mm on, whatever the units.
     plain = Gates(first_odds=1.0)
     # Without any noise, the least that the solver takes instead would follow the size of the mesh's box.
-    base = Trial("", "", same, body.probe(), drawn, WrenchNoise(0.001, 1e-5), plain, model)
+    base = HardTrial("", "", same, body.probe(), drawn, WrenchNoise(0.001, 1e-5), plain, model)
 
     def twin(
-        name: str, what: str, other: Body, of: Drawn, scale: float, move: Callable[[Float], Float]
-    ) -> Trial:
+        name: str, what: str, other: SolidBody, of: Drawn, scale: float, move: Callable[[Float], Float]
+    ) -> HardTrial:
         gates = replace(plain, ambiguity_distance=0.005 * scale, follow_distance=0.010 * scale)
         check, probe, said = like(base, move, other.size), other.probe(), f"T-shape, {what}"
         grown = replace(model, torsion_arm=model.torsion_arm * scale)
         noise = WrenchNoise(0.001, 1e-5 * scale)
-        return Trial(name, said, same, probe, of, noise, gates, grown, tolerance_mm=10 * scale, check=check)
+        return HardTrial(
+            name, said, same, probe, of, noise, gates, grown, tolerance_mm=10 * scale, check=check
+        )
 
     for name, scale in (
         ("1 um large", 1e-6 / body.size),
         ("1 km large", 1e3 / body.size),
         ("mm and N*mm", 1e3),
     ):
-        grown = Body(body.vertices * scale, body.faces)
+        grown = SolidBody(body.vertices * scale, body.faces)
         wrenches = drawn.wrenches * np.repeat([1.0, scale], 3)
         moved = Drawn(wrenches, drawn.points * scale)
         said = f"lengths and torques times {scale:.3g}"
@@ -357,15 +365,15 @@ def _sizes(n: int, rng: Rng) -> Iterator[Trial]:
     turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
     turn *= np.linalg.det(turn)
     turned = Drawn((drawn.wrenches.reshape(-1, 2, 3) @ turn.T).reshape(-1, 6), drawn.points @ turn.T)
-    spun = Body(body.vertices @ turn.T, body.faces)
+    spun = SolidBody(body.vertices @ turn.T, body.faces)
     yield twin("turned", "mesh and wrench rotated", spun, turned, 1.0, lambda p: p @ turn.T)
     order = rng.permutation(len(body.vertices))
     faces = np.argsort(order)[body.faces][rng.permutation(len(body.faces))]
-    shuffled = Body(body.vertices[order], faces)
+    shuffled = SolidBody(body.vertices[order], faces)
     yield twin("shuffled", "facets and vertices in another order", shuffled, drawn, 1.0, lambda p: p)
 
 
-def _axes(n: int, rng: Rng) -> Iterator[Trial]:
+def _axes(n: int, rng: Rng) -> Iterator[HardTrial]:
     body = hm.bundled("t-shape", 1000)
     drawn = press(*places(body, n // 4, rng), rng, arm=0.0)
     alone = [np.count_nonzero(hm.solve(body, w).angles < _OPEN.friction_angle) == 1 for w in drawn.wrenches]
@@ -382,28 +390,28 @@ def _axes(n: int, rng: Rng) -> Iterator[Trial]:
         )
     what = f"T-shape, k = 0, where the axis enters once, against {by}"
     truth = Drawn(drawn.wrenches, np.asarray(rays))
-    yield Trial("wrench axis", what, exact("1e-6 m"), body.probe(), truth, gates=_OPEN, tolerance_mm=1e-3)
+    yield HardTrial("wrench axis", what, exact("1e-6 m"), body.probe(), truth, gates=_OPEN, tolerance_mm=1e-3)
 
 
-def _torques(n: int, rng: Rng) -> Iterator[Trial]:
+def _torques(n: int, rng: Rng) -> Iterator[HardTrial]:
     body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
     drawn = press(*places(body, n, rng), rng, pitch=1.0)
     what = "ellipsoid, torque about the axis of 1 m times the force"
     free, rule = f"{what}, any torsion allowed", exact("1e-9 m")
-    yield Trial("pitch 1 m", free, rule, body.probe(), drawn, tolerance_mm=_NM)
+    yield HardTrial("pitch 1 m", free, rule, body.probe(), drawn, tolerance_mm=_NM)
     known, rule = f"{what}, solver as delivered", refused(Reason.IMPLAUSIBLE)
     usual, some = TouchModel(), drawn.take(slice(0, n // 8))
     check = judged(some)
-    yield Trial(
+    yield HardTrial(
         "pitch 1 m, as delivered", known, rule, body.probe(), some, WrenchNoise(), model=usual, check=check
     )
     drawn = press(*places(body, n, rng), rng, pitch=1e3)
     what = "ellipsoid, torque about the axis of 1 km times the force, any torsion allowed"
-    yield Trial("pitch 1 km", what, rule, body.probe(), drawn)
+    yield HardTrial("pitch 1 km", what, rule, body.probe(), drawn)
     drawn = press(*places(bent, n // 10, rng), rng, pitch=1.0)
     what = "T-shape, torque about the axis of 1 m times the force: several contacts answer one wrench"
     check = complete(drawn)
-    yield Trial("pitch 1 m, T-shape", what, _COMPLETE, bent.probe(), drawn, gates=_OPEN, check=check)
+    yield HardTrial("pitch 1 m, T-shape", what, _COMPLETE, bent.probe(), drawn, gates=_OPEN, check=check)
 
 
 def _wins(found: Solutions, truth: Float) -> bool:
@@ -419,7 +427,7 @@ def _directions(count: int, rng: Rng) -> Float:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
 
 
-GROUPS: dict[str, Callable[[int, Rng], Iterator[Trial]]] = {
+GROUPS: dict[str, Callable[[int, Rng], Iterator[HardTrial]]] = {
     "force along the surface": _tangential,
     "forces too small and too large": _force,
     "numbers that are none, channels at their limits": _numbers,

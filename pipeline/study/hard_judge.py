@@ -28,7 +28,7 @@ _D2, _POINT_M = 1e-6, 1e-9  # rounding
 
 
 @dataclass(frozen=True, eq=False)
-class Fits:
+class FacetFits:
     """The best touch of each facet: d2 (m,), infinite outside the friction cone, and where, (m, 3) m."""
 
     d2: Float
@@ -50,7 +50,7 @@ class Judge:
         turn, arch = self._curvature(np.asarray(probe.faces)) if model.mesh_curved else np.zeros((2, len(a)))
         self.spread, self.bend = (0.7 / 8 * arch) ** 2 + model.mesh_deviation**2, (turn / 2) ** 2
 
-    def fits(self, wrench: Float, friction_angle: float) -> Fits:
+    def fits(self, wrench: Float, friction_angle: float) -> FacetFits:
         """Judge every facet by a wrench (6,), N and N·m, S; degrees."""
         F, M = wrench[:3], wrench[3:]
         size, f = np.linalg.norm(F), F / np.linalg.norm(F)
@@ -89,7 +89,7 @@ class Judge:
             tried[:, j] = np.clip(along[:, 0], 0.0, 1.0)  # convex: clipped is a corner
             tried[:, i] = 1 - tried[:, j]
             offer(tried, np.ones(len(n), dtype=bool))
-        every = Fits(np.full(len(cone), np.inf), np.full((len(cone), 3), np.nan))
+        every = FacetFits(np.full(len(cone), np.inf), np.full((len(cone), 3), np.nan))
         every.d2[faces], every.points[faces] = d2, np.einsum("mc,mci->mi", shares, corners)
         return every
 

@@ -28,17 +28,11 @@ _BORDER = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
-    """A closed triangle mesh in S, m.
+class SolidBody:
+    """A closed triangle mesh in S, m."""
 
-    Attributes
-    ----------
-    vertices : (n, 3) m
-    faces : (m, 3) counter-clockwise seen from outside
-    """
-
-    vertices: Float
-    faces: Ints
+    vertices: Float  # (n, 3) m
+    faces: Ints  # (m, 3) counter-clockwise seen from outside
 
     @cached_property
     def corners(self) -> Long:
@@ -71,9 +65,9 @@ class Body:
         """Return the mesh as a probe of any size, or these `faces` over the same vertices."""
         return Probe.from_arrays(self.vertices, self.faces if faces is None else faces, check_size=False)
 
-    def moved(self, by: ArrayLike) -> Body:
+    def moved(self, by: ArrayLike) -> SolidBody:
         """Return the mesh moved by a vector (3,), m."""
-        return Body(self.vertices + np.asarray(by, dtype=np.float64), self.faces)
+        return SolidBody(self.vertices + np.asarray(by, dtype=np.float64), self.faces)
 
     def holds(self, point: Long) -> bool:
         """Whether a point (3,), m, off the surface, is inside (by its winding number, as a solid angle)."""
@@ -86,26 +80,26 @@ class Body:
 
 
 @lru_cache
-def bundled(name: str, facets: int) -> Body:
+def bundled(name: str, facets: int) -> SolidBody:
     """Return a bundled probe."""
     vertices, faces = assets.make(name, facets)
-    return Body(vertices, faces.astype(np.int64))
+    return SolidBody(vertices, faces.astype(np.int64))
 
 
 @lru_cache
-def ellipsoid(subdivisions: int = 3) -> Body:
+def ellipsoid(subdivisions: int = 3) -> SolidBody:
     """Return a convex body of 20 · 4^n facets, half axes 24, 16 and 40 mm, its middle at z = 120 mm."""
     from trimesh.creation import icosphere
 
     ball = icosphere(subdivisions=subdivisions)
-    return Body(
+    return SolidBody(
         np.asarray(ball.vertices) * [0.024, 0.016, 0.040] + [0.0, 0.0, 0.120],
         np.asarray(ball.faces, np.int64),
     )
 
 
 @lru_cache
-def box(cells: int = 8) -> Body:
+def box(cells: int = 8) -> SolidBody:
     """Return a cube of 2^-4 m, a grid on its sides, every coordinate a dyadic fraction, a corner at 0."""
     steps = np.arange(cells + 1)
     i, j = (g.ravel() for g in np.meshgrid(steps[:-1], steps[:-1], indexing="ij"))
@@ -119,10 +113,10 @@ def box(cells: int = 8) -> Body:
     corners = np.concatenate(sides)
     triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     grid, faces = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
-    return Body(grid / (16.0 * cells), faces.reshape(-1, 3).astype(np.int64))
+    return SolidBody(grid / (16.0 * cells), faces.reshape(-1, 3).astype(np.int64))
 
 
-def slivered(body: Body, faces: Ints, height: float) -> Body:
+def slivered(body: SolidBody, faces: Ints, height: float) -> SolidBody:
     """Split `faces` three ways at a point near the middle of an edge: one part is `height` by 1."""
     a, b, c = (body.vertices[body.faces[faces, i]] for i in range(3))
     added = 0.5 * (a + b) * (1 - height) + height * c
@@ -130,15 +124,15 @@ def slivered(body: Body, faces: Ints, height: float) -> Body:
     i, j, k = body.faces[faces].T
     parts = [np.stack(t, axis=1) for t in ((i, j, new), (j, k, new), (k, i, new))]
     whole = np.delete(body.faces, faces, axis=0)
-    return Body(np.vstack([body.vertices, added]), np.vstack([whole, *parts]))
+    return SolidBody(np.vstack([body.vertices, added]), np.vstack([whole, *parts]))
 
 
-def soup(body: Body) -> Body:
+def soup(body: SolidBody) -> SolidBody:
     """Give every facet vertices of its own."""
-    return Body(body.vertices[body.faces].reshape(-1, 3), np.arange(3 * len(body.faces)).reshape(-1, 3))
+    return SolidBody(body.vertices[body.faces].reshape(-1, 3), np.arange(3 * len(body.faces)).reshape(-1, 3))
 
 
-def through_stl(body: Body) -> Probe:
+def through_stl(body: SolidBody) -> Probe:
     """Write a mesh as a binary STL file in millimetres and read it as a probe."""
     facet = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
     records = np.zeros(len(body.faces), facet)
@@ -153,16 +147,10 @@ def through_stl(body: Body) -> Probe:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """Wrenches and where they were made to touch.
+    """Wrenches and where they were made to touch."""
 
-    Attributes
-    ----------
-    wrenches : (n, 6) N and N·m, S
-    points : (n, 3) m, S
-    """
-
-    wrenches: Float
-    points: Float
+    wrenches: Float  # (n, 6) N and N·m, S
+    points: Float  # (n, 3) m, S
 
     def __len__(self) -> int:
         return len(self.points)
@@ -212,7 +200,12 @@ Place = Literal["facet", "edge", "vertex", "cone"]
 
 
 def places(
-    body: Body, count: int, rng: np.random.Generator, place: Place = "facet", *, among: Bools | None = None
+    body: SolidBody,
+    count: int,
+    rng: np.random.Generator,
+    place: Place = "facet",
+    *,
+    among: Bools | None = None,
 ) -> tuple[Float, Float]:
     """Return points (count, 3), m, and normals (count, 3): inside facets, on edges or on vertices.
 
@@ -250,22 +243,15 @@ def places(
 
 @dataclass(frozen=True, eq=False)
 class Solutions:
-    """Every contact that answers one wrench.
+    """Every contact that answers one wrench."""
 
-    Attributes
-    ----------
-    points : (n, 3) m
-    angles : (n,) friction angles, degrees
-    sure : bool
-        False where a solution lies on a border within rounding: how many there are is then a convention.
-    """
-
-    points: Float
-    angles: Float
+    points: Float  # (n, 3) m
+    angles: Float  # (n,) friction angles, degrees
+    # False where a solution lies on a border within rounding: how many there are is then a convention
     sure: bool
 
 
-def solve(body: Body, wrench: Float) -> Solutions:
+def solve(body: SolidBody, wrench: Float) -> Solutions:
     """Find every facet and vertex with ``p x F + k n = M``, p on it, F . n < 0; long double, one by one.
 
     A facet's p is solved for and then located by its areal coordinates. A vertex answers when M - v x F is
@@ -289,7 +275,7 @@ def solve(body: Body, wrench: Float) -> Solutions:
     return Solutions(np.array(points).reshape(-1, 3), angles, sure)
 
 
-def certify(body: Body, wrenches: Float, batch: Batch) -> tuple[Float, Bools]:
+def certify(body: SolidBody, wrenches: Float, batch: Batch) -> tuple[Float, Bools]:
     """Check answers against the equations alone, on a convex body.
 
     Returns
@@ -305,7 +291,7 @@ def certify(body: Body, wrenches: Float, batch: Batch) -> tuple[Float, Bools]:
         F, M = wrenches[i, :3].astype(np.longdouble), wrenches[i, 3:].astype(np.longdouble)
         face, v = int(batch.faces[i]), int(batch.vertices[i])
         if v < 0:
-            one = Body(body.vertices, body.faces[[face]])
+            one = SolidBody(body.vertices, body.faces[[face]])
             exact, _ = _facet_points(one, F, M)
             off[i] = float(np.sqrt(np.sum((exact[0] - batch.points[i]) ** 2)))
             false[i] = areal(one, np.zeros(1, np.int64), exact).min() < -_BORDER or one.normals[0] @ F >= 0
@@ -321,7 +307,7 @@ def certify(body: Body, wrenches: Float, batch: Batch) -> tuple[Float, Bools]:
     return off, false
 
 
-def areal(body: Body, faces: Ints, points: Long) -> Long:
+def areal(body: SolidBody, faces: Ints, points: Long) -> Long:
     """Return the areal coordinates (n, 3) of points (n, 3) on the planes of `faces` (n,)."""
     a, b, c = np.moveaxis(body.corners[faces], 1, 0)
     n = body.areas[faces]
@@ -329,7 +315,7 @@ def areal(body: Body, faces: Ints, points: Long) -> Long:
     return np.asarray(np.stack(parts, axis=1) / _dot(n, n)[:, None])
 
 
-def entry(body: Body, wrench: Float) -> Float:
+def entry(body: SolidBody, wrench: Float) -> Float:
     """Return where the wrench axis first meets the body (3,), m, or NaN: a ray against every facet."""
     F, M = wrench[:3].astype(np.longdouble), wrench[3:].astype(np.longdouble)
     f, foot = F / np.sqrt(F @ F), _cross(F, M) / (F @ F)
@@ -345,7 +331,7 @@ def entry(body: Body, wrench: Float) -> Float:
     return np.asarray(foot + t.min() * f, dtype=np.float64) if np.isfinite(t.min()) else np.full(3, np.nan)
 
 
-def _facet_points(body: Body, F: Long, M: Long) -> tuple[Long, bool]:
+def _facet_points(body: SolidBody, F: Long, M: Long) -> tuple[Long, bool]:
     """Solve Eq. 6 on each facet's plane (m, 3), and tell whether no facet is edge-on within rounding."""
     n, a = body.normals, body.corners[:, 0]
     along = n @ F
@@ -356,7 +342,7 @@ def _facet_points(body: Body, F: Long, M: Long) -> tuple[Long, bool]:
     return np.asarray(p), bool(np.all(np.abs(along) > _BORDER * np.sqrt(F @ F)))
 
 
-def _pressed_vertices(body: Body, F: Long, M: Long) -> list[tuple[int, Long, float]]:
+def _pressed_vertices(body: SolidBody, F: Long, M: Long) -> list[tuple[int, Long, float]]:
     """Vertices that answer, with their normals and how far their edges are from level (a sine)."""
     start, end, first = body.spokes
     at = body.vertices.astype(np.longdouble)

@@ -20,64 +20,39 @@ from contactbench.pipeline.contact import (
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_judge import Judge
-from contactbench.pipeline.study.hard_meshes import Body, Bools, Drawn, Float
+from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What one method made of a case.
+class HardOutcome:
+    """What one method made of a case."""
 
-    Attributes
-    ----------
-    answered : float
-        Share of tries that got a point, `ambiguous` ones included.
-    mean_mm, max_mm : float or None
-        Error of the points; None where there is no point, or no place it should be.
-    reasons : dict
-        Reason code -> tries.
-    wrong_unflagged : float
-        Share of tries with an error beyond the case's tolerance under an accepted reason.
-    wrong : float
-        Share of tries with an error beyond the tolerance, whatever the reason.
-    broken : int
-        Tries that break the case's own check.
-    """
-
-    answered: float
+    answered: float  # share of tries that got a point, `ambiguous` ones included
+    # mean_mm, max_mm: error of the points; None where there is no point, or no place it should be
     mean_mm: float | None
     max_mm: float | None
-    reasons: dict[str, int]
+    reasons: dict[str, int]  # reason code -> tries
+    # share of tries with an error beyond the case's tolerance under an accepted reason
     wrong_unflagged: float
-    wrong: float = 0.0
-    broken: int = 0
+    wrong: float = 0.0  # share of tries with an error beyond the tolerance, whatever the reason
+    broken: int = 0  # tries that break the case's own check
 
 
 @dataclass(frozen=True)
 class Rule:
-    """What an outcome must be to pass.
+    """What an outcome must be to pass."""
 
-    Attributes
-    ----------
-    words : str
-        The rule, in words.
-    answered : (low, high)
-        Bounds of the answered share.
-    unflagged, wrong : float
-        Most that the shares of the same names may be.
-    reasons : tuple of Reason, optional
-        The only reasons allowed.
-    """
-
-    words: str
-    answered: tuple[float, float] = (1.0, 1.0)
+    words: str  # the rule, in words
+    answered: tuple[float, float] = (1.0, 1.0)  # (low, high) bounds of the answered share
+    # unflagged, wrong: most that the shares of the same names may be
     unflagged: float = 0.0
     wrong: float = 1.0
-    reasons: tuple[Reason, ...] | None = None
+    reasons: tuple[Reason, ...] | None = None  # the only reasons allowed
 
-    def faults(self, outcome: Outcome) -> tuple[str, ...]:
+    def faults(self, outcome: HardOutcome) -> tuple[str, ...]:
         """Return what is wrong with an outcome, in words; nothing when it passes."""
         low, high = self.answered
         allowed = None if self.reasons is None else {r.name for r in self.reasons}
@@ -99,30 +74,19 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class Case:
-    """One hard case, as it went.
+class HardCase:
+    """One hard case, as it went."""
 
-    Attributes
-    ----------
-    name, what, expectation : str
-        In words.
-    tries : int
-        Wrenches.
-    contactbench, algorithm1 : Outcome
-    passed : bool
-        Whether contactbench kept the rule. Algorithm 1 is shown, not judged.
-    faults : tuple of str
-        What was wrong.
-    """
-
+    # name, what, expectation: in words
     name: str
     what: str
-    tries: int
+    tries: int  # wrenches
     expectation: str
-    contactbench: Outcome
-    algorithm1: Outcome
+    contactbench: HardOutcome
+    algorithm1: HardOutcome
+    # whether contactbench kept the rule. Algorithm 1 is shown, not judged.
     passed: bool
-    faults: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()  # what was wrong
 
 
 _SAME_TOUCH, _ROUNDING_M, _TIED = 4.5, 1e-9, 1e-9
@@ -136,50 +100,40 @@ Check = Callable[[methods.Method, Batch], Bools]
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
-    """A case before it is tried.
-
-    Attributes
-    ----------
-    drawn : Drawn
-        The wrenches, and where each should be found; NaN where nowhere in particular.
-    noise, gates, model
-        What the solver is told.
-    tolerance_mm : float
-        A larger error is wrong.
-    check : callable, optional
-        Gives (n,) bool: tries that break a rule of the case's own.
-    known_bad_mesh : bool
-        Facets were turned over on purpose: an answer counts as flagged when the mesh's health says so.
-    """
+class HardTrial:
+    """A case before it is tried."""
 
     name: str
     what: str
     rule: Rule
     probe: Probe
-    drawn: Drawn
+    drawn: Drawn  # the wrenches, and where each should be found; NaN where nowhere in particular
+    # noise, gates, model: what the solver is told
     noise: WrenchNoise = field(default_factory=lambda: WrenchNoise(0.0, 0.0))
     gates: Gates = field(default_factory=Gates)
     model: TouchModel = field(default_factory=lambda: EXACT)
-    tolerance_mm: float = 10.0
-    check: Check | None = None
+    tolerance_mm: float = 10.0  # a larger error is wrong
+    check: Check | None = None  # gives (n,) bool: tries that break a rule of the case's own
+    # facets were turned over on purpose: an answer counts as flagged when the mesh's health says so
     known_bad_mesh: bool = False
 
-    def run(self) -> Case:
+    def run(self) -> HardCase:
         """Try both methods and judge."""
         ours = self._outcome(self.method())
         theirs = self._outcome(methods.algorithm1(self.probe, self.noise, self.gates))
         faults = (
             self.rule.faults(ours) if len(self.drawn) else ("no wrench fits the case: give more samples",)
         )
-        return Case(self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults)
+        return HardCase(
+            self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults
+        )
 
     def method(self) -> methods.Method:
         """Return the solver that is tried."""
         solver = ContactSolver(self.probe, self.noise, self.gates, self.model)
         return methods.Method("contactbench", solver.locate, solver.locate_batch, solver)
 
-    def _outcome(self, method: methods.Method) -> Outcome:
+    def _outcome(self, method: methods.Method) -> HardOutcome:
         batch = method.locate_batch(self.drawn.wrenches)
         error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
         far = error > self.tolerance_mm
@@ -189,7 +143,7 @@ class Trial:
         codes, counts = np.unique(batch.reasons, return_counts=True)
         known = error[np.isfinite(error)]
         tries = max(1, len(self.drawn))
-        return Outcome(
+        return HardOutcome(
             float(np.isfinite(batch.points[:, 0]).sum() / tries),
             float(known.mean()) if len(known) else None,
             float(known.max()) if len(known) else None,
@@ -214,7 +168,7 @@ def refused(*reasons: Reason) -> Rule:
     )
 
 
-def certified(body: Body, wrenches: Float) -> Check:
+def certified(body: SolidBody, wrenches: Float) -> Check:
     """Refuse points that are not the exact solution where they say (a convex body has only one)."""
 
     def check(_: methods.Method, batch: Batch) -> Bools:
@@ -268,7 +222,7 @@ def within(drawn: Drawn) -> Check:
     return check
 
 
-def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
+def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
     """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
 
     def check(method: methods.Method, batch: Batch) -> Bools:
@@ -288,18 +242,12 @@ def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
 
 @dataclass(frozen=True)
 class HardCasesReport:
-    """Every case.
+    """Every case."""
 
-    Attributes
-    ----------
-    samples, seed : int
-        As given to :func:`run`.
-    cases : list of Case
-    """
-
+    # samples, seed: as given to :func:`run`
     samples: int
     seed: int
-    cases: list[Case]
+    cases: list[HardCase]
 
     @property
     def passed(self) -> bool:
@@ -310,42 +258,40 @@ class HardCasesReport:
         """Return plain data for ``--json``."""
         return {"passed": self.passed, **asdict(self)}
 
+    def tables(self) -> list[Table]:
+        """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
+        from rich.table import Table
 
-def table(report: HardCasesReport) -> Table:
-    """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
-    from rich.table import Table
+        built = Table(title=f"Hard cases, contactbench | algorithm1, seed {self.seed}")
+        for title in _COLUMNS:
+            built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
+        for case in self.cases:
+            style = "" if case.passed else "red"
+            built.add_row(case.name, f"{case.tries:,}", *_figures(case, " | "), _verdict(case), style=style)
+        return [built]
 
-    built = Table(title=f"Hard cases, contactbench | algorithm1, seed {report.seed}")
-    for title in ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict"):
-        built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
-    for case in report.cases:
-        style = "" if case.passed else "red"
-        built.add_row(case.name, f"{case.tries:,}", *_figures(case), _verdict(case), style=style)
-    return built
-
-
-def markdown(report: HardCasesReport) -> str:
-    """Write the report as Markdown: the table, then each case in words."""
-    lines = [
-        "| case | tries | answered | largest error, mm | wrong, not flagged | verdict |",
-        "|---|---:|---:|---:|---:|---|",
-    ]
-    for case in report.cases:
-        figures = " | ".join(f.replace(" | ", " / ") for f in _figures(case))
-        lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
-    lines += ["", "Figures are contactbench / algorithm1.", ""]
-    lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in report.cases]
-    return "\n".join(lines) + "\n"
+    def markdown(self) -> str:
+        """Write it as Markdown: the table, then each case in words."""
+        lines = ["| " + " | ".join(_COLUMNS) + " |", "|---|---:|---:|---:|---:|---|"]
+        for case in self.cases:
+            figures = " | ".join(_figures(case, " / "))
+            lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
+        lines += ["", "Figures are contactbench / algorithm1.", ""]
+        lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in self.cases]
+        return "\n".join(lines) + "\n"
 
 
-def _figures(case: Case) -> tuple[str, str, str]:
+_COLUMNS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
+
+
+def _figures(case: HardCase, stroke: str) -> tuple[str, str, str]:
     both = (case.contactbench, case.algorithm1)
     return (
-        " | ".join(f"{100 * o.answered:.4g} %" for o in both),
-        " | ".join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
-        " | ".join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
+        stroke.join(f"{100 * o.answered:.4g} %" for o in both),
+        stroke.join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
+        stroke.join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
     )
 
 
-def _verdict(case: Case) -> str:
+def _verdict(case: HardCase) -> str:
     return "passed" if case.passed else "; ".join(case.faults)

@@ -12,50 +12,36 @@ from scipy.spatial.transform import Rotation
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
-from contactbench.pipeline.simulation.scenes.touch import along
+from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
+from contactbench.pipeline.simulation.scenes.touch import along, draw_press
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 TRUE_FACETS = 20_000
-FORCE_N = (8.0, 10.0)
 PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
 ANGLES = {PERPENDICULAR: (0.0, 0.0), IN_PLANE: (30.0, 0.0), ACROSS: (30.0, 90.0)}
-_TORSION_M = 0.0003  # N·m per N: torsional friction of a patch of 1.5 mm
-_MOST_TORSION_M = 0.0006  # more would turn the tip
 
 
 @dataclass(frozen=True, eq=False)
 class Touched:
-    """
-    Touches at rest, one row each; S, SI units.
+    """Touches at rest, one row each; S, SI units."""
 
-    Attributes
-    ----------
-    seeds, markers, angles, repeats : (n,) int
-        Markers from 1; angles are rows of `ANGLES`.
-    targets, points, normals : (n, 3)
-        The marker, the true contact, and the outward normal there.
-    contacts : (n, 6)
-        Wrench on the probe about the sensor's origin.
-    R_WS : (n, 3, 3)
-        How the sensor is held: the force is vertical.
-    """
-
+    # seeds, markers, angles, repeats: (n,) markers from 1; angles are rows of `ANGLES`
     seeds: NDArray[np.int_]
     markers: NDArray[np.int_]
     angles: NDArray[np.int_]
     repeats: NDArray[np.int_]
+    # targets, points, normals: (n, 3) the marker, the true contact, and the outward normal there
     targets: NDArray[np.float64]
     points: NDArray[np.float64]
     normals: NDArray[np.float64]
-    contacts: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
+    contacts: NDArray[np.float64]  # (n, 6) wrench on the probe about the sensor's origin
+    R_WS: NDArray[np.float64]  # (n, 3, 3) how the sensor is held: the force is vertical
 
     def __len__(self) -> int:
         return len(self.seeds)
@@ -66,9 +52,9 @@ class Touched:
 
 
 @cache
-def truth_of(name: str) -> Truth:
+def truth_of(name: str) -> TrueSurface:
     """Return a bundled probe as it really is."""
-    return Truth(Probe.from_arrays(*assets.make(name, TRUE_FACETS), name=name))
+    return TrueSurface(Probe.from_arrays(*assets.make(name, TRUE_FACETS), name=name))
 
 
 @cache
@@ -78,7 +64,7 @@ def model_of(name: str, facets: int) -> Probe:
     return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
 
 
-class Station:
+class MarkerStation:
     """
     The tip above one marker, ready to press it again and again.
 
@@ -95,7 +81,7 @@ class Station:
         self._where = self.scene.marker_S
         self._normal = truth.nearest(self._where)[1]
 
-    def touch(self, press: Press) -> Moment:
+    def touch(self, press: TipPress) -> SceneMoment:
         """
         Lift, press, and wait until it rests.
 
@@ -128,14 +114,13 @@ def press_markers(
     progress: Callable[[], None] = lambda: None,
 ) -> Touched:
     """
-    Press every marker at every angle, with forces and torsions drawn for each seed and repeat.
+    TipPress every marker at every angle, with forces and torsions drawn for each seed and repeat.
 
     Parameters
     ----------
     name : str
         Probe.
     markers_S : (n, 3)
-    seeds, repeats : int
     progress : callable
         Called after each marker.
 
@@ -146,19 +131,21 @@ def press_markers(
     """
     rows = []
     for number, marker_S in enumerate(markers_S):
-        station = Station(name, marker_S)
+        station = MarkerStation(name, marker_S)
         for seed in range(seeds):
             rng = np.random.default_rng([seed, 3, assets.PROBE_NAMES.index(name), number])
             for angle, (tilt, azimuth) in enumerate(ANGLES.values()):
                 for repeat in range(repeats):
-                    moment = station.touch(_drawn(rng, tilt, azimuth))
+                    moment = station.touch(draw_press(rng, tilt, azimuth))
                     rows.append(row((seed, number + 1, angle, repeat), station.scene.marker_S, moment))
         progress()
     pressed = stack(rows)
     return pressed.where(np.argsort(pressed.seeds, kind="stable"))
 
 
-def row(index: tuple[int, int, int, int], target: NDArray[np.float64], moment: Moment) -> tuple[object, ...]:
+def row(
+    index: tuple[int, int, int, int], target: NDArray[np.float64], moment: SceneMoment
+) -> tuple[object, ...]:
     """Return one touch as a row for `stack`."""
     return (*index, target, moment.point_S, moment.normal_S, moment.contact, held(moment.contact))
 
@@ -166,9 +153,3 @@ def row(index: tuple[int, int, int, int], target: NDArray[np.float64], moment: M
 def stack(rows: Sequence[tuple[object, ...]]) -> Touched:
     """Put rows together."""
     return Touched(*(np.array(column) for column in zip(*rows, strict=True)))
-
-
-def _drawn(rng: np.random.Generator, tilt: float, azimuth: float) -> Press:
-    force = rng.uniform(*FORCE_N)
-    arm = float(np.clip(_TORSION_M * rng.standard_normal(), -_MOST_TORSION_M, _MOST_TORSION_M))
-    return Press(force, tilt, azimuth, arm * force)

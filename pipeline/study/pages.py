@@ -9,11 +9,11 @@ their bare file names and begins with a heading of the second level. Here they a
 from __future__ import annotations
 
 import re
-import shlex
 from importlib import import_module
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.durable import make_folder, write_durably
+from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.results import environment, read_results, write_results
 
@@ -34,6 +34,74 @@ CHAPTERS = {
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")
+
+
+# Okabe and Ito: everybody can tell them apart.
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b6b6b", "#000000")
+STYLE: dict[Any, Any] = {
+    "font.size": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e5e7",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.0,
+    "legend.frameon": False,
+}
+
+
+def chapter(
+    title: str,
+    about: str,
+    tables: Sequence[tuple[str, str]],
+    pictures: Mapping[str, bytes],
+    said: Mapping[str, str],
+    folder: Path,
+) -> str:
+    """
+    Write pictures into a folder and return a chapter: a heading, what it is about, tables, pictures with captions.
+
+    Parameters
+    ----------
+    tables : sequence of (str, str)
+        Titles and Markdown.
+    pictures : mapping
+        File name -> PNG.
+    said : mapping
+        File name -> caption.
+
+    Raises
+    ------
+    InputError
+        A picture cannot be written.
+    """
+    parts = [f"## {title}", about]
+    for heading, text in tables:
+        parts += [f"### {heading}", text]
+    for name, data in pictures.items():
+        write_file(folder / name, data)
+        parts.append(f"![{said[name]}]({name})\n\n{said[name]}")
+    return "\n\n".join(parts)
+
+
+def png(figure: Any) -> bytes:
+    """Return a Matplotlib figure as a PNG image; the same figure gives the same bytes."""
+    data = BytesIO()
+    figure.savefig(data, format="png", metadata={"Software": None}, pil_kwargs={"optimize": True})
+    return data.getvalue()
+
+
+def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table; columns of figures are flush right."""
+    figures = [any(row[i][:1].isdigit() or row[i][:1] in "-–" for row in rows) for i in range(len(columns))]
+    lines = ["| " + " | ".join(columns) + " |", "|" + "".join("---:|" if f else "---|" for f in figures)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def number(value: float | None, digits: str = ".3g") -> str:
+    """Return a figure, an en dash where there is none."""
+    return "–" if value is None or value != value else format(value, digits)
 
 
 def make_page(folder: Path) -> str:
@@ -60,13 +128,13 @@ def make_page(folder: Path) -> str:
         raise InputError(f"{folder}: a study of kind {results.kind!r}: known are {', '.join(CHAPTERS)}.")
     chapter = import_module(f"contactbench.pipeline.study.{CHAPTERS[results.kind]}").make(results, folder)
     text = f"{chapter.rstrip()}\n\n{_origin(results)}\n"
-    _write(folder / PAGE, text.encode())
+    write_file(folder / PAGE, text.encode())
     return text
 
 
-def publish(folder: Path, kind: str, words: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> Path:
+def publish(folder: Path, kind: str, command: str, rows: Sequence[Mapping[str, Any]]) -> Path:
     """
-    Write a study's results, its page and its pictures.
+    Write a study's results, its page and its pictures; returns the page.
 
     Parameters
     ----------
@@ -74,15 +142,10 @@ def publish(folder: Path, kind: str, words: Sequence[str], rows: Sequence[Mappin
         Made if it is not there.
     kind : str
         A key of `CHAPTERS`.
-    words : sequence of str
-        What repeats it, as it is typed after ``contactbench study``.
+    command : str
+        What repeats it, as it is typed.
     rows : sequence of mapping
         See `contactbench.pipeline.study.results.Results`.
-
-    Returns
-    -------
-    Path
-        Of the page.
 
     Raises
     ------
@@ -90,7 +153,7 @@ def publish(folder: Path, kind: str, words: Sequence[str], rows: Sequence[Mappin
         The folder cannot be written.
     """
     make_folder(folder)
-    write_results(folder, kind, shlex.join(["contactbench", "study", *words]), rows, environment())
+    write_results(folder, kind, command, rows, environment())
     make_page(folder)
     return folder / PAGE
 
@@ -124,10 +187,10 @@ def gather(folders: Sequence[Path], out: Path) -> Path:
     for folder, name in zip(folders, names, strict=True):
         chapter = make_page(folder)
         for picture in {found.group(2)[:-1] for found in _PICTURE.finditer(chapter)}:
-            _write(out / f"{name}-{picture}", _read(folder / picture))
+            write_file(out / f"{name}-{picture}", _read(folder / picture))
         chapters.append(_PICTURE.sub(rf"\g<1>{name}-\g<2>", chapter))
     page = out / TOGETHER
-    _write(page, "\n".join([_HEAD, _contents(chapters), *chapters]).encode())
+    write_file(page, "\n".join([_HEAD, _contents(chapters), *chapters]).encode())
     return page
 
 
@@ -170,10 +233,3 @@ def _read(file: Path) -> bytes:
         return file.read_bytes()
     except OSError as error:
         raise InputError(f"{file}: cannot be read ({error}): make the page again.") from error
-
-
-def _write(file: Path, data: bytes) -> None:
-    try:
-        write_durably(file, data)
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error

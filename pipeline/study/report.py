@@ -1,4 +1,4 @@
-"""Figures with their targets: what each study of probe preparation gives, as a table and as plain data."""
+"""What studies and benchmarks report: figures with their targets, and tables."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.durable import make_folder
-from contactbench.pipeline.study.sheets import write_bytes, write_text
+from contactbench.pipeline.durable import make_folder, write_file
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,44 +15,75 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from rich.table import Table
 
-    from contactbench.pipeline.study.sheets import Sheet
 
 _HEADINGS = ("of", "figure", "target", "measured", "spread", "worst")
 
 
+Cell = str | int | float | None
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One table."""
+
+    name: str  # of its file, without ending
+    title: str
+    columns: tuple[str, ...]  # with units
+    rows: tuple[tuple[Cell, ...], ...]  # a NaN is no value
+    # for people too; a long table, or one that every run changes, is only for its file and JSON
+    shown: bool = True
+
+    def csv(self) -> str:
+        """Write it with all digits."""
+        return "\n".join([",".join(self.columns), *(",".join(map(_whole, row)) for row in self.rows)]) + "\n"
+
+    def markdown(self) -> str:
+        """Write it with three digits, under a heading."""
+        lines = [f"## {self.title}", "", _line(self.columns), "|---" * len(self.columns) + "|"]
+        return "\n".join([*lines, *(_line([short(cell) for cell in row]) for row in self.rows)]) + "\n"
+
+    def table(self) -> Table:
+        """Build it for the terminal."""
+        from rich.table import Table
+        from rich.text import Text
+
+        table = Table(title=self.title)
+        for column in self.columns:
+            table.add_column(column)
+        for row in self.rows:
+            table.add_row(*(Text(short(cell)) for cell in row))
+        return table
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return a row as one object by column."""
+        return [dict(zip(self.columns, map(_plain, row), strict=True)) for row in self.rows]
+
+
+def short(cell: Cell) -> str:
+    """Write one cell with three digits; a dash for no value."""
+    if cell is None or (isinstance(cell, float) and not np.isfinite(cell)):
+        return "-"
+    if isinstance(cell, float):
+        if abs(cell) < 5e-4:
+            return "0"
+        return f"{cell:,.0f}" if abs(cell) >= 100 else f"{cell:.2f}" if abs(cell) >= 0.1 else f"{cell:.3f}"
+    return str(cell)
+
+
 @dataclass(frozen=True)
 class Figure:
-    """
-    One measured figure, and what it must reach.
+    """One measured figure, and what it must reach."""
 
-    Attributes
-    ----------
-    subject : str
-        What was measured: a shape, a file, a method.
-    name : str
-    measured : float
-        The headline: the median where there are several values.
-    unit : str
-        Written behind the numbers; "" for ratios and counts.
-    least, most : float or None
-        The target; both None where there is none.
-    spread : (float, float) or None
-        5th and 95th percentile; None for a single value.
-    worst : float or None
-        The value furthest towards missing the target.
-    judged : {"measured", "worst"}
-        Which of them the target is for.
-    """
-
-    subject: str
+    subject: str  # what was measured: a shape, a file, a method
     name: str
-    measured: float
-    unit: str = ""
+    measured: float  # the headline: the median where there are several values
+    unit: str = ""  # written behind the numbers; "" for ratios and counts
+    # least, most: the target; both None where there is none
     least: float | None = None
     most: float | None = None
-    spread: tuple[float, float] | None = None
-    worst: float | None = None
-    judged: Literal["measured", "worst"] = "measured"
+    spread: tuple[float, float] | None = None  # 5th and 95th percentile; None for a single value
+    worst: float | None = None  # the value furthest towards missing the target
+    judged: Literal["measured", "worst"] = "measured"  # which of them the target is for
 
     @classmethod
     def of(
@@ -125,32 +155,17 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Report:
-    """
-    All figures of a study.
-
-    Attributes
-    ----------
-    title : str
-    settings : dict
-        What the figures depend on: counts and seed.
-    figures : tuple of Figure
-    notes : tuple of str
-        What the numbers do not say, in sentences.
-    sheets : tuple of Sheet
-        Tables beside the figures.
-    files : dict of str to bytes
-        More files to write, by name: pictures and recordings.
-    differences : tuple of str
-        Where the set-up differs from the one that the figures are compared with.
-    """
+class StudyReport:
+    """All figures of a study."""
 
     title: str
-    settings: dict[str, Any]
+    settings: dict[str, Any]  # what the figures depend on: counts and seed
     figures: tuple[Figure, ...]
-    notes: tuple[str, ...] = ()
-    sheets: tuple[Sheet, ...] = ()
+    notes: tuple[str, ...] = ()  # what the numbers do not say, in sentences
+    sheets: tuple[Sheet, ...] = ()  # tables beside the figures
+    # more files to write, by name: pictures and recordings
     files: dict[str, bytes] = field(default_factory=dict)
+    # where the set-up differs from the one that the figures are compared with
     differences: tuple[str, ...] = ()
 
     @property
@@ -170,9 +185,9 @@ class Report:
             **{sheet.name: sheet.to_json() for sheet in self.sheets},
         }
 
-    def write(self, out: Path) -> None:
+    def write(self, out: Path, page: str = "report.md") -> None:
         """
-        Write the report as a Markdown file, or, with tables, a folder: report.md, a CSV file a table, and all files.
+        Write the report as a Markdown file, or, with tables, a folder: `page`, a CSV file a table, and all files.
 
         Raises
         ------
@@ -180,15 +195,15 @@ class Report:
             It cannot be written.
         """
         if not self.sheets:
-            write_text(out, self.markdown())
+            write_file(out, self.markdown().encode())
             return
         make_folder(out)
-        write_text(out / "report.md", self.markdown())
+        write_file(out / page, self.markdown().encode())
         for sheet in self.sheets:
-            write_text(out / f"{sheet.name}.csv", sheet.csv())
+            write_file(out / f"{sheet.name}.csv", sheet.csv().encode())
         for name, data in self.files.items():
             make_folder((out / name).parent)
-            write_bytes(out / name, data)
+            write_file(out / name, data)
 
     def table(self) -> Table:
         """Build the table for the terminal; what misses its target is red."""
@@ -239,3 +254,13 @@ def _plain(value: Any) -> Any:
     if isinstance(value, float):
         return value if np.isfinite(value) else None
     return value
+
+
+def _line(cells: tuple[str, ...] | list[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _whole(cell: Cell) -> str:
+    value = _plain(cell)
+    text = "" if value is None else repr(value) if isinstance(value, float) else str(value)
+    return f'"{text}"' if "," in text else text

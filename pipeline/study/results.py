@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -27,28 +27,13 @@ _LIBRARIES = ("numpy", "scipy", "dask", "pyarrow")
 
 @dataclass(frozen=True)
 class Results:
-    """
-    What a study measured.
+    """What a study measured."""
 
-    Attributes
-    ----------
-    kind : str
-        Which study: one that `contactbench.pipeline.study.pages` knows.
-    command : str
-        What repeats it, as it is typed.
-    rows : tuple of dict
-        Plain values; a row has None where others have a figure.
-    environment : dict
-        See `environment`.
-    about : dict
-        Whatever else belongs to it, plain values.
-    """
-
-    kind: str
-    command: str
-    rows: tuple[dict[str, Any], ...]
-    environment: Mapping[str, Any]
-    about: Mapping[str, Any] = field(default_factory=dict)
+    kind: str  # which study: one that `contactbench.pipeline.study.pages` knows
+    command: str  # what repeats it, as it is typed
+    rows: tuple[dict[str, Any], ...]  # plain values; a row has None where others have a figure
+    environment: Mapping[str, Any]  # see `environment`
+    about: Mapping[str, Any] = field(default_factory=dict)  # whatever else belongs to it, plain values
 
 
 def environment(**more: Any) -> dict[str, Any]:
@@ -121,10 +106,7 @@ def write_results(
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd")
     file = folder / RESULTS
-    try:
-        write_durably(file, sink.getvalue().to_pybytes())
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error
+    write_file(file, sink.getvalue().to_pybytes())
     return file
 
 

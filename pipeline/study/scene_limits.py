@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment, MovedScene, Truth
+    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment, TrueSurface
 
 FORCE_N = 7.0
 MOTIONS = {
@@ -43,69 +43,43 @@ _GRAVITY = np.array([0.0, 0.0, -9.80665])
 
 @dataclass(frozen=True, eq=False)
 class Ride:
-    """
-    A probe that is moved beside a moving phantom by given set-points; rows every 5 ms, after a quarter of a period.
+    """A probe that follows set-points beside a moving phantom; rows every 5 ms, after a quarter of a period."""
 
-    Attributes
-    ----------
-    force : (n,)
-        Along the probe's axis, N.
-    angles : (n, 2)
-        In plane and out of plane, degrees.
-    places : (n, 2)
-        Of the contact in S, mm.
-    leans : (n, 2)
-        Of the contact's force against the probe's axis, degrees: what friction adds.
-    inertia : (n, 2)
-        What the sensor reads beside contact and weight: |force|, N, and how far that moves a contact of this force, mm.
-    lag_ms : float
-        By how much later than its set-points the carrier is there.
-    """
-
-    force: NDArray[np.float64]
-    angles: NDArray[np.float64]
-    places: NDArray[np.float64]
+    force: NDArray[np.float64]  # (n,) along the probe's axis, N
+    angles: NDArray[np.float64]  # (n, 2) in plane and out of plane, degrees
+    places: NDArray[np.float64]  # (n, 2) of the contact in S, mm
+    # (n, 2) of the contact's force against the probe's axis, degrees: what friction adds
     leans: NDArray[np.float64]
+    # (n, 2) what the sensor reads beside contact and weight: |force|, N, and how far that moves a contact
+    # of this force, mm
     inertia: NDArray[np.float64]
-    lag_ms: float
+    lag_ms: float  # by how much later than its set-points the carrier is there
 
 
 @dataclass(frozen=True)
 class Effect:
-    """
-    One change of a scene, under one motion, against the scene that it is a change of.
-
-    Attributes
-    ----------
-    motion, change, against : str
-    force, most_force : float
-        N, root mean square and largest difference.
-    angle, most_angle : float
-        Degrees.
-    place, most_place : float
-        mm, of the contact on the probe.
-    lean, most_lean : float
-        Degrees, of the force's direction.
-    lag_ms : float
-        Behind the set-points.
-    """
+    """One change of a scene, under one motion, against the scene that it is a change of."""
 
     motion: str
     change: str
     against: str
+    # force, most_force: N, root mean square and largest difference
     force: float
     most_force: float
+    # angle, most_angle: degrees
     angle: float
     most_angle: float
+    # place, most_place: mm, of the contact on the probe
     place: float
     most_place: float
+    # lean, most_lean: degrees, of the force's direction
     lean: float
     most_lean: float
-    lag_ms: float
+    lag_ms: float  # behind the set-points
 
 
 @dataclass(frozen=True)
-class Inertia:
+class RideInertia:
     """What a sensor reads beside contact and weight; largest: N, and the mm by which it moves a contact of 7 N."""
 
     motion: str
@@ -115,22 +89,47 @@ class Inertia:
 
 
 @dataclass(frozen=True)
-class Report:
+class SceneReport:
     """All that was measured, for one probe and period (s)."""
 
     probe: str
     period: float
     effects: list[Effect]
-    inertia: list[Inertia]
+    inertia: list[RideInertia]
     real_time: dict[str, float]
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
         return asdict(self)
 
+    def sheets(self) -> dict[str, tuple[tuple[str, ...], list[list[str]]]]:
+        """Return each table by its title: names of its columns, and its rows."""
+        effects = [
+            [e.motion, e.change]
+            + [f"{v:.3f}" for v in (e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)]
+            + [f"{v:.2f}" for v in (e.lean, e.most_lean)]
+            + [f"{e.lag_ms:.1f}"]
+            for e in self.effects
+        ]
+        inertia = [[i.motion, i.scene, f"{i.force:.3f}", f"{i.place:.2f}"] for i in self.inertia]
+        times = [[scene, f"{factor:.1f}"] for scene, factor in self.real_time.items()]
+        return {
+            "What a change of the scene changes": (_EFFECTS, effects),
+            "What the sensor reads beside contact and weight": (_INERTIA, inertia),
+            "How fast, with a sample every 5 ms": (_TIMES, times),
+        }
+
+    def markdown(self) -> str:
+        """Return the tables as Markdown."""
+        parts = [f"# What the scenes with a moving phantom leave out: {self.probe}, {self.period:g} s", _HOW]
+        for title, (columns, rows) in self.sheets().items():
+            lines = [columns, ["---"] * len(columns), *rows]
+            parts += [f"## {title}", "\n".join("| " + " | ".join(line) + " |" for line in lines)]
+        return "\n\n".join(parts) + "\n"
+
 
 @dataclass(frozen=True)
-class Change:
+class SceneChange:
     """What a changed scene is compared with, how to make it, and how many places feel its tissue."""
 
     against: str
@@ -138,19 +137,19 @@ class Change:
     places: int = PLACES
 
 
-def changes(truth: Truth) -> dict[str, Change]:
+def changes(truth: TrueSurface) -> dict[str, SceneChange]:
     """Return each scene by what is changed in it."""
 
-    def platform(friction: float = Tissue.friction, places: int = PLACES, **given: Any) -> Change:
+    def platform(friction: float = Tissue.friction, places: int = PLACES, **given: Any) -> SceneChange:
         tissue = Tissue(friction=friction)
-        return Change(
+        return SceneChange(
             AS_IT_IS,
             lambda **more: PlatformScene(truth, tissue=tissue, places=places, **more, **given),
             places,
         )
 
-    def arm(against: str = ARM, **given: Any) -> Change:
-        return Change(against, lambda **more: ArmScene(truth, **more, **given))
+    def arm(against: str = ARM, **given: Any) -> SceneChange:
+        return SceneChange(against, lambda **more: ArmScene(truth, **more, **given))
 
     return {
         AS_IT_IS: platform(),
@@ -177,7 +176,7 @@ def run(
     motions: Sequence[str] = tuple(MOTIONS),
     only: Sequence[str] | None = None,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> SceneReport:
     """
     Ride every changed scene, and compare.
 
@@ -198,7 +197,7 @@ def run(
     known = changes(truth)
     chosen = list(known) if only is None else _with_bases(only, known)
     effects: list[Effect] = []
-    inertia: list[Inertia] = []
+    inertia: list[RideInertia] = []
     factors: dict[str, float] = {}
     for motion in motions:
         rides: dict[str, Ride] = {}
@@ -212,8 +211,8 @@ def run(
                 effects.append(_effect(motion, change, each.against, rides))
             if change in (AS_IT_IS, ARM):
                 most = rides[change].inertia.max(axis=0)
-                inertia.append(Inertia(motion, change, float(most[0]), float(most[1])))
-    return Report(probe, period, effects, inertia, factors)
+                inertia.append(RideInertia(motion, change, float(most[0]), float(most[1])))
+    return SceneReport(probe, period, effects, inertia, factors)
 
 
 def ride(
@@ -223,7 +222,7 @@ def ride(
     period: float,
     depth: float,
     *,
-    seen: Callable[[Moment], None] = lambda _: None,
+    seen: Callable[[SceneMoment], None] = lambda _: None,
 ) -> tuple[Ride, float]:
     """
     Move a probe beside a phantom for a period and a quarter; return what was met, and simulated over real time.
@@ -259,7 +258,7 @@ def ride(
     ), scene.time / spent
 
 
-def _row(scene: MovedScene, moment: Moment) -> list[float]:
+def _row(scene: MovedScene, moment: SceneMoment) -> list[float]:
     angles = np.degrees(scene.angles())
     # Of the payload, as MuJoCo has it: what is read beside contact and weight is inertia.
     body = scene.model.body("probe").id
@@ -278,7 +277,7 @@ def _row(scene: MovedScene, moment: Moment) -> list[float]:
     ]
 
 
-def _with_bases(only: Sequence[str], known: dict[str, Change]) -> list[str]:
+def _with_bases(only: Sequence[str], known: dict[str, SceneChange]) -> list[str]:
     wanted = set(only)
     for change in only:
         base = known[change].against
@@ -321,33 +320,3 @@ _HOW = (
     f"Set-points from the truth follow {_SHARE:.0%} of the phantom's motion, {FORCE_N:g} N. Differences are against the"
     " platform as it is; those of the arm's own settings against the arm as it is."
 )
-
-
-def sheets(report: Report) -> dict[str, tuple[tuple[str, ...], list[list[str]]]]:
-    """Return each table by its title: names of its columns, and its rows."""
-    effects = [
-        [e.motion, e.change]
-        + [f"{v:.3f}" for v in (e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)]
-        + [f"{v:.2f}" for v in (e.lean, e.most_lean)]
-        + [f"{e.lag_ms:.1f}"]
-        for e in report.effects
-    ]
-    inertia = [[i.motion, i.scene, f"{i.force:.3f}", f"{i.place:.2f}"] for i in report.inertia]
-    times = [[scene, f"{factor:.1f}"] for scene, factor in report.real_time.items()]
-    return {
-        "What a change of the scene changes": (_EFFECTS, effects),
-        "What the sensor reads beside contact and weight": (_INERTIA, inertia),
-        "How fast, with a sample every 5 ms": (_TIMES, times),
-    }
-
-
-def markdown(report: Report) -> str:
-    """Return the tables as Markdown."""
-    parts = [
-        f"# What the scenes with a moving phantom leave out: {report.probe}, {report.period:g} s",
-        _HOW,
-    ]
-    for title, (columns, rows) in sheets(report).items():
-        lines = [columns, ["---"] * len(columns), *rows]
-        parts += [f"## {title}", "\n".join("| " + " | ".join(line) + " |" for line in lines)]
-    return "\n\n".join(parts) + "\n"

@@ -13,17 +13,20 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise, methods
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
-from contactbench.pipeline.study.sweep.judging import bound_of
+from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.study.pages import table
+from contactbench.pipeline.study.sweep.scores import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
+    from rich.table import Table
 
     from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.simulation import Touches
 
 DEFAULT_FACETS = (500, 1_000, 20_000, 100_000)
@@ -36,41 +39,29 @@ _PAST_M, _MISSED = 1e-6, 1e30  # behind a hit the next ray begins; Embree's dist
 
 
 @dataclass(frozen=True)
-class Row:
-    """One method on one mesh.
+class SpeedRow:
+    """One method on one mesh."""
 
-    Attributes
-    ----------
-    method, language : str
-        ``C++``: compiled solves in a batch; ``Python``: one call at a time; ``Python, batch``: 500 in one call.
-    facets : int
-    timing : Timing
-        Nanoseconds a solve.
-    mean_mm, p95_mm, max_mm : float or None
-        Error against the true surface, over touches that got a point; None where only time was measured.
-    over_bound : float or None
-        Root mean square error over the noise bound's, over settled touches.
-    settled : float or None
-        Share of touches whose answer was accepted: without doubt, or because of the declared lens. Rivals know no
-        doubt.
-    answered : float or None
-        Share of touches that got a point.
-    """
-
+    # method, language: ``C++``: compiled solves in a batch; ``Python``: one call at a time; ``Python,
+    # batch``: 500 in one call
     method: str
     language: str
     facets: int
-    timing: Timing
+    timing: Timing  # nanoseconds a solve
+    # mean_mm, p95_mm, max_mm: error against the true surface, over touches that got a point; None where
+    # only time was measured
     mean_mm: float | None = None
     p95_mm: float | None = None
     max_mm: float | None = None
-    over_bound: float | None = None
+    over_bound: float | None = None  # root mean square error over the noise bound's, over settled touches
+    # share of touches whose answer was accepted: without doubt, or because of the declared lens. Rivals
+    # know no doubt.
     settled: float | None = None
-    answered: float | None = None
+    answered: float | None = None  # share of touches that got a point
 
 
 @dataclass(frozen=True)
-class Target:
+class SpeedTarget:
     """A figure to reach: measured against its limit."""
 
     name: str
@@ -83,6 +74,12 @@ class Target:
         """Whether the measured figure is within the limit."""
         return self.measured >= self.limit if self.at_least else self.measured <= self.limit
 
+    @property
+    def cells(self) -> list[str]:
+        """It as a row of a table."""
+        limit = f"{'at least' if self.at_least else 'at most'} {self.limit:g}"
+        return [self.name, f"{self.measured:.3g}", limit, "met" if self.met else "missed"]
+
 
 @dataclass(frozen=True)
 class SpeedReport:
@@ -91,8 +88,8 @@ class SpeedReport:
     probe: str
     seed: int
     touches: int
-    rows: list[Row]
-    targets: list[Target]
+    rows: list[SpeedRow]
+    targets: list[SpeedTarget]
     stream_samples: int
     stream_differences: int
 
@@ -102,6 +99,38 @@ class SpeedReport:
         for entry, target in zip(data["targets"], self.targets, strict=True):
             entry["met"] = target.met
         return data
+
+    @property
+    def passed(self) -> bool:
+        """Whether tracking and cold solves never differed."""
+        return not self.stream_differences
+
+    def tables(self) -> list[Table]:
+        """Return the measurements, the targets and the stream comparison for a terminal."""
+        title = f"{self.probe}, {self.touches:,} touches, seed {self.seed}"
+        measured = _table(title, _COLUMNS, [_cells(row) for row in self.rows])
+        targets = _table("Ratios, all from this run", _TARGETS, [target.cells for target in self.targets])
+        targets.caption = self._stream
+        return [measured, targets]
+
+    def markdown(self) -> str:
+        """Return the same as Markdown."""
+        parts = [
+            f"# Speed against error: {self.probe}",
+            f"{self.touches:,} touches, seed {self.seed}. {self._stream}",
+            table(_COLUMNS, [_cells(row) for row in self.rows]),
+            table(_TARGETS, [target.cells for target in self.targets]),
+        ]
+        return "\n\n".join(parts) + "\n"
+
+    @property
+    def _stream(self) -> str:
+        if not self.stream_samples:
+            return "Tracking was not compared with cold solves."
+        return (
+            f"Tracking differed from cold solves on {self.stream_differences} samples"
+            f" of a {self.stream_samples:,}-sample stream, over all resolutions."
+        )
 
 
 def run(
@@ -152,11 +181,11 @@ def run(
     truth = draw_touches(assets.surface(probe), touches, rng, above=0.02)
     wrenches = add_noise(truth.wrenches, noise, rng)
     sliding = add_noise(draw_slide(assets.surface(probe), max(stream, 20_000), rng).wrenches, noise, rng)
-    rows: list[Row] = []
+    rows: list[SpeedRow] = []
     differences = 0
     for count in facets:
         progress(f"{count:,} facets")
-        body = _probe(probe, count)
+        body = model_of(probe, count)
         rows += _compiled_rows(body, noise, truth, wrenches, sliding)
         rows += _python_rows(body, noise, wrenches, sliding, rounds)
         if stream:
@@ -195,18 +224,13 @@ def _followed(accepted: NDArray[np.bool_], points: NDArray[np.float64], recent: 
     return np.where(known[:, None], points[np.maximum(before, 0)], np.nan)
 
 
-def _probe(name: str, facets: int) -> Probe:
-    vertices, faces = assets.make(name, facets)
-    return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
-
-
 def _compiled_rows(
     probe: Probe,
     noise: WrenchNoise,
     truth: Touches,
     wrenches: NDArray[np.float64],
     sliding: NDArray[np.float64],
-) -> list[Row]:
+) -> list[SpeedRow]:
     rows = []
     bound = bound_of(truth, np.sqrt(np.diag(noise.covariance)))
     for name in ("algorithm1", "iterative", "scan", "contactbench"):
@@ -219,7 +243,7 @@ def _compiled_rows(
         if name == "contactbench":
             method.engine.time_tracking(sliding[:1_000])
             tracking = Timing.of(method.engine.time_tracking(sliding[:20_000]))
-            rows.append(Row("contactbench, tracking", "C++", len(probe.faces), tracking))
+            rows.append(SpeedRow("contactbench, tracking", "C++", len(probe.faces), tracking))
     return rows
 
 
@@ -231,14 +255,14 @@ def _scored(
     truth: Touches,
     wrenches: NDArray[np.float64],
     bound: NDArray[np.float64],
-) -> Row:
+) -> SpeedRow:
     batch = method.locate_batch(wrenches)
     error = np.linalg.norm(batch.points - truth.points, axis=1)
     seen = np.isfinite(error)
     settled = batch.accepted
     limit = np.sqrt(np.mean(bound[settled]))
     mm = 1e3 * error[seen]
-    return Row(
+    return SpeedRow(
         method.name,
         language,
         len(probe.faces),
@@ -254,7 +278,7 @@ def _scored(
 
 def _python_rows(
     probe: Probe, noise: WrenchNoise, wrenches: NDArray[np.float64], sliding: NDArray[np.float64], rounds: int
-) -> list[Row]:
+) -> list[SpeedRow]:
     solver = ContactSolver(probe, noise)
     cold, stream = list(wrenches[:5_000]), list(sliding[:20_000])
     calls: dict[str, tuple[Callable[[Any], object], Sequence[Any]]] = {
@@ -277,10 +301,12 @@ def _python_rows(
         together["embree, first hit"] = (lambda ray: trace(ray[0], ray[1]), many)
         together["embree, every hit"] = (lambda ray: every_hit(axis, ray[0], ray[1]), many)
     size = len(probe.faces)
-    rows = [Row(name, "Python", size, timing) for name, timing in time_calls(calls, rounds=rounds).items()]
+    rows = [
+        SpeedRow(name, "Python", size, timing) for name, timing in time_calls(calls, rounds=rounds).items()
+    ]
     for name, timing in time_calls(together, rounds=rounds, block=2).items():
         each = Timing(timing.median / _TOGETHER, timing.p99 / _TOGETHER)
-        rows.append(Row(name, _BATCH, size, each))
+        rows.append(SpeedRow(name, _BATCH, size, each))
     return rows
 
 
@@ -309,7 +335,7 @@ def every_hit(
     return np.concatenate(rays), np.concatenate(distances)
 
 
-def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
+def _targets(rows: Sequence[SpeedRow], facets: Sequence[int]) -> list[SpeedTarget]:
     median = {(r.method, r.language, i): r.timing.median for r, i in _indexed(rows, facets)}
     targets = []
     for count in facets:
@@ -317,30 +343,87 @@ def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
         if embree:
             cold = median["contactbench", "Python", count] / embree
             tracking = median["contactbench, tracking", "Python", count] / embree
-            targets.append(Target(f"locate over one Embree ray, from Python, {count:,} facets", cold, 1.5))
-            targets.append(Target(f"track over one Embree ray, from Python, {count:,} facets", tracking, 0.7))
+            targets.append(
+                SpeedTarget(f"locate over one Embree ray, from Python, {count:,} facets", cold, 1.5)
+            )
+            targets.append(
+                SpeedTarget(f"track over one Embree ray, from Python, {count:,} facets", tracking, 0.7)
+            )
         ratio = median["algorithm1", "C++", count] / median["contactbench", "C++", count]
         limit = {500: 30.0, 20_000: 400.0}.get(count)
         if limit:
             targets.append(
-                Target(f"Algorithm 1 over contactbench, C++, {count:,} facets", ratio, limit, at_least=True)
+                SpeedTarget(
+                    f"Algorithm 1 over contactbench, C++, {count:,} facets", ratio, limit, at_least=True
+                )
             )
     if 1_000 in facets and 100_000 in facets:
         for method, limit in (("contactbench", 6.0), ("contactbench, tracking", 2.5)):
             for language in ("C++", "Python"):
                 growth = median[method, language, 100_000] / median[method, language, 1_000]
                 targets.append(
-                    Target(f"growth of {method} from 1k to 100k facets, {language}", growth, limit)
+                    SpeedTarget(f"growth of {method} from 1k to 100k facets, {language}", growth, limit)
                 )
     for r, count in _indexed(rows, facets):
         if r.method.startswith("contactbench") and r.language != _BATCH:
             spread = r.timing.p99 / r.timing.median
             targets.append(
-                Target(f"p99 over median of {r.method}, {r.language}, {count:,} facets", spread, 4.0)
+                SpeedTarget(f"p99 over median of {r.method}, {r.language}, {count:,} facets", spread, 4.0)
             )
     return targets
 
 
-def _indexed(rows: Sequence[Row], facets: Sequence[int]) -> list[tuple[Row, int]]:
+def _indexed(rows: Sequence[SpeedRow], facets: Sequence[int]) -> list[tuple[SpeedRow, int]]:
     """Pair each row with the requested facet count its mesh came nearest to."""
     return [(r, min(facets, key=lambda count: abs(count - r.facets))) for r in rows]
+
+
+# ---- as text ---------------------------------------------------------------------------------------
+
+_COLUMNS = (
+    "method",
+    "from",
+    "facets",
+    "median µs",
+    "p99 µs",
+    "mean mm",
+    "p95 mm",
+    "max mm",
+    "rms/bound, settled",
+    "settled %",
+    "answered %",
+)
+_TARGETS = ("figure", "measured", "target", "")
+
+
+def _cells(row: SpeedRow) -> list[str]:
+    def number(value: float | None, digits: str = ".2f") -> str:
+        return "" if value is None else format(value, digits)
+
+    def percent(value: float | None) -> str:
+        return number(None if value is None else 100 * value, ".1f")
+
+    return [
+        row.method,
+        row.language,
+        f"{row.facets:,}",
+        f"{row.timing.median / 1e3:.3g}",
+        f"{row.timing.p99 / 1e3:.3g}",
+        number(row.mean_mm),
+        number(row.p95_mm),
+        number(row.max_mm, ".1f"),
+        number(row.over_bound),
+        percent(row.settled),
+        percent(row.answered),
+    ]
+
+
+def _table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    from rich.table import Table
+
+    built = Table(title=title)
+    for i, column in enumerate(columns):
+        built.add_column(column, justify="left" if i == 0 else "right")
+    for row in rows:
+        built.add_row(*row)
+    return built

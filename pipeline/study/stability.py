@@ -19,9 +19,8 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, chapter, png
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from rich.table import Table
 
-    from contactbench.pipeline.study.hard_meshes import Body, Bools, Float, Ints, Long
+    from contactbench.pipeline.study.hard_meshes import Bools, Float, Ints, Long, SolidBody
     from contactbench.pipeline.study.results import Results
 
 KIND = "stability"
@@ -135,7 +134,7 @@ class StabilityReport:
             "rows": [row.to_json() for row in self.rows],
         }
 
-    def table(self) -> Table:
+    def tables(self) -> list[Table]:
         """Build the figures for a terminal; what broke a bound is red."""
         from rich.table import Table
 
@@ -146,11 +145,7 @@ class StabilityReport:
             case, figure, *_, worst, _, bound, kept = _line(group)
             built.add_row(case, figure, worst, bound, kept, style="" if kept in ("", "kept") else "red")
         built.caption = "--out or --json gives every figure"
-        return built
-
-    def markdown(self) -> str:
-        """Write the tables as Markdown."""
-        return "\n\n".join(f"### {title}\n\n{text}" for title, text in tables(self.rows)) + "\n"
+        return [built]
 
 
 def run(
@@ -169,7 +164,6 @@ def run(
         Bundled probes, or prepared files in S.
     samples : int
         Touches of each figure, at least 50.
-    seed : int
     progress : callable
         Told in words what is being measured.
 
@@ -198,7 +192,7 @@ def run(
 # ---- the parts -----------------------------------------------------------------------------------------
 
 
-def _condition(title: str, body: Body, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
+def _condition(title: str, body: SolidBody, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
     for angle in (0.0, 30.0, 60.0, 75.0):
         touches = touch(body, samples, rng, angle=np.full(samples, angle))
         normals = body.normals[touches.faces].astype(np.float64)
@@ -206,7 +200,7 @@ def _condition(title: str, body: Body, samples: int, rng: np.random.Generator) -
         yield StabilityRow.of("amplification", title, PREDICTED, CONDITION, "m", values, x=angle, axis=ANGLE)
 
 
-def _rounding(title: str, body: Body, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
+def _rounding(title: str, body: SolidBody, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
     """Turn the force towards the facet; the literal Algorithm 1 answers beside the solver, and is not judged."""
     solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     literal = methods.algorithm1(body.probe(), QUIET, OPEN)
@@ -230,7 +224,7 @@ def roundoffs(
     part: str,
     case: str,
     by: str,
-    body: Body,
+    body: SolidBody,
     touches: FacetTouches,
     answers: tuple[Float, Ints, Ints],
     *,
@@ -255,7 +249,7 @@ def roundoffs(
     ]
 
 
-def _edges(title: str, body: Body, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
+def _edges(title: str, body: SolidBody, samples: int, rng: np.random.Generator) -> Iterator[StabilityRow]:
     """Count what is refused at a sharp rim because rounding names the facet on its other side."""
     solver = ContactSolver(body.probe(), QUIET, Gates(), EXACT)
     for power in range(3, 16, 3):
@@ -290,7 +284,7 @@ class FacetTouches:
 
 
 def touch(
-    body: Body,
+    body: SolidBody,
     count: int,
     rng: np.random.Generator,
     *,
@@ -321,7 +315,7 @@ def touch(
     return FacetTouches(drawn.wrenches, drawn.points, chosen)
 
 
-def next_to(body: Body, place: str, near: float, samples: int, rng: np.random.Generator) -> FacetTouches:
+def next_to(body: SolidBody, place: str, near: float, samples: int, rng: np.random.Generator) -> FacetTouches:
     """Press at this share of the edge's length from an edge or a vertex, up to 45 degrees from the normal."""
     along = rng.uniform(0.2, 0.8, samples)
     if place == "edge":
@@ -333,7 +327,7 @@ def next_to(body: Body, place: str, near: float, samples: int, rng: np.random.Ge
     return touch(body, samples, rng, shares=shares, angle=(0.0, 45.0))
 
 
-def answers_on(body: Body, faces: Ints, wrenches: Float) -> Long:
+def answers_on(body: SolidBody, faces: Ints, wrenches: Float) -> Long:
     """Return where wrenches (n, 6) put the contact on the planes of `faces` (n,), long double, m."""
     F, M = np.split(wrenches.astype(np.longdouble), 2, axis=1)
     n, a = body.areas[faces], body.corners[faces, 0]
@@ -341,7 +335,7 @@ def answers_on(body: Body, faces: Ints, wrenches: Float) -> Long:
     return np.asarray((np.cross(n, M) + np.einsum("ni,ni->n", n, a)[:, None] * F) / along)
 
 
-def errors(body: Body, points: Float, faces: Ints, vertices: Ints, wrenches: Float) -> Float:
+def errors(body: SolidBody, points: Float, faces: Ints, vertices: Ints, wrenches: Float) -> Float:
     """
     Return how far answers (n, 3), m, are from the exact solution on the facet or vertex that they name, m.
 
@@ -367,13 +361,13 @@ def condition(normals: Float, points: Float, wrenches: Float) -> Float:
     return np.asarray((by_force * force + torque) / along)  # |[n]x| = 1
 
 
-def reach(body: Body) -> float:
+def reach(body: SolidBody) -> float:
     """Return the largest distance of a vertex from the sensor origin, m: what the mesh's own rounding is worth."""
     used: Float = body.vertices[np.unique(body.faces)]
     return float(np.linalg.norm(used, axis=1).max())
 
 
-def slenderness(body: Body) -> Float:
+def slenderness(body: SolidBody) -> Float:
     """Return the longest edge over the height of each facet (m,)."""
     edges = body.corners - np.roll(body.corners, -1, axis=1)
     longest = np.einsum("fei,fei->fe", edges, edges).max(axis=1)
@@ -391,10 +385,10 @@ def _skew(v: Float) -> Float:
 
 
 @lru_cache
-def body_of(name: str, facets: int = _FACETS) -> Body:
+def body_of(name: str, facets: int = _FACETS) -> SolidBody:
     """Return a bundled probe of about so many facets, or a file's own mesh; InputError."""
     probe = mesh_of(name, file_facets(name) or facets)
-    return hm.Body(np.asarray(probe.vertices), probe.faces.astype(np.int64))
+    return hm.SolidBody(np.asarray(probe.vertices), probe.faces.astype(np.int64))
 
 
 def title_of(name: str) -> str:

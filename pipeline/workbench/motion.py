@@ -21,7 +21,7 @@ from typing import IO, TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from contactbench.pipeline.control.frames import Beginning, Frame, read_line
+from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ class MotionRun:
     ----------
     beginning : Beginning or None
         None: it has not begun.
-    newest : Frame or None
+    newest : LoopFrame or None
     outcome : dict or None
         What ``contactbench bench control run --json`` says at the end.
 
@@ -159,9 +159,9 @@ class MotionRun:
     def __init__(self, bundle: Path, choice: MotionChoice) -> None:
         self.choice = choice
         self.beginning: Beginning | None = None
-        self.newest: Frame | None = None
+        self.newest: LoopFrame | None = None
         self.outcome: dict[str, Any] | None = None
-        self._frames: deque[Frame] = deque(maxlen=_KEPT)
+        self._frames: deque[LoopFrame] = deque(maxlen=_KEPT)
         self._arrived: deque[tuple[float, float]] = deque(maxlen=_PACE_FRAMES)
         self._changes: list[Change] = []
         self._failure = ""
@@ -255,10 +255,10 @@ class MotionRun:
         if self.outcome is None and not self._failure:
             self._failure = self._last_words() or f"the virtual robot ended with code {code}."
 
-    def _take(self, told: Beginning | Frame | dict[str, Any]) -> None:
+    def _take(self, told: Beginning | LoopFrame | dict[str, Any]) -> None:
         if isinstance(told, Beginning):
             self.beginning = told
-        elif isinstance(told, Frame):
+        elif isinstance(told, LoopFrame):
             self._frames.append(told)
             self._arrived.append((time.monotonic(), told.time_s))
             self.newest = told
@@ -275,7 +275,7 @@ class MotionRun:
         return ""
 
 
-def placed(beginning: Beginning, frame: Frame) -> Placed:
+def placed(beginning: Beginning, frame: LoopFrame) -> Placed:
     """Return where things are in a frame."""
     R_BS = np.array(frame.R_BS).reshape(3, 3)
     sensor = np.array(frame.sensor_B_m)

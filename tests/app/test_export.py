@@ -11,7 +11,7 @@ from contactbench.app.bench import Bench, Weight
 from contactbench.app.pages.export import ExportPage
 from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import RuntimeConfig
-from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk

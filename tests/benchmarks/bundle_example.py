@@ -26,14 +26,14 @@ from contactbench.pipeline.config.runtime.model import (
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
-from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.simulation.loads import weigh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

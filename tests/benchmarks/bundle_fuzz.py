@@ -18,7 +18,7 @@ from benchmarks.bundle_mutations import Mutant, mutant
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.pack import read_zip
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -40,7 +40,7 @@ def mutants(count: int, seed: int = 0) -> Iterator[Mutant]:
         yield mutant(sound, plain, other, rng)
 
 
-def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> Report:
+def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> StudyReport:
     """Load mutated bundles."""
     sound = _bases()
     outcomes: Counter[str] = Counter()
@@ -84,7 +84,7 @@ def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> Report:
         "Another valid config: a number was changed and every hash made anew, by somebody who may do that."
     )
     settings = {"kinds": len(kinds), "seed": seed}
-    return Report("Mutated bundles", settings, figures, (other, *failures[:20]))
+    return StudyReport("Mutated bundles", settings, figures, (other, *failures[:20]))
 
 
 def _bases() -> tuple[dict[str, bytes], dict[str, bytes]]:

@@ -20,7 +20,7 @@ from benchmarks.trials import in_processes, share
 
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -305,7 +305,7 @@ def run(
     workers: int | None = None,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Measure every cell."""
     if sets < 20 or seed < 0:
         raise InputError(f"{sets} sets, seed {seed}: give at least 20 sets and a seed of at least 0")
@@ -325,7 +325,7 @@ def run(
         if len(trials[name]) == sets:
             progress(f"{done} of {len(jobs)} blocks: {name}")
     figures = tuple(figure for cell in chosen for figure in figures_of(cell, trials[cell.name]))
-    return Report("Calibration doubt", {"sets": sets, "seed": seed}, figures)
+    return StudyReport("Calibration doubt", {"sets": sets, "seed": seed}, figures)
 
 
 def _block(job: tuple[int, int, range]) -> tuple[str, list[Trial]]:

@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 from benchmarks.trials import in_processes
 
 from contactbench import assets
-from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import foundation_of, make_rig
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -98,7 +98,7 @@ class End:
     @property
     def safe(self) -> bool:
         """Whether it stands still, away from the tissue, and never pressed too hard."""
-        return self.ended == State.SAFE and self.peak <= OVER * self.limit
+        return self.ended == ControlState.SAFE and self.peak <= OVER * self.limit
 
 
 def draw(number: int, seed: int = 0) -> Start:
@@ -157,12 +157,17 @@ def run_start(start: Start) -> End:
     )
     try:
         trace = run_loop(
-            rig.scene, rig.controller, rig.sensor, _END_S, faults=start.faults, stop_after=_STOP_S
+            rig.scene,
+            rig.controller,
+            rig.sensor,
+            _END_S,
+            line=FaultyLine(start.faults).carry,
+            stop_after=_STOP_S,
         )
     except PhysicsError:
         nothing = float("nan")
         return End(start, nothing, settings.max_force, "physics", tracked=False, force=nothing, tilt=nothing)
-    tracking = trace.was(State.TRACK)
+    tracking = trace.was(ControlState.TRACK)
     tracked = bool(tracking.any())
     began = float(trace.time[tracking][0]) if tracked else 0.0
     later = trace.tilt[tracking & (trace.time > began + 1.0)]
@@ -184,7 +189,7 @@ def run(
     seed: int = 0,
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> Report:
+) -> StudyReport:
     """Run many random starts, a fifth with each kind of fault and a fifth with none."""
     if not 1 <= runs <= 1_000_000:
         raise InputError(f"{runs} runs: give 1 to 1,000,000.")
@@ -196,7 +201,7 @@ def run(
     return report_of(ends, {"runs": runs, "seed": seed})
 
 
-def report_of(ends: list[End], settings: dict[str, object]) -> Report:
+def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:
     """Judge all ends: the force never 20 % over its limit, and each in a safe state."""
     figures = []
     for fault in (_NONE, *map(str, FaultKind)):
@@ -207,7 +212,11 @@ def report_of(ends: list[End], settings: dict[str, object]) -> Report:
         figures += [
             Figure.of(fault, "largest force, of the limit", over, "%", most=100 * OVER, judged="worst"),
             Figure(
-                fault, "ended safe", 100 * float(np.mean([e.ended == State.SAFE for e in mine])), "%", 100
+                fault,
+                "ended safe",
+                100 * float(np.mean([e.ended == ControlState.SAFE for e in mine])),
+                "%",
+                100,
             ),
             Figure(fault, "had tracked before", 100 * float(np.mean([end.tracked for end in mine])), "%"),
         ]
@@ -229,4 +238,4 @@ def report_of(ends: list[End], settings: dict[str, object]) -> Report:
         f"A bias jump of b moves the true force by b and no controller with this one sensor can see it; up to"
         f" {_JUMP_N:g} N and {_JUMP_NM:g} N·m an axis were drawn."
     )
-    return Report("study control-safety", dict(settings), tuple(figures), tuple(notes))
+    return StudyReport("study control-safety", dict(settings), tuple(figures), tuple(notes))

@@ -11,16 +11,16 @@ import numpy as np
 from contactbench import assets
 from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
     from contactbench.pipeline.study.control_rig import SceneName
 
@@ -36,7 +36,7 @@ def run(
     seconds: float = 30.0,
     seed: int = 0,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> Report:
+) -> StudyReport:
     """
     Run the closed loop on the quickest motion, and time it.
 
@@ -54,7 +54,7 @@ def run(
     for variant in Variant:
         figures += _timed(world, probe, variant, seconds, seed, progress)
     told: dict[str, object] = {"scene": scene, "probe": probe, "seconds": seconds, "seed": seed}
-    return Report("study control-speed", told, tuple(figures), (_NOTE,))
+    return StudyReport("study control-speed", told, tuple(figures), (_NOTE,))
 
 
 def _timed(
@@ -70,7 +70,7 @@ def _timed(
     rig = make_rig(scene, probe, settings, seed, tissue=Tissue(friction=0.1), motion=motion)
     told = round(seconds)
 
-    def watch(_command: Command, loop: Loop) -> None:
+    def watch(_command: ControlCommand, loop: Loop) -> None:
         if loop.scene.time % 1.0 < settings.period:
             progress(min(round(loop.scene.time), told), told)
 
@@ -86,7 +86,7 @@ def _timed(
         Figure(subject, "... of the processor's time alone", float(np.percentile(worked, 99)), "ms"),
         Figure(subject, "scene and controller, times real time", done / wall, least=LEAST_TIMES),
         Figure(subject, "... by processor time alone", done / own),
-        Figure(subject, "time in track", 100 * float(trace.was(State.TRACK).mean()), "%"),
+        Figure(subject, "time in track", 100 * float(trace.was(ControlState.TRACK).mean()), "%"),
     ]
 
 

@@ -15,7 +15,7 @@ from contactbench.pipeline.devices.emulate import Fault
 from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -49,7 +49,7 @@ def run(
     trials: int = 300,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Play every fault to every protocol, and judge what was shown, what came back and what was made up."""
     if trials < 1:
         raise InputError("give a number of trials above 0.")
@@ -57,7 +57,7 @@ def run(
     progress(f"suspicion of a re-zero: {trials} trials")
     figures = (*_figures(measured.outcomes), *rezero_figures(trials, seed))
     settings = {"cases": len(measured.outcomes), "trials": trials, "seed": seed}
-    return Report("Faults on live lines", settings, figures, _notes(measured))
+    return StudyReport("Faults on live lines", settings, figures, _notes(measured))
 
 
 def measure(

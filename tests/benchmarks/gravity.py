@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_noise, draw_weighing
 
 from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
 from contactbench.pipeline.calibration.fit import parameter_covariance
@@ -17,15 +18,8 @@ from contactbench.pipeline.calibration.reachable import by_robot
 from contactbench.pipeline.calibration.suggest import plan_error, plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.weighing import (
-    Weighing,
-    bump,
-    draw_load,
-    draw_noise,
-    draw_weighing,
-    weigh,
-)
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.simulation.loads import Weighing, bump, draw_load, weigh
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.timing import time_calls
 
 if TYPE_CHECKING:
@@ -36,7 +30,9 @@ if TYPE_CHECKING:
     Draw = Callable[[np.random.Generator, int], NDArray[np.float64]]
 
 
-def run(*, trials: int = 2000, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(
+    *, trials: int = 2000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
+) -> StudyReport:
     """Measure every figure."""
     if trials < 20 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 20 trials and a seed of at least 0")
@@ -51,7 +47,7 @@ def run(*, trials: int = 2000, seed: int = 0, progress: Callable[[str], None] = 
     ):
         progress(say)
         figures += part(trials, seed)
-    return Report("Gravity calibration", {"trials": trials, "seed": seed}, tuple(figures))
+    return StudyReport("Gravity calibration", {"trials": trials, "seed": seed}, tuple(figures))
 
 
 # ---- efficiency and coverage -------------------------------------------------------------------

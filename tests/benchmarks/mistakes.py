@@ -19,8 +19,8 @@ from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientatio
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_load, weigh
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.simulation.loads import draw_load, weigh
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -342,7 +342,7 @@ def _diagnosed(made: Recorded, load: GravityModel | None, noise: PoseNoise | Non
     return diagnose(poses, noise, prior=prior, raw=made.raw)
 
 
-def run(*, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(*, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> StudyReport:
     """Diagnose random sets with each mistake, and clean ones."""
     if trials < 1 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 1 trial and a seed of at least 0")
@@ -356,7 +356,7 @@ def run(*, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = l
         figures += _figures(name, count, blind)
         if count.instead:
             notes.append(f"{name}: first instead: {dict(count.instead.most_common(3))}.")
-    return Report("Mistakes", {"trials": trials, "seed": seed}, tuple(figures), tuple(notes))
+    return StudyReport("Mistakes", {"trials": trials, "seed": seed}, tuple(figures), tuple(notes))
 
 
 def _figures(name: str, count: Count, blind: Count) -> list[Figure]:

@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import Brush, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.timing import Timing
 from contactbench.pipeline.workbench.regions import RegionsWork
 
@@ -60,7 +60,7 @@ def run(
     events: int = 30,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Draw strokes over a bundled probe, and time each event."""
     if probe not in assets.PROBE_NAMES:
         raise InputError(
@@ -78,7 +78,7 @@ def run(
         progress(f"a brush of {1000 * radius:g} mm")
         rows.append(_row(work, radius, [_path(work, events, rng) for _ in range(strokes)]))
     figures = tuple(figure for row in rows for figure in row.figures())
-    return Report("Painting", {"probe": probe, "facets": len(body.faces), "seed": seed}, figures)
+    return StudyReport("Painting", {"probe": probe, "facets": len(body.faces), "seed": seed}, figures)
 
 
 Picks = list[tuple[int, "NDArray[np.float64]"]]

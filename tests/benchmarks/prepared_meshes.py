@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet
+from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 from . import shapes as catalogue
 from .contact_error import ContactError, distances, draw_touches, locate, visible_points
@@ -27,7 +26,7 @@ from .stranger import look, normal_deviations, read_prepared, sample
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.study.sheets import Cell
+    from contactbench.pipeline.study.report import Cell
 
     from .shapes import Shape
     from .stranger import Prepared
@@ -238,7 +237,7 @@ def run(
     folder: Path | None = None,
     command: Path = _COMMAND,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Prepare each shape, all of them unless told otherwise; their files stay in the folder, if there is one."""
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
@@ -253,7 +252,7 @@ def run(
         "prepared max mm", "turned °", "error/bound", "on exact", "sure %", "sure on exact %", "astray %", "misses",
     )  # fmt: skip
     sheet = Sheet("shapes", "Prepared meshes", columns, tuple(map(_cells, rows)))
-    return Report("Prepared meshes", {"shapes": len(rows)}, figures, (), (sheet,))
+    return StudyReport("Prepared meshes", {"shapes": len(rows)}, figures, (), (sheet,))
 
 
 def _cells(row: Row) -> tuple[Cell, ...]:

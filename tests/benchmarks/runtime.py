@@ -22,7 +22,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,7 +46,7 @@ def run(
     facets: int = 20_000,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Measure the Python runtime."""
     if not seconds >= 1 or not minutes > 0:
         raise InputError("give at least 1 second, and a number of minutes above 0.")
@@ -68,7 +68,7 @@ def run(
         "From a frame's first byte given to the line to its contact in the reading process, lines written to a file"
         " and datagrams sent meanwhile. How late the machine itself wakes an idle process is a floor for that."
     )
-    return Report("Runtime", settings, tuple(figures), (note,))
+    return StudyReport("Runtime", settings, tuple(figures), (note,))
 
 
 # ---- how late a contact is ---------------------------------------------------------------------

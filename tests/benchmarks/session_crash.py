@@ -21,7 +21,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.store import Session
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,7 +40,7 @@ class KillReport:
     problems: tuple[str, ...]  # What was lost or is half there; empty when all is well
 
 
-def run(kills: int = 200, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(kills: int = 200, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> StudyReport:
     """Kill a writing process again and again, and look what is left."""
     if kills < 1:
         raise InputError("give a number of kills above 0.")
@@ -53,7 +53,7 @@ def run(kills: int = 200, *, seed: int = 0, progress: Callable[[str], None] = la
         Figure("session", "records cut off in the middle", report.torn),
     )
     settings = {"kills": kills, "seed": seed}
-    return Report("Sessions whose writer is killed", settings, figures, report.problems)
+    return StudyReport("Sessions whose writer is killed", settings, figures, report.problems)
 
 
 def kill_writers(folder: Path, kills: int, *, seed: int = 0) -> KillReport:

@@ -27,7 +27,7 @@ from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trail
 from contactbench.pipeline.devices.protocols.ur_pose import UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -186,7 +186,7 @@ def run(
     *,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Feed each parser random bytes, and a stream with one byte in a hundred damaged."""
     if count < 1 or frames < 1:
         raise InputError("give numbers of bytes and frames above 0.")
@@ -208,7 +208,7 @@ def run(
         figures.append(Figure(protocol, "intact frames recovered", share, least=_RECOVERED))
     notes = ("False frames: chance makes as many as the checksum lets through; SRI's sum is one byte.",)
     settings = {"bytes": count, "frames": frames, "seed": seed}
-    return Report("Protocols under damage", settings, tuple(figures), notes)
+    return StudyReport("Protocols under damage", settings, tuple(figures), notes)
 
 
 def soak(protocol: str, count: int, seed: int) -> SoakReport:

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 from benchmarks.control_safety import OVER, SPREAD, draw, report_of, run, run_start
+from benchmarks.faulty_line import FaultKind
 
-from contactbench.pipeline.control.faults import FaultKind
 from contactbench.pipeline.errors import InputError
 
 

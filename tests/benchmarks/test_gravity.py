@@ -11,10 +11,10 @@ import pytest
 from benchmarks import gravity
 from benchmarks.gravity import BLIND_SETS, BlindSet, try_blind
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import Calibration, Level, calibrate
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_weighing
 from contactbench.pipeline.study.report import Figure
 from contactbench.pipeline.timing import Timing
 

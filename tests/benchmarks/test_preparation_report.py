@@ -10,7 +10,7 @@ import pytest
 from benchmarks.__main__ import BENCHMARKS
 from rich.console import Console
 
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 
 @pytest.mark.parametrize(
@@ -63,9 +63,9 @@ def test_numbers_keep_three_digits(value, said):
 
 def test_a_report_is_a_table_and_plain_data():
     good, bad = Figure("[red]file", "size", 1.0, most=2.0), Figure("a|b", "holes", float("inf"), most=0.0)
-    report = Report("Study", {"seed": 3}, (good, bad), ("A note.",))
+    report = StudyReport("Study", {"seed": 3}, (good, bad), ("A note.",))
     assert not report.passed
-    assert Report("Study", {}, (good,)).passed
+    assert StudyReport("Study", {}, (good,)).passed
     data = json.loads(json.dumps(report.to_json(), allow_nan=False))
     assert data["passed"] is False
     assert [figure["passed"] for figure in data["figures"]] == [True, False]
@@ -93,7 +93,7 @@ def test_every_benchmark_has_help(name, benchmark):
 
 
 def test_a_missed_target_is_exit_code_1(monkeypatch, benchmark):
-    missed = Report("Study", {}, (Figure("a", "b", 2.0, most=1.0),))
+    missed = StudyReport("Study", {}, (Figure("a", "b", 2.0, most=1.0),))
     monkeypatch.setattr("benchmarks.preparation.regions.run", lambda *_, **__: missed)
     ran = benchmark("regions", "--json")
     assert ran.exit_code == 1

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_weighing
 
 from contactbench import assets
 from contactbench.pipeline.calibration import GravityModel, calibrate
@@ -18,8 +19,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers as bundled_markers
-from contactbench.pipeline.simulation.weighing import draw_weighing
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.verification.figures import Cause
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.source import TouchRecording
@@ -76,7 +76,9 @@ class Bench:
         return verify(self.probe, self.model, self.markers, self.recording, stated)
 
 
-def run(*, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(
+    *, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
+) -> StudyReport:
     """Measure every figure."""
     if trials < 20 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 20 trials and a seed of at least 0.")
@@ -87,7 +89,7 @@ def run(*, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = 
     for cause in Cause:
         progress(f"diagnosis: {cause}")
         figures.append(naming(cause, -(-trials // len(Cause)), seed))
-    return Report("Verification", {"trials": trials, "seed": seed}, tuple(figures))
+    return StudyReport("Verification", {"trials": trials, "seed": seed}, tuple(figures))
 
 
 def coverage(trials: int, seed: int) -> tuple[Figure, ...]:

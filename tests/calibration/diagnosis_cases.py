@@ -11,7 +11,7 @@ from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSampl
 from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
-from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.simulation.loads import weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 LOAD = GravityModel([0.1, -0.1, -7.0], [5.0, -3.0, 2.0], [0.004, -0.003, 0.07], [0.1, 0.2, 0.3])

@@ -8,6 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
+from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import (
     PARAMETERS,
@@ -25,7 +26,7 @@ from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.wording import plain
-from contactbench.pipeline.simulation.weighing import draw_load, draw_weighing, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 EXACT = PoseNoise(1e-12, 1e-12)

@@ -23,13 +23,14 @@ from calibration.diagnosis_cases import (
     turned,
 )
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_noise
 
 from contactbench.pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_load, draw_noise, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 # ---- what residuals do not tell ------------------------------------------------------------------
 

@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
 from contactbench.pipeline.calibration.fit import (
@@ -20,7 +21,7 @@ from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_load, draw_weighing, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 NOTHING = np.zeros(6)
 

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_noise
 
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.model import cross_matrix
 from contactbench.pipeline.calibration.observability import WEAK, observe
-from contactbench.pipeline.simulation.weighing import draw_load, draw_noise, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 DOWN = np.array([0.0, 0.0, -1.0])
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import ndtr
+from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import (
     Calibration,
@@ -19,7 +20,7 @@ from contactbench.pipeline.calibration.fit import maximise, nothing_beside, two_
 from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
-from contactbench.pipeline.simulation.weighing import bump, draw_load, draw_weighing, weigh
+from contactbench.pipeline.simulation.loads import bump, draw_load, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])

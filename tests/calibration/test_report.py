@@ -501,7 +501,7 @@ def test_file_holds_the_page(good, good_page, tmp_path):
 
 @pytest.mark.parametrize("name", ["missing/report.html", "\0.html", "."])
 def test_unwritable_file_is_an_input_error(good, tmp_path, name):
-    with pytest.raises(InputError, match="the report cannot be written"):
+    with pytest.raises(InputError, match="the file cannot be written"):
         write_report(good, tmp_path / name)
 
 

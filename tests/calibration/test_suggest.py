@@ -23,7 +23,7 @@ from contactbench.pipeline.calibration.suggest import Plan, plan_error, plan_pos
 from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.simulation.loads import weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])

@@ -8,7 +8,7 @@ from benchmarks.bundle_example import example_config
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
-from contactbench.pipeline.control.frames import Beginning, Frame, read_line
+from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +28,7 @@ def test_each_period_is_a_line_and_the_last_one_says_what_came_of_it(bundle):
     beginning, *frames, end = told
     assert isinstance(beginning, Beginning)
     assert beginning.variant == "plain"
-    assert all(isinstance(each, Frame) for each in frames)
+    assert all(isinstance(each, LoopFrame) for each in frames)
     assert frames[0].time_s == pytest.approx(0.02)
     assert frames[-1].time_s == pytest.approx(end["seconds"])
     assert [each.state for each in frames if each.reason] == [each["to"] for each in end["states"]]

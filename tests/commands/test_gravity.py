@@ -14,7 +14,7 @@ from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quate
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration, load_record
-from contactbench.pipeline.simulation.weighing import bump, weigh
+from contactbench.pipeline.simulation.loads import bump, weigh
 
 EULER = ("--euler", "xyz")
 

@@ -15,7 +15,7 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.simulation.loads import weigh
 
 ARM = ("--robot", "elfin3", "--joints", "0,-17,69,0,52,0")
 

@@ -9,9 +9,10 @@ import numpy as np
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import Gates, WrenchNoise
 from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.controller import Controller, Mount
+from contactbench.pipeline.control.command import SensorMount
+from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.simulation.scenes import Payload, Tissue
@@ -92,8 +93,8 @@ def loop(name="t-shape", settings=None, *, motion=None, modulus=USUAL_MODULUS, f
     tissue = Tissue(modulus, modulus * damping, friction)
     scene = PlatformScene(truth_of(name), payload=PAYLOAD, tissue=tissue, motion=motion, gap=gap, **QUICK)
     probe = model_of(name, 1000)
-    intake = Intake(probe, gravity(bias), WrenchNoise(0.05, 0.0014), Gates())
-    mount = Mount(np.eye(3), np.zeros(3))
+    intake = SampleIntake(probe, gravity(bias), WrenchNoise(0.05, 0.0014), Gates())
+    mount = SensorMount(np.eye(3), np.zeros(3))
     controller = Controller(
         settings or settings_for(name), CartesianMount(), probe, intake, mount, scene.start
     )

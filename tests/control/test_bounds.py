@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
+from benchmarks.reproduce.tilt_bound import tilt_bound
 
-from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.tilt import Tilt, TiltReading
 from contactbench.pipeline.study.marker_touches import model_of
 
 
@@ -36,6 +36,6 @@ def test_it_is_what_the_estimate_shows(foundation):
                 drag = kept * drag + np.sqrt(1 - kept**2) * rng.normal(0, sigma)
                 n = rng.normal(0, sF)
                 place = error + foundation.height * n + rng.normal(0, sM)
-                off.append(axis.update(Reading(drag + n, place, gain, foundation.height, sF, sM), 0.02))
+                off.append(axis.update(TiltReading(drag + n, place, gain, foundation.height, sF, sM), 0.02))
         bound = tilt_bound(settings, foundation, USUAL_MODULUS, noise=(0.05, 0.0014))[which]
         assert np.std(off) == pytest.approx(bound, rel=0.25)

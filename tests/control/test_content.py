@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from contactbench.pipeline.config.runtime.model import LimitsPart
-from contactbench.pipeline.control.content import controller_of, limits_of, settings_of
+from contactbench.pipeline.control.bundle import controller_of, limits_of, settings_of
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 

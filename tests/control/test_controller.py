@@ -5,12 +5,13 @@ from control.closed_loop import Ramp, gravity, loop, settings_for
 
 from contactbench.pipeline.contact import Gates, WrenchNoise
 from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.controller import Controller, Mount
+from contactbench.pipeline.control.command import SensorMount
+from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.margins import loop_of, margins
-from contactbench.pipeline.control.sensing import Intake
 from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 from contactbench.pipeline.study.marker_touches import model_of
@@ -24,7 +25,7 @@ def turning(axis, period=2.0, start=2.8):
 
 @pytest.mark.parametrize(("name", "stiffer"), [("convex", 1), ("t-shape", 1), ("t-shape", 5)])
 def test_first_touch_does_not_swing(name, stiffer):
-    run = loop(name, modulus=stiffer * USUAL_MODULUS, bias=BIAS).until(State.TRACK)
+    run = loop(name, modulus=stiffer * USUAL_MODULUS, bias=BIAS).until(ControlState.TRACK)
     assert max(run.forces) < 1.15 * 7.0
     run.run(0.6)
     assert np.std(run.forces[-20:]) < 0.1
@@ -39,15 +40,15 @@ def test_tissue_that_turns_in_two_seconds_is_followed(axis):
     assert off.mean(axis=0).max() < 4.0
     forces = np.array(run.forces)[late]
     assert 5.5 < forces.min() < forces.max() < 8.0
-    assert run.controller.state is State.TRACK
+    assert run.controller.state is ControlState.TRACK
 
 
 def test_tissue_that_heaves_from_the_first_touch_on_is_tracked():
     heaving = PlatformMotion.along("z", 0.01, 3.0, start=1.2)
-    run = loop("convex", settings_for("convex"), motion=heaving).until(State.TRACK)
+    run = loop("convex", settings_for("convex"), motion=heaving).until(ControlState.TRACK)
     assert max(run.forces) < 15.0
     run.run(1.0)
-    assert run.controller.state is State.TRACK
+    assert run.controller.state is ControlState.TRACK
     assert np.abs(np.array(run.forces[-25:]) - 7.0).max() < 1.5
 
 
@@ -65,7 +66,7 @@ def test_what_a_calibration_leaves_is_taken_off_in_the_air():
     off = {}
     for taring in (0.0, 0.5):
         run = loop("convex", settings_for("convex", taring=taring), bias=BIAS, noise=(0.01, 0.0003))
-        run.until(State.TRACK).run(0.2)
+        run.until(ControlState.TRACK).run(0.2)
         wanted = run.controller.wanted_S[:2]
         moment = run.scene.moment()
         off[taring] = np.linalg.norm(run.commands[-1].offset - (moment.point_S[:2] - wanted))
@@ -82,7 +83,9 @@ def test_the_same_inputs_give_the_same_bytes():
 
 def test_signs_a_contact_off_in_x_turns_the_probe_about_y():
     for axis, which in (("ry", 0), ("rx", 1)):
-        run = loop("t-shape", settings_for(variant=Variant.PLAIN), noise=(1e-3, 1e-5)).until(State.TRACK)
+        run = loop("t-shape", settings_for(variant=Variant.PLAIN), noise=(1e-3, 1e-5)).until(
+            ControlState.TRACK
+        )
         run.scene.motion = Ramp(
             0.02 * np.eye(6)[3 + (axis == "ry")], run.scene.time
         )  # a lasting tilt of 1.1 degrees
@@ -94,63 +97,66 @@ def test_signs_a_contact_off_in_x_turns_the_probe_about_y():
 
 
 def test_no_motion_on_old_data():
-    run = loop().until(State.TRACK)
+    run = loop().until(ControlState.TRACK)
     q = run.commands[-1].q
     held = [run.step(samples=[]) for _ in range(5)]
     np.testing.assert_array_equal(held[0].twist, np.zeros(6))
-    assert held[-1].state is State.HOLD
+    assert held[-1].state is ControlState.HOLD
     assert np.abs(held[-1].q - q).max() < 3e-4
     run.run(1.5)
-    assert [each.after for each in run.controller.safety.changes][-2:] == [State.HOLD, State.TRACK]
+    assert [each.after for each in run.controller.safety.changes][-2:] == [
+        ControlState.HOLD,
+        ControlState.TRACK,
+    ]
 
 
 def test_silence_ends_safe_and_away():
-    run = loop().until(State.TRACK)
+    run = loop().until(ControlState.TRACK)
     for _ in range(60):
         run.step(samples=[])
-    assert run.controller.state is State.SAFE
+    assert run.controller.state is ControlState.SAFE
     assert run.forces[-1] == 0.0
 
 
 def test_an_arm_that_does_not_move_is_not_pushed_on():
-    run = loop(settings=settings_for(attempts=1, approach_speed=0.02)).until(State.TRACK)
+    run = loop(settings=settings_for(attempts=1, approach_speed=0.02)).until(ControlState.TRACK)
     run.scene.command = lambda _: None
     run.scene.motion = Ramp(np.array([0, 0, -0.003, 0, 0, 0]), run.scene.time)  # away: it would go after it
     run.run(2.6)
     assert any("where it was sent" in each.reason for each in run.controller.safety.changes)
-    assert run.controller.state is State.SAFE
+    assert run.controller.state is ControlState.SAFE
     # What was sent stays near to where it stands: should it let go, it would not jump.
     tips = np.array([each.q[2] for each in run.commands])
     assert np.abs(tips[-100:] - run.scene.joints[2]).max() < 0.1
 
 
 def test_joints_that_are_no_numbers_move_nothing():
-    run = loop().until(State.TRACK)
+    run = loop().until(ControlState.TRACK)
     for _ in range(120):
         run.step(joints=np.full(6, np.nan))
-    assert State.HOLD in [each.after for each in run.controller.safety.changes]
-    assert run.controller.state in (State.RETRACT, State.SAFE)
+    assert ControlState.HOLD in [each.after for each in run.controller.safety.changes]
+    assert run.controller.state in (ControlState.RETRACT, ControlState.SAFE)
     assert max(run.forces) < 12.0
     assert all(np.isfinite(each.q).all() for each in run.commands)
 
 
 def test_a_jump_of_the_force_makes_it_go_back():
-    run = loop().until(State.TRACK)
+    run = loop().until(ControlState.TRACK)
     run.bias = np.array([0, 0, -20.0, 0, 0, 0])
     for _ in range(3):
         command = run.step()
-    assert command.state is State.RETRACT
+    assert command.state is ControlState.RETRACT
     run.bias = np.zeros(6)
     run.run(1.5)
-    assert run.controller.state is State.SAFE
+    assert run.controller.state is ControlState.SAFE
 
 
 def test_a_stop_goes_back_and_ends():
-    run = loop().until(State.CONTACT)
+    run = loop().until(ControlState.CONTACT)
     run.controller.stop()
-    assert run.step().state is State.RETRACT
+    assert run.step().state is ControlState.RETRACT
     run.run(1.5)
-    assert run.controller.state is State.SAFE
+    assert run.controller.state is ControlState.SAFE
     assert run.forces[-1] == 0.0
     q = run.commands[-1].q
     np.testing.assert_array_equal(run.step().q, q)
@@ -200,7 +206,7 @@ def test_a_bundle_is_all_it_takes():
     if config.model.controller is not None:
         assert settings.desired_force == config.model.controller.desired_force_N
     assert controller.wanted_S[2] == pytest.approx(config.probe.vertices[:, 2].max())
-    assert controller.step(0.0, np.zeros(6), []).state is State.HOLD
+    assert controller.step(0.0, np.zeros(6), []).state is ControlState.HOLD
     with pytest.raises(InputError, match="no method"):
         Controller.from_config(config, arm, np.zeros(6), method="guess", **more)
     if told is None:
@@ -217,15 +223,15 @@ def test_a_bundle_is_all_it_takes():
 )
 def test_a_mount_must_be_a_rotation_and_a_place(wrong):
     with pytest.raises(InputError, match="mount"):
-        Mount(*wrong)
+        SensorMount(*wrong)
 
 
 def test_a_mount_turns_what_is_seen_not_what_is_done():
     probe, arm = model_of("t-shape", 1000), CartesianMount()
     turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    intake = Intake(probe, gravity(), WrenchNoise(), Gates())
+    intake = SampleIntake(probe, gravity(), WrenchNoise(), Gates())
     place = np.array([0.01, 0.02, 0.03])
-    controller = Controller(settings_for(), arm, probe, intake, Mount(turned, place), np.zeros(6))
+    controller = Controller(settings_for(), arm, probe, intake, SensorMount(turned, place), np.zeros(6))
     R_BE, p_BE_B = arm.flange_pose(np.zeros(6))
     R_BS, tip = controller._pose(np.zeros(6))
     np.testing.assert_allclose(R_BS, R_BE @ turned)

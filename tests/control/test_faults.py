@@ -3,8 +3,8 @@
 import math
 
 import pytest
+from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 
-from contactbench.pipeline.control.faults import FaultKind, FaultyLine, ScriptedFault
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError
 

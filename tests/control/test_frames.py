@@ -11,14 +11,14 @@ from contactbench.pipeline.control.frames import (
     END,
     FRAME,
     Beginning,
-    Frame,
+    LoopFrame,
     beginning_of,
     frame_of,
     line_of,
     read_line,
 )
 from contactbench.pipeline.control.loop import Loop
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.control.virtual import virtual_robot
 from contactbench.pipeline.errors import InputError
 
@@ -40,8 +40,8 @@ def test_a_frame_says_where_things_are(watched):
     loop, frames = watched
     beginning, frame = beginning_of(loop, "virtual://platform"), frames[-1]
     assert (beginning.variant, beginning.wanted_N, beginning.limit_N) == ("aware", 5.0, 30.0)
-    assert frame.state == State.CONTACT
-    assert [each.state for each in frames if each.reason is not None] == [State.CONTACT]
+    assert frame.state == ControlState.CONTACT
+    assert [each.state for each in frames if each.reason is not None] == [ControlState.CONTACT]
     R_BS = np.array(frame.R_BS).reshape(3, 3)
     assert np.allclose(R_BS, np.diag([1.0, -1.0, -1.0]), atol=1e-3)
     # The tip is on the phantom, pressed in by less than a few mm; the force on it points up.
@@ -64,7 +64,7 @@ def test_what_is_written_is_read(watched):
         assert read_line(line_of(FRAME, frame).encode()) == frame
     assert read_line(line_of(END, {"ended": "safe"})) == {"ended": "safe"}
     assert isinstance(beginning, Beginning)
-    assert isinstance(frames[0], Frame)
+    assert isinstance(frames[0], LoopFrame)
 
 
 @pytest.mark.parametrize(

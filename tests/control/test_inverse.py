@@ -4,7 +4,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.axes import pressing, turn_of
-from contactbench.pipeline.control.inverse import Held, solve_step, tip_jacobian
+from contactbench.pipeline.control.inverse import MotionLimit, solve_step, tip_jacobian
 
 LEVER = np.array([0.01, -0.02, -0.14])
 
@@ -56,7 +56,7 @@ def test_too_fast_is_cut_and_keeps_its_direction():
     arm, q = CartesianMount(), np.zeros(6)
     step = solve_step(arm, q, LEVER, np.array([1.0, 0.5, 0, 0, 0, 0]), 0.02)
     np.testing.assert_allclose(step.q[:2], [0.005, 0.0025])
-    assert (step.share, step.held) == (pytest.approx(0.25), (Held.SPEED,))
+    assert (step.share, step.held) == (pytest.approx(0.25), (MotionLimit.SPEED,))
 
 
 def test_accelerations_leave_the_servo_some():
@@ -70,7 +70,7 @@ def test_a_limit_stops_before_it_and_lets_back():
     q = np.array([0.079, 0, 0, 0, 0, 0])
     out = solve_step(arm, q, np.zeros(3), np.array([0.2, 0, 0, 0, 0, 0]), 0.02)
     assert out.q[0] == pytest.approx(0.08)
-    assert (out.held, out.joint) == ((Held.LIMIT,), 0)
+    assert (out.held, out.joint) == ((MotionLimit.LIMIT,), 0)
     beyond = np.array([0.09, 0, 0, 0, 0, 0])
     assert solve_step(arm, beyond, np.zeros(3), np.array([0.2, 0, 0, 0, 0, 0]), 0.02).q[0] == 0.09
     assert solve_step(arm, beyond, np.zeros(3), np.array([-0.2, 0, 0, 0, 0, 0]), 0.02).q[0] < 0.09
@@ -85,7 +85,7 @@ def test_a_singularity_damps_and_is_said():
 
     wanted = np.array([0, 0, 0, 0, 0, 1.0])
     step = solve_step(Flat(), np.zeros(6), np.zeros(3), wanted, 0.02)
-    assert Held.SINGULAR in step.held
+    assert MotionLimit.SINGULAR in step.held
     assert abs(step.q[5]) < 0.02
     assert step.smallest == pytest.approx(0.001)
 

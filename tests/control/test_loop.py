@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 
-from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
 from contactbench.pipeline.control.loop import Loop, run_loop
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PlatformMotion
 from contactbench.pipeline.study.control_rig import foundation_of, make_rig
@@ -33,9 +33,9 @@ def whole():
 
 def test_it_touches_tracks_and_comes_back(whole):
     assert [str(each.after) for each in whole.changes] == ["contact", "track", "retract", "safe"]
-    assert whole.ended is State.SAFE
+    assert whole.ended is ControlState.SAFE
     tracking = whole.between(3.0, 4.5)
-    assert tracking.was(State.TRACK).all()
+    assert tracking.was(ControlState.TRACK).all()
     assert np.abs(tracking.force - 7.0).max() < 0.5
     assert np.degrees(tracking.tilt).max() < 3.0
     assert whole.time[-1] < 8.0  # it ended when it was safe
@@ -83,10 +83,10 @@ def test_csv_has_a_row_for_each_period(whole):
 
 def test_a_dropout_has_it_hold_and_go_back():
     dropout = ScriptedFault(FaultKind.DROPOUT, 1.5, float("inf"))
-    trace = run(6.0, faults=(dropout,))
-    assert trace.ended is State.SAFE
+    trace = run(6.0, line=FaultyLine((dropout,)).carry)
+    assert trace.ended is ControlState.SAFE
     later = trace.between(1.5 + 0.1)
-    assert not later.was(State.TRACK).any()
+    assert not later.was(ControlState.TRACK).any()
     assert "stale" in " ".join(each.reason for each in trace.changes)
 
 

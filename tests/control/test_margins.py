@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.control.margins import AXES, Loop, loop_of, margins, response, sweep
+from contactbench.pipeline.control.margins import AXES, LoopModel, loop_of, margins, response, sweep
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.marker_touches import model_of
@@ -17,9 +17,9 @@ def foundation():
 
 def test_a_slow_loop_is_an_integrator():
     w = np.array([0.1, 1.0])
-    L = response(Loop(gain=2.0, settling=1e-4), w)
+    L = response(LoopModel(gain=2.0, settling=1e-4), w)
     np.testing.assert_allclose(np.abs(L), 2.0 / w, rtol=0.01)
-    found = margins(Loop(gain=2.0, settling=1e-4))
+    found = margins(LoopModel(gain=2.0, settling=1e-4))
     assert found.stable
     assert found.crossover == pytest.approx(2.0, rel=0.05)
     assert found.phase > np.radians(75)
@@ -48,7 +48,7 @@ def simulated(loop, seconds=8.0):
 @pytest.mark.parametrize("settling", [0.01, 0.04, 0.1])
 @pytest.mark.parametrize("inertia", [0.0, 0.0005])
 def test_it_says_where_a_plain_loop_begins_to_swing(settling, inertia):
-    loop = Loop(gain=6.0, settling=settling, inertia=inertia)
+    loop = LoopModel(gain=6.0, settling=settling, inertia=inertia)
     limit = 6.0 * margins(loop).gain
     assert simulated(replace(loop, gain=0.9 * limit))
     assert not simulated(replace(loop, gain=1.1 * limit))
@@ -57,13 +57,13 @@ def test_it_says_where_a_plain_loop_begins_to_swing(settling, inertia):
 
 
 def test_a_later_arm_has_less():
-    found = [margins(Loop(gain=6.0, settling=0.04, lag=lag)) for lag in (0.0, 0.03, 0.06)]
+    found = [margins(LoopModel(gain=6.0, settling=0.04, lag=lag)) for lag in (0.0, 0.03, 0.06)]
     assert found[0].gain > found[1].gain > found[2].gain
     assert found[0].phase > found[1].phase > found[2].phase
 
 
 def test_a_wrong_stiffness_costs_the_aware_variant_its_margin():
-    right = Loop(gain=6.0, settling=0.04, bandwidth=20.0)
+    right = LoopModel(gain=6.0, settling=0.04, bandwidth=20.0)
     assert margins(right).gain == pytest.approx(margins(replace(right, bandwidth=0.0)).gain, rel=0.1)
     assert margins(replace(right, ratio=3.0)).gain < 0.6 * margins(right).gain
     assert not margins(replace(right, ratio=0.1)).stable

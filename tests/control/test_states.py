@@ -5,22 +5,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.inverse import Held, Step
-from contactbench.pipeline.control.sensing import Fault, Sensed
+from contactbench.pipeline.control.intake import Sensed, SensingFault
+from contactbench.pipeline.control.inverse import JointStep, MotionLimit
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.control.states import Safety, State
+from contactbench.pipeline.control.states import ControlState, Safety
 
 DT = 0.02
 SETTINGS = ControlSettings()
-FREE = Step(np.zeros(6), 1.0, (), None, 1.0)
-WORKING = (State.APPROACH, State.CONTACT, State.TRACK)
+FREE = JointStep(np.zeros(6), 1.0, (), None, 1.0)
+WORKING = (ControlState.APPROACH, ControlState.CONTACT, ControlState.TRACK)
 CONTACT_FOUND = object()
 
 
 class Drive:
     """A state machine with a clock."""
 
-    def __init__(self, state=State.APPROACH, settings=SETTINGS):
+    def __init__(self, state=ControlState.APPROACH, settings=SETTINGS):
         self.safety, self.now = Safety(settings), 0.0
         self.safety.state = state
 
@@ -56,206 +56,209 @@ class Drive:
 
 def test_the_usual_course():
     drive = Drive()
-    assert drive(0.5, force=0.0) is State.APPROACH
-    assert drive(force=1.0) is State.CONTACT
-    assert drive(force=4.0) is State.CONTACT
-    assert drive(0.4, force=7.0) is State.CONTACT, "not before the force has grown"
-    assert drive(0.5, force=7.0, probed=False) is State.CONTACT, "not before the stiffness is known"
-    assert drive(0.3, force=7.0) is State.TRACK
-    assert drive(5.0, force=7.0) is State.TRACK
+    assert drive(0.5, force=0.0) is ControlState.APPROACH
+    assert drive(force=1.0) is ControlState.CONTACT
+    assert drive(force=4.0) is ControlState.CONTACT
+    assert drive(0.4, force=7.0) is ControlState.CONTACT, "not before the force has grown"
+    assert drive(0.5, force=7.0, probed=False) is ControlState.CONTACT, "not before the stiffness is known"
+    assert drive(0.3, force=7.0) is ControlState.TRACK
+    assert drive(5.0, force=7.0) is ControlState.TRACK
     drive.safety.stop()
-    assert drive() is State.RETRACT
-    assert drive(force=0.0, travelled=SETTINGS.retract_travel) is State.SAFE
-    assert drive(1.0, force=29.0, fault=None) is State.SAFE
+    assert drive() is ControlState.RETRACT
+    assert drive(force=0.0, travelled=SETTINGS.retract_travel) is ControlState.SAFE
+    assert drive(1.0, force=29.0, fault=None) is ControlState.SAFE
     assert [each.after for each in drive.safety.changes] == [
-        State.CONTACT, State.TRACK, State.RETRACT, State.SAFE,
+        ControlState.CONTACT, ControlState.TRACK, ControlState.RETRACT, ControlState.SAFE,
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("state", [*WORKING, State.HOLD])
+@pytest.mark.parametrize("state", [*WORKING, ControlState.HOLD])
 @pytest.mark.parametrize(
     ("what", "says"),
     [
         ({"force": 24.5}, "too near to the limit of 30 N"),
-        ({"fault": Fault.SATURATED}, "end of its range"),
+        ({"fault": SensingFault.SATURATED}, "end of its range"),
     ],
 )
 def test_danger_makes_it_go_back_from_anywhere(state, what, says):
     drive = Drive(state)
-    assert drive(**what) is State.RETRACT
+    assert drive(**what) is ControlState.RETRACT
     assert says in drive.reason
 
 
 def test_a_force_from_the_side_and_a_torque_count_too():
     for wrench in ([25.0, 0, 0, 0, 0, 0], [0, 0, -7.0, 5.0, 0, 0]):
         safety = Safety(SETTINGS)
-        safety.state = State.TRACK
+        safety.state = ControlState.TRACK
         sensed = Sensed(0.0, np.array(wrench), None, None, 0.0, 4)
         after = safety.update(0.0, sensed, 0.0, travelled=0, last=FREE, probed=True, dt=DT)
-        assert after is State.RETRACT
+        assert after is ControlState.RETRACT
 
 
 @pytest.mark.parametrize("state", WORKING)
 def test_a_force_that_would_soon_be_over_the_limit_makes_it_go_back(state):
     drive = Drive(state)
     drive(force=7.0)
-    assert drive(force=11.0) is not State.RETRACT, "200 N/s for 0.08 s: 27 N"
+    assert drive(force=11.0) is not ControlState.RETRACT, "200 N/s for 0.08 s: 27 N"
     drive = Drive(state)
     drive(force=7.0)
-    assert drive(force=13.0) is State.RETRACT
+    assert drive(force=13.0) is ControlState.RETRACT
     assert "soon over the limit of 30 N" in drive.reason
 
 
 def test_the_rate_counts_from_the_newest_reading_there_was():
-    drive = Drive(State.TRACK)
+    drive = Drive(ControlState.TRACK)
     drive(force=7.0)
     drive(2 * DT, count=0)
-    assert drive(force=14.0) is State.TRACK, "7 N in 60 ms"
+    assert drive(force=14.0) is ControlState.TRACK, "7 N in 60 ms"
 
 
 def test_standing_still_is_no_way_to_be_squeezed():
-    drive = Drive(State.HOLD)
-    assert drive(force=10.0, follows=False) is State.HOLD
-    assert drive(force=11.0, follows=False) is State.RETRACT
+    drive = Drive(ControlState.HOLD)
+    assert drive(force=10.0, follows=False) is ControlState.HOLD
+    assert drive(force=11.0, follows=False) is ControlState.RETRACT
     assert "stands still" in drive.reason
 
 
 @pytest.mark.parametrize(("rising", "seconds"), [(0.0, 0.2), (50.0, 0.2), (100.0, 0.09), (300.0, 0.0)])
 def test_blind_on_tissue_that_moves_it_waits_no_longer_than_it_may(rising, seconds):
-    drive = Drive(State.TRACK)
+    drive = Drive(ControlState.TRACK)
     drive(force=7.0)
-    assert drive(fault=Fault.STALE, rising=rising) is State.HOLD
+    assert drive(fault=SensingFault.STALE, rising=rising) is ControlState.HOLD
     if seconds > DT:
-        assert drive(seconds - DT, fault=Fault.STALE) is State.HOLD
-    assert drive(2 * DT, fault=Fault.STALE) is State.RETRACT
+        assert drive(seconds - DT, fault=SensingFault.STALE) is ControlState.HOLD
+    assert drive(2 * DT, fault=SensingFault.STALE) is ControlState.RETRACT
 
 
-@pytest.mark.parametrize("state", [State.CONTACT, State.TRACK])
+@pytest.mark.parametrize("state", [ControlState.CONTACT, ControlState.TRACK])
 def test_turned_too_far_it_goes_back(state):
     drive = Drive(state)
     assert drive(turned=0.99 * SETTINGS.max_tilt, probed=False) is state
-    assert drive(turned=1.01 * SETTINGS.max_tilt) is State.RETRACT
+    assert drive(turned=1.01 * SETTINGS.max_tilt) is ControlState.RETRACT
     assert "turned by 29 degrees" in drive.reason
 
 
 def test_held_while_it_tracked_it_tracks_again():
-    drive = Drive(State.TRACK)
-    assert drive(fault=Fault.STALE) is State.HOLD
-    assert drive() is State.TRACK
-    assert drive(fault=Fault.STALE) is State.HOLD
-    assert drive(force=0.1) is State.APPROACH
+    drive = Drive(ControlState.TRACK)
+    assert drive(fault=SensingFault.STALE) is ControlState.HOLD
+    assert drive() is ControlState.TRACK
+    assert drive(fault=SensingFault.STALE) is ControlState.HOLD
+    assert drive(force=0.1) is ControlState.APPROACH
 
 
 @pytest.mark.parametrize("state", WORKING)
-@pytest.mark.parametrize("fault", [Fault.STALE, Fault.STUCK, Fault.CLOCK])
+@pytest.mark.parametrize("fault", [SensingFault.STALE, SensingFault.STUCK, SensingFault.CLOCK])
 def test_old_readings_make_it_stand_still_then_go_back(state, fault):
     drive = Drive(state)
-    assert drive(fault=fault) is State.HOLD
+    assert drive(fault=fault) is ControlState.HOLD
     assert fault.value in drive.reason
-    assert drive(SETTINGS.give_up - 2 * DT, fault=fault) is State.HOLD
-    assert drive(3 * DT, fault=fault) is State.RETRACT
+    assert drive(SETTINGS.give_up - 2 * DT, fault=fault) is ControlState.HOLD
+    assert drive(3 * DT, fault=fault) is ControlState.RETRACT
 
 
 def test_a_clock_that_stands_does_not_stop_it_from_going_back():
-    drive = Drive(State.TRACK)
-    assert drive(SETTINGS.give_up + 3 * DT, fault=Fault.CLOCK, now=1.0) is State.RETRACT
+    drive = Drive(ControlState.TRACK)
+    assert drive(SETTINGS.give_up + 3 * DT, fault=SensingFault.CLOCK, now=1.0) is ControlState.RETRACT
 
 
-@pytest.mark.parametrize(("force", "after"), [(5.0, State.CONTACT), (0.1, State.APPROACH)])
+@pytest.mark.parametrize(("force", "after"), [(5.0, ControlState.CONTACT), (0.1, ControlState.APPROACH)])
 def test_fresh_readings_let_it_go_on(force, after):
-    assert Drive(State.HOLD)(force=force) is after
+    assert Drive(ControlState.HOLD)(force=force) is after
 
 
 def test_one_step_without_a_sample_is_no_fault():
-    drive = Drive(State.TRACK)
-    assert drive(count=0) is State.TRACK
+    drive = Drive(ControlState.TRACK)
+    assert drive(count=0) is ControlState.TRACK
 
 
 @pytest.mark.parametrize("state", WORKING)
 def test_an_arm_that_does_not_follow_is_held_then_drawn_back(state):
     drive = Drive(state)
-    force = 0.0 if state is State.APPROACH else 7.0
+    force = 0.0 if state is ControlState.APPROACH else 7.0
     assert drive(2 * DT, force=force, follows=False, probed=False) is state
-    assert drive(2 * DT, force=force, follows=False) is State.HOLD
+    assert drive(2 * DT, force=force, follows=False) is ControlState.HOLD
     assert "not where it was sent" in drive.reason
-    assert drive(SETTINGS.give_up + 3 * DT, force=force, follows=False) is State.RETRACT
-    assert drive(1.2, force=force, follows=False) is State.SAFE
+    assert drive(SETTINGS.give_up + 3 * DT, force=force, follows=False) is ControlState.RETRACT
+    assert drive(1.2, force=force, follows=False) is ControlState.SAFE
     assert "no farther" in drive.reason
 
 
 def test_an_arm_that_stays_behind_again_and_again_goes_back():
-    drive = Drive(State.TRACK, replace(SETTINGS, attempts=1))
-    assert drive(3 * DT, follows=False) is State.HOLD
-    assert drive() is State.TRACK
-    assert drive(3 * DT, follows=False) is State.RETRACT
+    drive = Drive(ControlState.TRACK, replace(SETTINGS, attempts=1))
+    assert drive(3 * DT, follows=False) is ControlState.HOLD
+    assert drive() is ControlState.TRACK
+    assert drive(3 * DT, follows=False) is ControlState.RETRACT
     assert "2 times" in drive.reason
 
 
 def test_no_tissue_makes_it_go_back():
     drive = Drive()
-    assert drive(force=0.0, travelled=SETTINGS.approach_travel + 1e-6) is State.RETRACT
+    assert drive(force=0.0, travelled=SETTINGS.approach_travel + 1e-6) is ControlState.RETRACT
     assert "no tissue within 50 mm" in drive.reason
 
 
 def test_lost_tissue_is_looked_for_so_many_times():
     settings = replace(SETTINGS, attempts=2)
-    drive = Drive(State.TRACK, settings)
+    drive = Drive(ControlState.TRACK, settings)
     for _ in range(2):
-        assert drive(0.08, force=0.2) in (State.TRACK, State.CONTACT)
-        assert drive(0.06, force=0.2) is State.APPROACH
-        assert drive(force=2.0) is State.CONTACT
-    assert drive(0.14, force=0.2) is State.RETRACT
+        assert drive(0.08, force=0.2) in (ControlState.TRACK, ControlState.CONTACT)
+        assert drive(0.06, force=0.2) is ControlState.APPROACH
+        assert drive(force=2.0) is ControlState.CONTACT
+    assert drive(0.14, force=0.2) is ControlState.RETRACT
     assert "lost 3 times" in drive.reason
 
 
 def test_a_place_that_is_lost_stops_the_turning_then_all():
-    drive = Drive(State.TRACK)
+    drive = Drive(ControlState.TRACK)
     drive(0.28, contact=None)
     assert drive.safety.turning
     drive(0.06, contact=None)
     assert not drive.safety.turning
     drive()
     assert drive.safety.turning
-    assert drive(1.9, contact=None) is State.TRACK
-    assert drive(0.2, contact=None) is State.RETRACT
+    assert drive(1.9, contact=None) is ControlState.TRACK
+    assert drive(0.2, contact=None) is ControlState.RETRACT
 
 
 @pytest.mark.parametrize("state", WORKING)
 @pytest.mark.parametrize(
     "held",
-    [Step(np.zeros(6), 0.2, (Held.LIMIT,), 3, 1.0), Step(np.zeros(6), 1.0, (Held.SINGULAR,), None, 0.01)],
+    [
+        JointStep(np.zeros(6), 0.2, (MotionLimit.LIMIT,), 3, 1.0),
+        JointStep(np.zeros(6), 1.0, (MotionLimit.SINGULAR,), None, 0.01),
+    ],
 )
 def test_an_arm_at_its_end_goes_back(state, held):
     drive = Drive(state)
-    force = 0.0 if state is State.APPROACH else 7.0
+    force = 0.0 if state is ControlState.APPROACH else 7.0
     assert drive(0.28, force=force, last=held, probed=False) is state
-    assert drive(0.06, force=force, last=held) is State.RETRACT
+    assert drive(0.06, force=force, last=held) is ControlState.RETRACT
 
 
 def test_too_fast_is_no_reason():
-    slow = Step(np.zeros(6), 0.1, (Held.SPEED,), None, 1.0)
-    assert Drive(State.TRACK)(2.0, last=slow) is State.TRACK
+    slow = JointStep(np.zeros(6), 0.1, (MotionLimit.SPEED,), None, 1.0)
+    assert Drive(ControlState.TRACK)(2.0, last=slow) is ControlState.TRACK
 
 
 def test_what_was_travelled_before_is_not_the_way_back():
-    drive = Drive(State.TRACK)
+    drive = Drive(ControlState.TRACK)
     drive.safety.stop()
-    assert drive(travelled=10.0) is State.RETRACT
+    assert drive(travelled=10.0) is ControlState.RETRACT
 
 
 def test_back_means_away_and_free():
-    drive = Drive(State.RETRACT)
+    drive = Drive(ControlState.RETRACT)
     far = SETTINGS.retract_travel
-    assert drive(force=0.0, travelled=0.9 * far) is State.RETRACT
-    assert drive(force=5.0, travelled=1.1 * far) is State.RETRACT
-    assert drive(force=5.0, travelled=2.1 * far) is State.SAFE
-    blind = Drive(State.RETRACT)
-    assert blind(fault=Fault.STALE, travelled=1.1 * far) is State.SAFE
+    assert drive(force=0.0, travelled=0.9 * far) is ControlState.RETRACT
+    assert drive(force=5.0, travelled=1.1 * far) is ControlState.RETRACT
+    assert drive(force=5.0, travelled=2.1 * far) is ControlState.SAFE
+    blind = Drive(ControlState.RETRACT)
+    assert blind(fault=SensingFault.STALE, travelled=1.1 * far) is ControlState.SAFE
 
 
 def test_back_and_blocked_ends_where_it_is():
-    stuck = Step(np.zeros(6), 0.0, (Held.LIMIT,), 0, 1.0)
-    drive = Drive(State.RETRACT)
-    assert drive(0.9, last=stuck) is State.RETRACT
-    assert drive(0.2, last=stuck) is State.SAFE
+    stuck = JointStep(np.zeros(6), 0.0, (MotionLimit.LIMIT,), 0, 1.0)
+    drive = Drive(ControlState.RETRACT)
+    assert drive(0.9, last=stuck) is ControlState.RETRACT
+    assert drive(0.2, last=stuck) is ControlState.SAFE
     assert "no farther" in drive.reason

@@ -3,7 +3,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.control.surface import Surface
+from contactbench.pipeline.control.surface import TissueSurface
 from contactbench.pipeline.study.marker_touches import model_of
 
 DT = 0.02
@@ -17,7 +17,7 @@ def foundation():
 
 
 def surface_of(foundation):
-    return Surface(foundation, (20.0, 15.0, 15.0))
+    return TissueSurface(foundation, (20.0, 15.0, 15.0))
 
 
 def seen(foundation, force, tilt, gain_error=1.0):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.tilt import Tilt, TiltReading
 
 DT, FORCE = 0.02, 7.0
 SIGMA_N, SIGMA_NM, LEVER = 0.025, 0.0007, 0.14
@@ -12,7 +12,7 @@ def readings(tilts, gain, *, drag=0.0, error=0.0, seed=0):
     for tilt in tilts:
         n_F, n_M = rng.normal(0, SIGMA_N / FORCE), rng.normal(0, SIGMA_NM / FORCE)
         place = gain * tilt + error + LEVER * n_F + n_M
-        yield Reading(tilt + drag + n_F, place, gain, LEVER, SIGMA_N / FORCE, SIGMA_NM / FORCE)
+        yield TiltReading(tilt + drag + n_F, place, gain, LEVER, SIGMA_N / FORCE, SIGMA_NM / FORCE)
 
 
 def found(tilts, gain, **how):

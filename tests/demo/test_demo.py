@@ -15,9 +15,9 @@ from contactbench.pipeline import cli, demo
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
-from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touching
+from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touches
+from contactbench.pipeline.demo.body import PaperView
 from contactbench.pipeline.demo.report import LIMIT
-from contactbench.pipeline.demo.view import View
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
@@ -168,7 +168,7 @@ def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
 
 @pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(tool.Tool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
+    monkeypatch.setattr(tool.DemoTool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
     result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
     assert result.exit_code == 1
     found = json.loads(result.stdout)
@@ -319,9 +319,9 @@ def test_without_pyvista_the_remedy_is_named(monkeypatch: pytest.MonkeyPatch) ->
 def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> None:
     folder = done.out / "t-shape"
     solver = ContactSolver(load_probe(folder / "probe.ply", units="m"))
-    _, wrenches = touching.read_wrenches(folder / "drawn" / "wrenches.csv")
+    _, wrenches = touches.read_wrenches(folder / "drawn" / "wrenches.csv")
     batch = solver.locate_batch(wrenches)
-    rows = picture._choose(picture.Located("t-shape", batch, batch.points, 1.0))
+    rows = picture._choose(picture.LocatedProbe("t-shape", batch, batch.points, 1.0))
     view = picture._close("t-shape")
     assert 5 < len(rows) <= 25
     assert batch.accepted[rows].all()
@@ -332,7 +332,7 @@ def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> Non
 
 
 def test_view_keeps_lengths_across_and_hides_those_along() -> None:
-    view = View((0.0, 0.0, 0.1), 30.0, 40.0, 100.0, 80.0)
+    view = PaperView((0.0, 0.0, 0.1), 30.0, 40.0, 100.0, 80.0)
     frame = np.array([view.right, view.up, view.toward])
     assert np.allclose(frame @ frame.T, np.eye(3))
     assert view.up[2] > 0

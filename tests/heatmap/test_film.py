@@ -10,11 +10,11 @@ import pytest
 from PIL import Image, ImageSequence
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.heatmap import HeatmapError, film, picture
+from contactbench.pipeline.heatmap import HeatmapError, picture
 from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, write_film
 from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.windowing import Selection
+from contactbench.pipeline.heatmap.selection import Selection
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 
@@ -35,11 +35,11 @@ def playback():
     return Playback(probe, replace(found, times=np.linspace(0, 4, count)), 0.003)
 
 
-def test_a_look_is_what_the_picture_shows(playback):
+def test_a_look_is_drawn_with_any_end_of_its_colours(playback):
     whole = playback.heatmap(Selection("force"))
-    look = picture.looks(whole)[0]
-    mine = film._View(whole, look, SMALL).seen(whole, whole.top)
-    assert np.array_equal(mine, picture.render(whole, look, SMALL))
+    view = picture.SurfaceView(whole.probe, picture.looks(whole)[0], SMALL)
+    assert np.array_equal(view.drawn(whole, whole.top), view.drawn(whole))
+    assert not np.array_equal(view.drawn(whole, 2 * whole.top), view.drawn(whole))
 
 
 def test_moments_follow_the_speed_and_the_window(playback):

@@ -5,8 +5,8 @@ import pytest
 
 from contactbench.assets import make
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
-from contactbench.pipeline.heatmap.bells import vertex_areas
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth
+from contactbench.pipeline.heatmap.surface_kde import vertex_areas
 from contactbench.pipeline.mesh import Probe
 
 

@@ -12,7 +12,7 @@ from matplotlib.image import imread
 from contactbench.assets import make
 from contactbench.pipeline.heatmap import heatmap
 from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
-from contactbench.pipeline.heatmap.picture import encode_png, looks, render
+from contactbench.pipeline.heatmap.picture import SurfaceView, encode_png, looks
 from contactbench.pipeline.mesh import Probe, load_probe
 
 
@@ -86,7 +86,7 @@ def test_the_files_are_the_same_every_time(made):
 def test_the_picture_shows_data_in_colour_and_the_rest_in_grey(made):
     first, second = looks(made)
     assert first.toward @ second.toward < 0.7
-    image = render(made, first, 120).astype(float)
+    image = SurfaceView(made.probe, first, 120).drawn(made).astype(float)
     saturation = image.max(axis=2) - image.min(axis=2)
     assert 0.02 < (saturation > 40).mean() < 0.9
     assert ((saturation < 12) & (image.max(axis=2) < 240)).mean() > 0.02

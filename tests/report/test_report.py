@@ -18,11 +18,12 @@ from weighing_files import weighed
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_record, save_calibration
 from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import save_probe_file
-from contactbench.pipeline.report import ReportError, read_verification, report_html, report_pdf
+from contactbench.pipeline.report import read_verification, report_html, report_pdf
 from contactbench.pipeline.report.facts import settings_rows, summaries
 from contactbench.pipeline.report.figures import draw
-from contactbench.pipeline.report.making import report as make
+from contactbench.pipeline.report.report_file import report as make
 from contactbench.pipeline.report.touches import error_map, marker_views
 from contactbench.pipeline.verification.figures import ForceAccuracy, ModelError
 
@@ -127,7 +128,7 @@ def test_the_same_content_gives_the_same_bytes_in_any_process(given, page, files
     assert report_html(given) == page
     code = (
         "import sys; from pathlib import Path\n"
-        "from contactbench.pipeline.report import page; from contactbench.pipeline.report.making import report\n"
+        "from contactbench.pipeline.report import page; from contactbench.pipeline.report.report_file import report\n"
         "page._PIXELS = 60\n"
         "f = Path(sys.argv[1]); i = {'verification': f / 'v.json', 'probe': f / 'p.ply', 'calibration': f / 'c.json'}\n"
         "sys.stdout.buffer.write(report(i, {}, '2026-03-04T05:06:00+00:00')['report.html'])"
@@ -221,34 +222,34 @@ def test_a_wrong_verification_is_refused_by_name(files, tmp_path, change, words)
     data = json.loads((files / "v.json").read_bytes())
     change(data)
     (tmp_path / "v.json").write_text(json.dumps(data), encoding="utf-8")
-    with pytest.raises(ReportError, match=words):
+    with pytest.raises(InputError, match=words):
         read_verification(tmp_path / "v.json")
 
 
 def test_what_is_no_verification_at_all_is_refused(tmp_path):
-    with pytest.raises(ReportError, match="cannot be read"):
+    with pytest.raises(InputError, match="cannot be read"):
         read_verification(tmp_path / "none.json")
     (tmp_path / "v.json").write_text('{"schema": NaN}', encoding="utf-8")
-    with pytest.raises(ReportError, match="not JSON"):
+    with pytest.raises(InputError, match="not JSON"):
         read_verification(tmp_path / "v.json")
 
 
 def test_a_probe_that_is_not_aligned_has_no_report(given):
-    with pytest.raises(ReportError, match="not aligned"):
+    with pytest.raises(InputError, match="not aligned"):
         report_html(replace(given, probe=replace(given.probe, frame="P")))
-    with pytest.raises(ReportError, match="zone"):
+    with pytest.raises(InputError, match="zone"):
         report_html(replace(given, created=CREATED.replace(tzinfo=None)))
 
 
 @pytest.mark.parametrize("parameters", [{"name": "x.txt"}, {"name": "a/b.html"}, {"colour": 1}])
 def test_wrong_parameters_are_refused(files, parameters):
-    with pytest.raises(ReportError):
+    with pytest.raises(InputError):
         make({"verification": files / "v.json", "probe": files / "p.ply"}, parameters, None)
 
 
 def test_a_pdf_or_the_remedy(page, monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.report.pdf.find_spec", lambda _: None)
-    with pytest.raises(ReportError, match=r"contactbench\[pdf\]"):
+    monkeypatch.setattr("contactbench.pipeline.report.report_file.find_spec", lambda _: None)
+    with pytest.raises(InputError, match=r"contactbench\[pdf\]"):
         report_pdf(page)
     monkeypatch.undo()
     pytest.importorskip("weasyprint")
@@ -284,10 +285,10 @@ def test_another_probe_than_the_verified_one_is_refused(given, files, tmp_path):
     (tmp_path / "v.json").write_bytes(v.to_bytes())
     inputs = {"verification": tmp_path / "v.json", "probe": files / "p.ply"}
     assert make(inputs, {}, None)["report.html"]
-    with pytest.raises(ReportError, match=r"c\.json: this is not the calibration that was verified"):
+    with pytest.raises(InputError, match=r"c\.json: this is not the calibration that was verified"):
         make({**inputs, "calibration": files / "c.json"}, {}, None)
     save_probe_file(content(facets=900).probe, tmp_path / "q.ply")
-    with pytest.raises(ReportError, match="not the probe that was verified"):
+    with pytest.raises(InputError, match="not the probe that was verified"):
         make({**inputs, "probe": tmp_path / "q.ply"}, {}, None)
 
 

@@ -14,10 +14,10 @@ from contactbench.pipeline.contact import Gates, Reason
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_cases
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_cases import Case, HardCasesReport, Outcome, Rule, Trial
+from contactbench.pipeline.study.hard_cases import HardCase, HardCasesReport, HardOutcome, HardTrial, Rule
 from contactbench.pipeline.study.hard_trials import certified, complete, exact, like, refused, within
 
-GOOD = Outcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
+GOOD = HardOutcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def rng() -> np.random.Generator:
     return np.random.default_rng(0)
 
 
-def named(report: HardCasesReport, name: str) -> Case:
+def named(report: HardCasesReport, name: str) -> HardCase:
     return next(case for case in report.cases if case.name == name)
 
 
@@ -73,10 +73,10 @@ def test_same_seed_gives_the_same_report(report: HardCasesReport) -> None:
 
 def test_views_hold_every_case(report: HardCasesReport) -> None:
     console = Console(width=220, file=io.StringIO())
-    console.print(hard_cases.table(report))
+    console.print(*report.tables())
     shown = console.file.getvalue()  # type: ignore[attr-defined]
     assert all(case.name in shown for case in report.cases)
-    text = hard_cases.markdown(report)
+    text = report.markdown()
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert len(rows) == len(report.cases) + 2
     assert {row.count("|") for row in rows} == {7}
@@ -97,41 +97,41 @@ def test_too_few_samples_are_refused() -> None:
         (Rule("", unflagged=2e-4), replace(GOOD, wrong_unflagged=3e-4), "not flagged"),
         (Rule("", reasons=(Reason.VERTEX,)), replace(GOOD, reasons={"VERTEX": 9, "OK": 1}), "belong"),
         (refused(Reason.LOW_FORCE), GOOD, "answered"),
-        (refused(Reason.LOW_FORCE), Outcome(0.0, None, None, {"OFF_SURFACE": 1}, 0.0), "belong"),
+        (refused(Reason.LOW_FORCE), HardOutcome(0.0, None, None, {"OFF_SURFACE": 1}, 0.0), "belong"),
         (exact("1 m"), replace(GOOD, answered=float("nan")), "answered"),
     ],
 )
-def test_a_rule_names_what_is_wrong(rule: Rule, wrong: Outcome, words: str) -> None:
+def test_a_rule_names_what_is_wrong(rule: Rule, wrong: HardOutcome, words: str) -> None:
     assert words in " ".join(rule.faults(wrong))
 
 
 def test_a_rule_accepts_what_is_right() -> None:
     assert exact("1 m").faults(GOOD) == ()
-    assert refused(Reason.LOW_FORCE).faults(Outcome(0.0, None, None, {"LOW_FORCE": 3}, 0.0)) == ()
+    assert refused(Reason.LOW_FORCE).faults(HardOutcome(0.0, None, None, {"LOW_FORCE": 3}, 0.0)) == ()
 
 
 @pytest.fixture
-def trial(rng: np.random.Generator) -> Trial:
+def trial(rng: np.random.Generator) -> HardTrial:
     body = hm.ellipsoid(2)
     drawn = hm.press(*hm.places(body, 50, rng), rng)
-    return Trial("name", "what", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=1e-6)
+    return HardTrial("name", "what", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=1e-6)
 
 
-def test_a_trial_passes_only_against_the_right_truth(trial: Trial) -> None:
+def test_a_trial_passes_only_against_the_right_truth(trial: HardTrial) -> None:
     assert trial.run().passed
     off = hm.Drawn(trial.drawn.wrenches, trial.drawn.points + 2e-9)
     assert replace(trial, drawn=off).run().contactbench.wrong == 1.0
     assert not replace(trial, drawn=off).run().passed
 
 
-def test_a_trial_without_wrenches_fails(trial: Trial) -> None:
+def test_a_trial_without_wrenches_fails(trial: HardTrial) -> None:
     case = replace(trial, drawn=trial.drawn.take(slice(0, 0))).run()
     assert not case.passed
     assert "more samples" in case.faults[0]
 
 
-def test_only_a_mesh_that_says_so_excuses_wrong_answers(trial: Trial) -> None:
-    inside_out = Trial(
+def test_only_a_mesh_that_says_so_excuses_wrong_answers(trial: HardTrial) -> None:
+    inside_out = HardTrial(
         "", "", Rule("", (0.0, 1.0)), hm.ellipsoid(2).probe(hm.ellipsoid(2).faces[:, ::-1]), trial.drawn
     )
     assert not inside_out.run().passed
@@ -140,7 +140,7 @@ def test_only_a_mesh_that_says_so_excuses_wrong_answers(trial: Trial) -> None:
     assert sound.run().contactbench.wrong_unflagged == 1.0
 
 
-def test_checks_refuse_answers_to_other_wrenches(trial: Trial) -> None:
+def test_checks_refuse_answers_to_other_wrenches(trial: HardTrial) -> None:
     body = hm.ellipsoid(2)
     count = len(trial.drawn)
     turned = trial.drawn.take(np.roll(np.arange(count), 1))
@@ -161,7 +161,7 @@ def test_complete_notices_a_lost_candidate(rng: np.random.Generator) -> None:
     """A friction cone that is narrower for the solver than for the touches loses candidates."""
     body = hm.bundled("t-shape", 500)
     drawn = hm.press(*hm.places(body, 40, rng), rng, angle=(30.0, 40.0))
-    wide = Trial("", "", Rule("", unflagged=1.0), body.probe(), drawn, gates=Gates(friction_angle=89.0))
+    wide = HardTrial("", "", Rule("", unflagged=1.0), body.probe(), drawn, gates=Gates(friction_angle=89.0))
     assert replace(wide, check=complete(drawn)).run().passed
     narrow = replace(wide, gates=Gates(friction_angle=25.0), check=complete(drawn)).run()
     assert narrow.contactbench.broken == 40

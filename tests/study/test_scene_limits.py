@@ -9,12 +9,12 @@ from contactbench.pipeline.study import scene_limits as study
 
 
 @pytest.fixture(scope="module")
-def report() -> study.Report:
+def report() -> study.SceneReport:
     pytest.importorskip("mujoco")
     return study.run("convex", 2.0, motions=("in plane",), only=("half the time step", study.ARM))
 
 
-def test_each_change_brings_what_it_is_compared_with(report: study.Report) -> None:
+def test_each_change_brings_what_it_is_compared_with(report: study.SceneReport) -> None:
     assert [(e.change, e.against) for e in report.effects] == [
         ("half the time step", study.AS_IT_IS),
         (study.ARM, study.AS_IT_IS),
@@ -22,7 +22,7 @@ def test_each_change_brings_what_it_is_compared_with(report: study.Report) -> No
     assert set(report.real_time) == {study.AS_IT_IS, "half the time step", study.ARM}
 
 
-def test_the_time_step_hardly_counts_and_the_arm_a_little(report: study.Report) -> None:
+def test_the_time_step_hardly_counts_and_the_arm_a_little(report: study.SceneReport) -> None:
     step, arm = report.effects
     assert step.force < 0.05
     assert step.angle < 0.02
@@ -31,17 +31,17 @@ def test_the_time_step_hardly_counts_and_the_arm_a_little(report: study.Report) 
     assert 0.0 < arm.angle < 0.1
 
 
-def test_the_inertia_of_a_tool_that_swings_is_felt(report: study.Report) -> None:
+def test_the_inertia_of_a_tool_that_swings_is_felt(report: study.SceneReport) -> None:
     assert [i.scene for i in report.inertia] == [study.AS_IT_IS, study.ARM]
     for each in report.inertia:
         # 0.45 kg, 80 mm from the tip, 9 degrees in 2 s: 0.056 N, and some more for the set-points' corners.
         assert 0.04 < each.force < 0.4
 
 
-def test_the_report_can_be_read_and_kept(report: study.Report) -> None:
-    text = study.markdown(report)
+def test_the_report_can_be_read_and_kept(report: study.SceneReport) -> None:
+    text = report.markdown()
     assert "| in plane | arm, as it is |" in text
-    assert len(study.sheets(report)) == text.count("## ") == 3
+    assert len(report.sheets()) == text.count("## ") == 3
     assert json.loads(json.dumps(report.to_json()))["probe"] == "convex"
 
 

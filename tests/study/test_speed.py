@@ -9,7 +9,6 @@ from typer.testing import CliRunner
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import speed
-from contactbench.pipeline.study.speed_tables import markdown, tables
 
 
 @pytest.fixture(scope="module")
@@ -83,15 +82,15 @@ def test_tracking_never_differs_and_the_count_could_say_otherwise(report):
 def test_report_is_plain_data(report):
     data = json.loads(json.dumps(report.to_json()))
     assert {t["met"] for t in data["targets"]} <= {True, False}
-    text = markdown(report)
+    text = report.markdown()
     assert "contactbench, tracking" in text
     assert "differed from cold solves on 0 samples" in text
-    assert len(tables(report)) == 2
+    assert len(report.tables()) == 2
 
 
 def test_targets_are_judged_both_ways():
-    assert speed.Target("a", 2.0, 1.0).met is False
-    assert speed.Target("a", 2.0, 1.0, at_least=True).met is True
+    assert speed.SpeedTarget("a", 2.0, 1.0).met is False
+    assert speed.SpeedTarget("a", 2.0, 1.0, at_least=True).met is True
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSampl
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.simulation.loads import weigh
 from contactbench.pipeline.verification.known import Outcome
 from contactbench.pipeline.verification.known_weight import WeightParameters, check_weight
 

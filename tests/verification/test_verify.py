@@ -7,6 +7,7 @@ from benchmarks.verification import bench
 from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
+from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
@@ -16,7 +17,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from contactbench.pipeline.simulation.weighing import draw_weighing
 from contactbench.pipeline.verification.figures import Cause, Limits
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.noise import measured_noise, resting

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from benchmarks.bundle_example import example_config
 
-from contactbench.pipeline.control.frames import Beginning, Frame
+from contactbench.pipeline.control.frames import Beginning, LoopFrame
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.motion import MotionChoice, MotionRun, placed
 
@@ -109,7 +109,7 @@ def test_it_can_be_ended_at_once(begin):
 def test_an_upright_probe_on_a_phantom_at_rest_is_at_the_origin():
     down = (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0)
     beginning = Beginning(PLATFORM, "aware", 7.0, 30.0, 0.02, (0.3, 0.0, 0.25))
-    frame = Frame(
+    frame = LoopFrame(
         1.0,
         "track",
         None,

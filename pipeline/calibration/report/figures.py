@@ -2,7 +2,7 @@
 
 Matplotlib draws with fixed colours; these stand for roles (ink, grid, force, ...) and are replaced by the
 page's CSS variables, so that one picture serves light, dark and paper. Text stays text: it can be searched
-and copied. Figures carry numbers of poses, never names: nothing from a file gets in here.
+and copied. CalibrationFigures carry numbers of poses, never names: nothing from a file gets in here.
 
 Importing this module imports Matplotlib, which takes a while: import it when a report is made.
 """
@@ -87,7 +87,7 @@ _SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 
 @dataclass(frozen=True)
-class Figures:
+class CalibrationFigures:
     """Pictures as SVG elements."""
 
     signed: str  # What each channel read beside bias and weight, over time
@@ -98,12 +98,11 @@ class Figures:
     contact: str  # The predicted error over force directions; empty when it was not asked for
 
 
-def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: str) -> Figures:
+def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: str) -> CalibrationFigures:
     """Draw all pictures of a report; the same calibration gives the same text.
 
     Parameters
     ----------
-    calibration : Calibration
     sigmas : (6,) or None
         Noise to add to the calibration's share on the map, N and N·m; None: no map.
     noise : str
@@ -116,7 +115,7 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
         gravity = _coverage(-R_WS[:, 2], kept, halves)
         probe = _coverage(R_WS @ calibration.task.normal, kept, ways, lower_first=True)
         contact = None if sigmas is None else _contact(calibration, sigmas, noise)
-        return Figures(
+        return CalibrationFigures(
             _svg(_signed(calibration), "s", "Signed residuals of every channel over time"),
             _svg(_residuals(calibration), "r", "Deviates of force and torque of every pose"),
             _svg(gravity, "g", "Direction of gravity in the sensor frame in every pose"),

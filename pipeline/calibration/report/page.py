@@ -6,8 +6,6 @@ bytes.
 
 from __future__ import annotations
 
-import re
-from datetime import UTC
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,8 +23,8 @@ from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.verdict import Level
 from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.durable import write_file
+from contactbench.pipeline.page import moment, render
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,9 +47,6 @@ _LOST = 0.05
 _ALIKE = 1.1
 # A direction of gravity that is less sure than this, rad, is none.
 _ANY_TILT = 0.5
-
-# Control characters, halves of characters, and what turns the direction of writing.
-_UNPRINTABLE = re.compile("[\0-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 # Residuals fit to the noise that was given unless so few sets have larger ones, or smaller ones.
 _FITS = 1e-3
@@ -79,7 +74,6 @@ def write_report(
 
     Parameters
     ----------
-    calibration : Calibration
     file : path
         Appears as a whole; what was there stays until then.
     title : str
@@ -95,13 +89,7 @@ def write_report(
         The file cannot be written, or `created` has no time zone.
     """
     data = report_html(calibration, title=title, source=source, created=created).encode()
-    try:
-        write_durably(file, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{file}: the report cannot be written ({error}): choose a folder that exists, is writable and has"
-            " space."
-        ) from error
+    write_file(file, data)
 
 
 def report_html(
@@ -112,18 +100,18 @@ def report_html(
     created: datetime | None = None,
 ) -> str:
     """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""
-    if created is not None and created.tzinfo is None:
-        raise InputError("created: the time has no zone: use datetime.now(UTC).")
-    # Both take a while to import, and most runs write no report.
+    when = moment(created)
+    # It takes a while to import, and most runs write no report.
     from contactbench.pipeline.calibration.report.figures import CROWDED, EMPTY, STEEPEST, draw
 
     live, live_words = live_noise(calibration)
     lost = calibration.contact_error > _LOST
     figures = draw(calibration, None if lost else live, live_words)
     level = calibration.verdict.level
-    page: str = _template().render(
+    return render(
+        __package__,
         title=title,
-        created=None if created is None else created.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        created=when,
         source=source,
         tool=f"contactbench {__version__}",
         level=level.value,
@@ -152,25 +140,6 @@ def report_html(
         empty=f"{EMPTY:g}",
         steepest=STEEPEST,
     )
-    return page
-
-
-def _template() -> Any:
-    from importlib.resources import files
-
-    from jinja2 import Environment, StrictUndefined
-
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, finalize=_printable
-    )
-    return environment.from_string(files(__package__).joinpath("page.html.jinja").read_text("utf-8"))
-
-
-def _printable(value: Any) -> Any:
-    """Replace what no page can hold; markup, a class of its own, stays as it is."""
-    if type(value) is not str:
-        return value
-    return _UNPRINTABLE.sub(lambda match: " " if match[0].isspace() else "\N{REPLACEMENT CHARACTER}", value)
 
 
 # ---- numbers -----------------------------------------------------------------------------------

@@ -8,9 +8,15 @@ tissue, `BenchScene` a tool on a wrist; `PlatformScene` and `ArmScene` follow se
 from contactbench.pipeline.simulation.scenes.arm import ArmScene
 from contactbench.pipeline.simulation.scenes.bench import BenchScene
 from contactbench.pipeline.simulation.scenes.depth import depth_for
-from contactbench.pipeline.simulation.scenes.indenter import Press, Tip
+from contactbench.pipeline.simulation.scenes.indenter import Tip, TipPress
 from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
-from contactbench.pipeline.simulation.scenes.physics import Moment, Payload, PhysicsError, Scene, Truth
+from contactbench.pipeline.simulation.scenes.physics import (
+    Payload,
+    PhysicsError,
+    PhysicsScene,
+    SceneMoment,
+    TrueSurface,
+)
 from contactbench.pipeline.simulation.scenes.platform import MovedScene, PlatformScene
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 from contactbench.pipeline.simulation.scenes.press import PressScene
@@ -21,21 +27,21 @@ from contactbench.pipeline.simulation.scenes.touch import TouchScene
 __all__ = [
     "ArmScene",
     "BenchScene",
-    "Moment",
     "Motion",
     "MovedScene",
     "Payload",
     "PhysicsError",
+    "PhysicsScene",
     "PlatformMotion",
     "PlatformScene",
-    "Press",
     "PressScene",
-    "Scene",
+    "SceneMoment",
     "ServoSettings",
     "Tip",
+    "TipPress",
     "Tissue",
     "TouchScene",
-    "Truth",
+    "TrueSurface",
     "depth_for",
     "hand_motion",
 ]

@@ -23,7 +23,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.scenes.physics import Payload, Truth, new_spec, physics
+from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface, new_spec, physics
 from contactbench.pipeline.simulation.scenes.platform import MovedScene, add_platform
 from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
 from contactbench.pipeline.simulation.scenes.servo import JointServo, ServoSettings
@@ -49,7 +49,7 @@ class ArmScene(MovedScene):
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
     payload : Payload, optional
     tissue : Tissue, optional
     motion : PlatformMotion, optional
@@ -86,7 +86,7 @@ class ArmScene(MovedScene):
 
     def __init__(
         self,
-        truth: Truth,
+        truth: TrueSurface,
         *,
         payload: Payload | None = None,
         tissue: Tissue | None = None,

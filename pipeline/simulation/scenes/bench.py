@@ -17,15 +17,15 @@ from contactbench.pipeline.simulation.scenes.indenter import (
     PROBE_BIT,
     TIP_BIT,
     Indenter,
-    Press,
     Tip,
+    TipPress,
     add_indenter,
 )
 from contactbench.pipeline.simulation.scenes.physics import (
     PROBE,
     Payload,
-    Scene,
-    Truth,
+    PhysicsScene,
+    TrueSurface,
     new_spec,
     physics,
     sensed_body,
@@ -86,13 +86,13 @@ class _Turn:
         return now
 
 
-class BenchScene(Scene):
+class BenchScene(PhysicsScene):
     """
     A wrist, a sensor, a probe, and a tip that waits.
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
     payload : Payload, optional
     R_WS : (3, 3), optional
         Orientation at the start; upright when left out.
@@ -108,7 +108,7 @@ class BenchScene(Scene):
 
     def __init__(
         self,
-        truth: Truth,
+        truth: TrueSurface,
         *,
         payload: Payload | None = None,
         R_WS: NDArray[np.float64] | None = None,
@@ -170,7 +170,7 @@ class BenchScene(Scene):
         self.control()
         return point
 
-    def press(self, press: Press) -> None:
+    def press(self, press: TipPress) -> None:
         """Press where the tip is aimed at.
 
         Raises
@@ -238,7 +238,7 @@ class BenchScene(Scene):
         arm = self.data.xipos[body] - self.data.site_xpos[self._site]
         self.data.xfrc_applied[body] = np.concatenate([force, torque - np.cross(arm, force)])
 
-    def _spec(self, truth: Truth, point: NDArray[np.float64] | None) -> Any:
+    def _spec(self, truth: TrueSurface, point: NDArray[np.float64] | None) -> Any:
         mujoco = physics()
         spec = new_spec(self._step)
         wrist = spec.worldbody.add_body(

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.simulation.scenes.motion import Motion
-    from contactbench.pipeline.simulation.scenes.physics import Truth
+    from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 _OVER_S, _TIMES = 60.0, 600
 
 
 def depth_for(
-    truth: Truth,
+    truth: TrueSurface,
     force: float,
     *,
     motion: Motion | None = None,
@@ -33,7 +33,7 @@ def depth_for(
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
     force : float
         Normal to the tissue, N; in the mean over a minute of the motion. A scene gives this within 5 %: friction comes
         on top, and the moved side yields a little.

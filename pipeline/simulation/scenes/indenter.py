@@ -61,7 +61,7 @@ class Tip:
 
 
 @dataclass(frozen=True)
-class Press:
+class TipPress:
     """
     How the tip presses.
 
@@ -153,9 +153,9 @@ class Indenter:
         self._data.mocap_quat[self._holder] = Rotation.from_matrix(R).as_quat(scalar_first=True)
         self._data.qpos[self._qpos], self._data.qvel[self._dofs] = 0.0, 0.0
         self._touched = False
-        self.press(Press())
+        self.press(TipPress())
 
-    def press(self, press: Press) -> None:
+    def press(self, press: TipPress) -> None:
         """Go over to another force, direction and torsion, within a ramp."""
         tilt, azimuth = radians(press.tilt), radians(press.azimuth)
         self._from, self._since = self._now(), float(self._data.time)

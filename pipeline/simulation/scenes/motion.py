@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
 
@@ -39,16 +38,6 @@ class Motion:
             self.offset
             + (self.amplitudes * np.sin(2 * np.pi * self.frequencies * time + self.phases)).sum(axis=0)
         )
-
-    def inverse_at(self, time: float) -> NDArray[np.float64]:
-        """Return the pose of the other side seen from the moving one: what it must do instead, (6,)."""
-        return inverse(self.at(time))
-
-
-def inverse(pose: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the inverse of a pose of three shifts, then turns about the moved x, y, z axes."""
-    turned = Rotation.from_euler("XYZ", pose[3:]).inv()
-    return np.concatenate([-turned.apply(pose[:3]), turned.as_euler("XYZ")])
 
 
 def hand_motion(

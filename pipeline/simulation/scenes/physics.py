@@ -83,7 +83,7 @@ class Payload:
 
 
 @dataclass(frozen=True, eq=False)
-class Moment:
+class SceneMoment:
     """
     The truth at one moment; all in S, the contact as what it does to the probe.
 
@@ -127,7 +127,7 @@ class Moment:
         return float((torque - np.cross(self.point_S, force)) @ self.normal_S)
 
 
-class Truth:
+class TrueSurface:
     """The true surface: where contacts are projected on.
 
     Parameters
@@ -173,7 +173,7 @@ class Truth:
         return start[0] - distances[0] * direction_S, self.probe.normals[int(facets[0])]
 
 
-class Scene:
+class PhysicsScene:
     """
     A compiled model and its state.
 
@@ -181,10 +181,10 @@ class Scene:
     ----------
     spec : mujoco.MjSpec
         With what `sensed_body` and `sense` added.
-    truth : Truth
+    truth : TrueSurface
     """
 
-    def __init__(self, spec: Any, truth: Truth) -> None:
+    def __init__(self, spec: Any, truth: TrueSurface) -> None:
         self.mujoco = physics()
         self.truth = truth
         self._compile(spec)
@@ -245,7 +245,7 @@ class Scene:
         """Have the sensors tell of now; after a step they are those of its beginning."""
         self.mujoco.mj_forward(self.model, self.data)
 
-    def moment(self) -> Moment:
+    def moment(self) -> SceneMoment:
         """Return the truth now."""
         self.look()
         R_WS = self.data.site_xmat[self._site].reshape(3, 3).copy()
@@ -255,19 +255,19 @@ class Scene:
         reading = -values[self._read_at]
         if values[self._contact_at.start] == 0:
             nowhere = np.full(3, np.nan)
-            return Moment(self.time, R_WS, reading, np.zeros(6), 0, nowhere, nowhere, nowhere)
+            return SceneMoment(self.time, R_WS, reading, np.zeros(6), 0, nowhere, nowhere, nowhere)
         return self._touched(R_WS, p_WS, reading)
 
     def _touched(
         self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64], reading: NDArray[np.float64]
-    ) -> Moment:
+    ) -> SceneMoment:
         """Return the truth about a contact, as MuJoCo sums it up."""
         found, force_W, torque_W, where_W = np.split(self.data.sensordata[self._contact_at].copy(), [1, 4, 7])
         centroid = R_WS.T @ (where_W - p_WS)
         force, local = R_WS.T @ force_W, R_WS.T @ torque_W
         contact = np.concatenate([force, local + np.cross(centroid, force)])
         point, normal = self.truth.nearest(centroid)
-        return Moment(self.time, R_WS, reading, contact, int(found[0]), centroid, point, normal)
+        return SceneMoment(self.time, R_WS, reading, contact, int(found[0]), centroid, point, normal)
 
 
 def new_spec(step: float, gravity: bool = True) -> Any:

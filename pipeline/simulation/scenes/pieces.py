@@ -10,19 +10,17 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.simulation.scenes.physics import Truth
+    from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 _THICKNESS_M = 0.002
 _FACING = 1e-3  # facets that look away from the one that is touched are its other side
 _MOST_PIECES = 4_000
 
 
-def facets_near(truth: Truth, point_S: NDArray[np.float64], radius: float) -> NDArray[np.intp]:
+def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float) -> NDArray[np.intp]:
     """
     Return the facets within a radius, m, of a point on the surface, and on its side.
 
@@ -80,7 +78,6 @@ def add_facets(
     spec : mujoco.MjSpec
     body : mujoco.MjsBody
         In S.
-    probe : Probe
     facets : (k,) int
     prefix : str
         Of the pieces' names.
@@ -97,11 +94,3 @@ def add_facets(
             name=name, uservert=corners.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
         )
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, **geometry)
-
-
-def markers_from(points_S: Sequence[Sequence[float]], probe: Probe) -> NDArray[np.float64]:
-    """Return points (n, 3) projected on a probe's surface, m."""
-    from contactbench.pipeline.kernel import SurfaceIndex
-
-    index = SurfaceIndex(probe.vertices, probe.faces)
-    return np.asarray(index.closest(np.ascontiguousarray(points_S, dtype=np.float64))[2])

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
+from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
 from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
 from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
 from contactbench.pipeline.simulation.scenes.tissue import (
@@ -72,7 +72,7 @@ class MovedScene(TissueScene):
     def __init__(
         self,
         spec: Any,
-        truth: Truth,
+        truth: TrueSurface,
         tissue: Tissue,
         places: NDArray[np.float64],
         area: float,
@@ -118,7 +118,7 @@ class MovedScene(TissueScene):
         Raises
         ------
         PhysicsError
-            See `Scene.step`.
+            See `PhysicsScene.step`.
         """
         # Before `mj_step` they would be those of the step before, and none at all at the first.
         self.mujoco.mj_step1(self.model, self.data)
@@ -209,7 +209,7 @@ class PlatformScene(MovedScene):
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
     payload : Payload, optional
     tissue : Tissue, optional
     motion : PlatformMotion, optional
@@ -237,7 +237,7 @@ class PlatformScene(MovedScene):
 
     def __init__(
         self,
-        truth: Truth,
+        truth: TrueSurface,
         *,
         payload: Payload | None = None,
         tissue: Tissue | None = None,

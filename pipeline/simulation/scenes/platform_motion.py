@@ -54,7 +54,6 @@ class PlatformMotion:
 
         Parameters
         ----------
-        axis : {"x", "y", "z", "rx", "ry", "rz"}
         size : float
             m or rad.
         period, start : float

@@ -58,10 +58,8 @@ class JointServo:
 
     Parameters
     ----------
-    robot : Robot
     start : (n,)
         rad.
-    settings : ServoSettings
     step : float
         s between two calls of `acceleration`.
     """

@@ -13,10 +13,10 @@ from contactbench.pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
 from contactbench.pipeline.simulation.scenes.physics import (
     OTHER,
     PROBE,
-    Moment,
     Payload,
-    Scene,
-    Truth,
+    PhysicsScene,
+    SceneMoment,
+    TrueSurface,
     physics,
     sensed_body,
 )
@@ -69,7 +69,7 @@ class Tissue:
             raise InputError(f"tissue {values}: give positive numbers; damping and friction may be 0.")
 
 
-class TissueScene(Scene):
+class TissueScene(PhysicsScene):
     """
     A probe and tissue that pushes each place of its face by that place's own depth.
 
@@ -81,8 +81,6 @@ class TissueScene(Scene):
     ----------
     spec : mujoco.MjSpec
         With a probe that `add_probe` and a phantom that `add_phantom` added.
-    truth : Truth
-    tissue : Tissue
     places : (n, 3)
         Of the face, S, m; what `add_probe` returned.
     area : float
@@ -90,7 +88,7 @@ class TissueScene(Scene):
     """
 
     def __init__(
-        self, spec: Any, truth: Truth, tissue: Tissue, places: NDArray[np.float64], area: float
+        self, spec: Any, truth: TrueSurface, tissue: Tissue, places: NDArray[np.float64], area: float
     ) -> None:
         super().__init__(spec, truth)
         self.area = area
@@ -100,7 +98,7 @@ class TissueScene(Scene):
 
     def _touched(
         self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64], reading: NDArray[np.float64]
-    ) -> Moment:
+    ) -> SceneMoment:
         """Return the truth, and the reading, with every force where the probe feels it."""
         places, forces, moved = self._felt(R_WS, p_WS)
         reading = reading + np.concatenate([np.zeros(3), _torque(places - moved, forces)])
@@ -115,7 +113,7 @@ class TissueScene(Scene):
             point, normal = self.truth.along(centroid, -total / push, _REACH_M)
         else:
             point, normal = self.truth.nearest(centroid)
-        return Moment(self.time, R_WS, reading, contact, len(places), centroid, point, normal)
+        return SceneMoment(self.time, R_WS, reading, contact, len(places), centroid, point, normal)
 
     def _felt(
         self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64]
@@ -150,7 +148,7 @@ def _torque(places: NDArray[np.float64], forces: NDArray[np.float64]) -> NDArray
 
 
 def add_probe(
-    spec: Any, parent: Any, truth: Truth, payload: Payload, tissue: Tissue, count: int
+    spec: Any, parent: Any, truth: TrueSurface, payload: Payload, tissue: Tissue, count: int
 ) -> tuple[NDArray[np.float64], float]:
     """Add the sensed probe with a small ball at each of about `count` places; return them, (n, 3), and their area."""
     places, normals, area = spread(truth.probe, count)
@@ -208,7 +206,6 @@ def spread(probe: Probe, count: int) -> tuple[NDArray[np.float64], NDArray[np.fl
 
     Parameters
     ----------
-    probe : Probe
     count : int
         About how many.
 

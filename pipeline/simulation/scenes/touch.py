@@ -17,31 +17,40 @@ from contactbench.pipeline.simulation.scenes.indenter import (
     PROBE_BIT,
     TIP_BIT,
     Indenter,
-    Press,
     Tip,
+    TipPress,
     add_indenter,
 )
-from contactbench.pipeline.simulation.scenes.physics import Payload, Scene, Truth, new_spec, sensed_body
+from contactbench.pipeline.simulation.scenes.physics import (
+    Payload,
+    PhysicsScene,
+    TrueSurface,
+    new_spec,
+    sensed_body,
+)
 from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.simulation.scenes.physics import Moment
+    from contactbench.pipeline.simulation.scenes.physics import SceneMoment
 
 STEP_S = 0.0005
 PATCH_M = 0.005  # how much of the surface a tip can reach that slips
 _SETTLED_MPS = 5e-5
 _LONGEST_S = 3.0
+FORCE_N = (8.0, 10.0)
+_TORSION_M = 0.0003  # N·m per N: torsional friction of a patch of 1.5 mm
+_MOST_TORSION_M = 0.0006  # more would turn the tip
 
 
-class TouchScene(Scene):
+class TouchScene(PhysicsScene):
     """
     A tip above one point of a probe.
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
         The true surface.
     marker_S : array_like (3,)
         m; the tip aims at the nearest point of the surface, along the normal there.
@@ -61,7 +70,7 @@ class TouchScene(Scene):
 
     def __init__(
         self,
-        truth: Truth,
+        truth: TrueSurface,
         marker_S: ArrayLike,
         *,
         payload: Payload | None = None,
@@ -87,11 +96,11 @@ class TouchScene(Scene):
         """Push the tip."""
         self.indenter.control()
 
-    def press(self, press: Press) -> None:
+    def press(self, press: TipPress) -> None:
         """Press so from now on; see `settle`."""
         self.indenter.press(press)
 
-    def settle(self) -> Moment | None:
+    def settle(self) -> SceneMoment | None:
         """Go on until the tip rests, and return the truth then; None when it does not within 3 s: it slips."""
         stop = self.time + _LONGEST_S
         while self.time < stop:
@@ -102,6 +111,14 @@ class TouchScene(Scene):
             if self.data.ncon and speed < _SETTLED_MPS:
                 return self.moment()
         return None
+
+
+def draw_press(rng: np.random.Generator, tilt: float, azimuth: float | None = None) -> TipPress:
+    """Draw the force, 8 to 10 N, and the torsion of a press so tilted, degrees; the azimuth too, if it is left out."""
+    force = rng.uniform(*FORCE_N)
+    bearing = rng.uniform(0.0, 360.0) if azimuth is None else azimuth
+    arm = float(np.clip(_TORSION_M * rng.standard_normal(), -_MOST_TORSION_M, _MOST_TORSION_M))
+    return TipPress(force, tilt, bearing, arm * force)
 
 
 def along(normal_S: NDArray[np.float64]) -> NDArray[np.float64]:

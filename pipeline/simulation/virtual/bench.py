@@ -21,7 +21,7 @@ from contactbench import assets
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import BenchScene, Truth
+from contactbench.pipeline.simulation.scenes import BenchScene, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (
     Bump,
@@ -29,8 +29,8 @@ from contactbench.pipeline.simulation.virtual.commands import (
     CommandError,
     End,
     Release,
-    Rezero,
-    Touch,
+    SecretRezero,
+    TouchCommand,
     TurnTo,
     Warm,
 )
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment, Payload
+    from contactbench.pipeline.simulation.scenes import Payload, SceneMoment
 
 RATE, POSE_RATE = 200.0, 50.0
 FASTEST = 1000.0
@@ -67,7 +67,6 @@ class VirtualBench:
         Of the sensor's noise.
     rate, pose_rate : float
         Wrenches and poses a second, up to 1000 Hz; each is taken at the nearest step of 0.5 ms.
-    payload : Payload, optional
     R_SE : (3, 3), optional
         How the sensor is mounted: turns components in the flange E into S. Both have the same origin.
     script : sequence of Timed
@@ -97,7 +96,7 @@ class VirtualBench:
         if seed < 0:
             raise InputError(f"virtual bench: seed {seed}: give a whole number of 0 or more.")
         settings = preset(sensor) if isinstance(sensor, str) else sensor
-        truth = bundled(probe) if isinstance(probe, str) else Truth(probe)
+        truth = bundled(probe) if isinstance(probe, str) else TrueSurface(probe)
         self.probe = truth.probe
         self.markers = markers(probe) if isinstance(probe, str) else markers_on(probe)
         self.rate, self.pose_rate = rate, pose_rate
@@ -184,9 +183,9 @@ class VirtualBench:
     def touch(
         self, marker: int | None = None, *, point_S: ArrayLike | None = None, **how: float | None
     ) -> Future[Done]:
-        """Queue a touch of a marker (from 1) or a point, m; `how` is as in `Touch`."""
+        """Queue a touch of a marker (from 1) or a point, m; `how` is as in `TouchCommand`."""
         place = None if point_S is None else tuple(np.asarray(point_S, float).tolist())
-        return self.send(Touch(marker, place, **how))  # type: ignore[arg-type]
+        return self.send(TouchCommand(marker, place, **how))  # type: ignore[arg-type]
 
     def release(self) -> Future[Done]:
         """Queue the end of a touch."""
@@ -202,7 +201,7 @@ class VirtualBench:
 
     def rezero(self) -> Future[Done]:
         """Queue a re-zero of the sensor, of which only `log` tells."""
-        return self.send(Rezero())
+        return self.send(SecretRezero())
 
     # ---- time ----------------------------------------------------------------------------------
 
@@ -224,7 +223,7 @@ class VirtualBench:
     def _go(self, last: float, count: float) -> Batch:
         wrenches: list[WrenchSample] = []
         flanges: list[FlangeSample] = []
-        truths: list[Moment] = []
+        truths: list[SceneMoment] = []
         with self._lock:
             known, slips = len(self.log), len(self._slips.slips)
             while self._step < last and not self._ended and len(wrenches) + len(flanges) < count:
@@ -239,7 +238,7 @@ class VirtualBench:
             return Batch(tuple(wrenches), tuple(flanges), tuple(truths), done, slipped)
 
     def _sample(
-        self, wrenches: list[WrenchSample], flanges: list[FlangeSample], truths: list[Moment]
+        self, wrenches: list[WrenchSample], flanges: list[FlangeSample], truths: list[SceneMoment]
     ) -> None:
         wrench = self._step >= round(self._wrenches / (self.rate * self.scene.step_s))
         pose = self._step >= round(self._poses / (self.pose_rate * self.scene.step_s))
@@ -255,7 +254,7 @@ class VirtualBench:
             flanges.append(FlangeSample(self.time, truth.R_WS @ self.R_SE, self._place.copy()))
             self._poses += 1
 
-    def _read(self, truth: Moment) -> WrenchSample:
+    def _read(self, truth: SceneMoment) -> WrenchSample:
         # One at a time: how many are read together must not change a bit of them.
         given = self.sensor.read(truth.time, truth.reading)
         fx, fy, fz, mx, my, mz = given.wrenches[0].tolist()
@@ -298,7 +297,7 @@ class VirtualBench:
         done = Done(self.time, command, self._act(command))
         self._last_end = max(done.until, done.time)
         self.log.append(done)
-        if isinstance(command, Touch) and command.force > 0:
+        if isinstance(command, TouchCommand) and command.force > 0:
             self._slips.begin(done)
         return done
 
@@ -308,7 +307,7 @@ class VirtualBench:
         if isinstance(command, TurnTo):
             self._turning = float(now + self.scene.turn_to(command.rotation, command.seconds))
             return self._turning
-        if isinstance(command, Touch):
+        if isinstance(command, TouchCommand):
             return self._touch(command)
         if isinstance(command, Release):
             self._leave()
@@ -318,13 +317,13 @@ class VirtualBench:
             return self._bumped
         elif isinstance(command, Warm):
             self.sensor.warm(command.kelvin, now)
-        elif isinstance(command, Rezero):
+        elif isinstance(command, SecretRezero):
             self.sensor.rezero(self.scene.moment().reading, now)
         elif isinstance(command, End):
             self._ended = True
         return now
 
-    def _touch(self, command: Touch) -> float:
+    def _touch(self, command: TouchCommand) -> float:
         now = self.time
         if now < self._turning - 1e-9:
             raise CommandError(f"touch: the wrist turns until {self._turning:.3f} s: touch after that.")
@@ -356,7 +355,7 @@ class VirtualBench:
 
 
 @cache
-def bundled(name: str) -> Truth:
+def bundled(name: str) -> TrueSurface:
     """
     Return the true surface of a bundled probe, in facets of about a millimetre.
 
@@ -369,7 +368,7 @@ def bundled(name: str) -> Truth:
         raise InputError(f"there is no probe {name!r}: choose one of {', '.join(COUNTS)}.")
     vertices, faces = assets.make(name, _FACETS)
     plain = Probe.from_arrays(vertices, faces, name=name)
-    return Truth(plain.with_region(assets.contact_region(name, vertices, faces)))
+    return TrueSurface(plain.with_region(assets.contact_region(name, vertices, faces)))
 
 
 def _mounting(R_SE: ArrayLike | None) -> NDArray[np.float64]:

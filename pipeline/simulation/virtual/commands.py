@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import Press
+from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
 
 if TYPE_CHECKING:
@@ -29,23 +29,14 @@ class CommandError(InputError):
 
 @dataclass(frozen=True)
 class TurnTo:
-    """
-    Turn the wrist.
-
-    Attributes
-    ----------
-    rpy : 3 floats or None
-        Degrees about the fixed x, then y, then z axis of the world: how the sensor S stands.
-    R_WS : 3 rows of 3 floats or None
-        The same as a matrix; one of the two.
-    seconds : float or None
-        How long the turn takes; None: at 60 degrees a second.
-    """
+    """Turn the wrist."""
 
     name: ClassVar[str] = "turn_to"
+    # degrees about the fixed x, then y, then z axis of the world: how the sensor S stands
     rpy: Three | None = None
+    # 3 rows of 3 floats or None: The same as a matrix; one of the two
     R_WS: tuple[Three, Three, Three] | None = None
-    seconds: float | None = None
+    seconds: float | None = None  # how long the turn takes; None: at 60 degrees a second
 
     def __post_init__(self) -> None:
         if (self.rpy is None) == (self.R_WS is None):
@@ -70,30 +61,18 @@ class TurnTo:
 
 
 @dataclass(frozen=True)
-class Touch:
-    """
-    Press a tip on a place of the probe.
-
-    Attributes
-    ----------
-    marker : int or None
-        Number of a marker, from 1.
-    point_S : 3 floats or None
-        Or a place in S, m: the nearest point of the surface is pressed.
-    force, tilt, azimuth, torsion : float
-        As for `Press`: N, degrees, degrees, N·m.
-    seconds : float or None
-        After which the tip goes away; None: it stays until `Release`.
-    """
+class TouchCommand:
+    """Press a tip on a place of the probe."""
 
     name: ClassVar[str] = "touch"
-    marker: int | None = None
-    point_S: Three | None = None
+    marker: int | None = None  # number of a marker, from 1
+    point_S: Three | None = None  # or a place in S, m: the nearest point of the surface is pressed
+    # force, tilt, azimuth, torsion: as for `TipPress`: N, degrees, degrees, N·m
     force: float = 9.0
     tilt: float = 0.0
     azimuth: float = 0.0
     torsion: float = 0.0
-    seconds: float | None = None
+    seconds: float | None = None  # after which the tip goes away; None: it stays until `Release`
 
     def __post_init__(self) -> None:
         if (self.marker is None) == (self.point_S is None):
@@ -108,9 +87,9 @@ class Touch:
         _check_seconds(self)
 
     @property
-    def press(self) -> Press:
+    def press(self) -> TipPress:
         """How the tip presses."""
-        return Press(self.force, self.tilt, self.azimuth, self.torsion)
+        return TipPress(self.force, self.tilt, self.azimuth, self.torsion)
 
 
 @dataclass(frozen=True)
@@ -122,23 +101,12 @@ class Release:
 
 @dataclass(frozen=True)
 class Bump:
-    """
-    Push the tool.
-
-    Attributes
-    ----------
-    force : 3 floats
-        N, in S; at most 1000 N.
-    seconds : float
-        For how long.
-    lever : 3 floats
-        Where, in S, m; at most 10 m away.
-    """
+    """Push the tool."""
 
     name: ClassVar[str] = "bump"
-    force: Three
-    seconds: float = 0.2
-    lever: Three = (0.0, 0.0, 0.1)
+    force: Three  # N, in S; at most 1000 N
+    seconds: float = 0.2  # for how long
+    lever: Three = (0.0, 0.0, 0.1)  # where, in S, m; at most 10 m away
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "force", _numbers(self, "force"))
@@ -156,12 +124,7 @@ class Bump:
 
 @dataclass(frozen=True)
 class Warm:
-    """Let what the sensor stands on get warmer.
-
-    Attributes
-    ----------
-    kelvin : float
-    """
+    """Let what the sensor stands on get warmer."""
 
     name: ClassVar[str] = "warm"
     kelvin: float
@@ -173,7 +136,7 @@ class Warm:
 
 
 @dataclass(frozen=True)
-class Rezero:
+class SecretRezero:
     """Zero the sensor behind everybody's back: nothing but the truth tells."""
 
     name: ClassVar[str] = "rezero"
@@ -186,9 +149,9 @@ class End:
     name: ClassVar[str] = "end"
 
 
-Command = TurnTo | Touch | Release | Bump | Warm | Rezero | End
+Command = TurnTo | TouchCommand | Release | Bump | Warm | SecretRezero | End
 _COMMANDS: Final[dict[str, type[Any]]] = {
-    kind.name: kind for kind in (TurnTo, Touch, Release, Bump, Warm, Rezero, End)
+    kind.name: kind for kind in (TurnTo, TouchCommand, Release, Bump, Warm, SecretRezero, End)
 }
 
 

@@ -5,73 +5,41 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.simulation.virtual.commands import Command, Rezero
+from contactbench.pipeline.simulation.virtual.commands import Command, SecretRezero
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 
 @dataclass(frozen=True)
 class Done:
-    """
-    A command that took effect.
+    """A command that took effect."""
 
-    Attributes
-    ----------
-    time : float
-        When, s of the bench's clock.
-    command : Command
-    until : float
-        When it is over: a turn at its end, a touch when the tip leaves by itself; else `time`.
-    """
-
-    time: float
+    time: float  # when, s of the bench's clock
     command: Command
-    until: float
+    until: float  # when it is over: a turn at its end, a touch when the tip leaves by itself; else `time`
 
     @property
     def secret(self) -> bool:
         """Whether nobody but the truth may tell of it."""
-        return isinstance(self.command, Rezero)
+        return isinstance(self.command, SecretRezero)
 
 
 @dataclass(frozen=True)
 class Slip:
-    """
-    A tip that was told to press and touched nothing for half a second: it slid off, or never met the probe.
+    """A tip that was told to press and touched nothing for half a second: it slid off, or never met the probe."""
 
-    Attributes
-    ----------
-    time : float
-        When that was found, s of the bench's clock.
-    touch : Done
-        The command.
-    """
-
-    time: float
-    touch: Done
+    time: float  # when that was found, s of the bench's clock
+    touch: Done  # the command
 
 
 @dataclass(frozen=True)
 class Batch:
-    """
-    What the bench gave over some time, each by increasing time.
-
-    Attributes
-    ----------
-    wrenches : tuple of WrenchSample
-    flanges : tuple of FlangeSample
-    truths : tuple of Moment
-        One for every wrench.
-    done : tuple of Done
-        Commands that took effect.
-    slips : tuple of Slip
-        Touches that were found to press nothing.
-    """
+    """What the bench gave over some time, each by increasing time."""
 
     wrenches: tuple[WrenchSample, ...] = ()
     flanges: tuple[FlangeSample, ...] = ()
-    truths: tuple[Moment, ...] = ()
-    done: tuple[Done, ...] = ()
-    slips: tuple[Slip, ...] = ()
+    truths: tuple[SceneMoment, ...] = ()  # one for every wrench
+    done: tuple[Done, ...] = ()  # commands that took effect
+    slips: tuple[Slip, ...] = ()  # touches that were found to press nothing

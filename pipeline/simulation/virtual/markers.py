@@ -54,10 +54,6 @@ def markers(name: str) -> Array:
     """
     Return the markers of a bundled probe, exactly on its true surface.
 
-    Parameters
-    ----------
-    name : {"t-shape", "linear", "convex"}
-
     Returns
     -------
     (n, 3) array

@@ -31,24 +31,14 @@ _AFTERWARDS_S = 1.0
 
 @dataclass(frozen=True)
 class Ran:
-    """
-    What a run gave.
+    """What a run gave."""
 
-    Attributes
-    ----------
-    seconds : float
-        Of the bench's clock.
-    wrenches, flanges, commands : int
-        How many there are in the recording and the truth.
-    slips : tuple of Slip
-        Touches that pressed nothing.
-    """
-
-    seconds: float
+    seconds: float  # of the bench's clock
+    # wrenches, flanges, commands: how many there are in the recording and the truth
     wrenches: int
     flanges: int
     commands: int
-    slips: tuple[Slip, ...] = ()
+    slips: tuple[Slip, ...] = ()  # touches that pressed nothing
 
 
 def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, address: str = "") -> Ran:

@@ -30,24 +30,13 @@ class ScriptError(InputError):
 
 @dataclass(frozen=True)
 class Timed:
-    """
-    A command and when it is due.
-
-    Attributes
-    ----------
-    command : Command
-    at : float or None
-        s since the bench was switched on.
-    after : float or None
-        s after the command before it was over: a turn at its end, a touch when the tip leaves; one of the two.
-    where : str
-        For messages, such as "bench.jsonl, line 3".
-    """
+    """A command and when it is due."""
 
     command: Command
-    at: float | None = None
+    at: float | None = None  # s since the bench was switched on
+    # s after the command before it was over: a turn at its end, a touch when the tip leaves; one of the two
     after: float | None = None
-    where: str = "script"
+    where: str = "script"  # for messages, such as "bench.jsonl, line 3"
 
 
 def read_script(path: Path) -> tuple[Timed, ...]:

@@ -39,7 +39,6 @@ class ServedBench:
 
     Parameters
     ----------
-    bench : VirtualBench
     pty : bool
         The sensor on a pseudo-terminal, not on TCP.
     sensor_port, robot_port : int

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import TextIO
 
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.simulation.virtual.given import Batch, Done
 
 COLUMNS = (
@@ -64,7 +64,7 @@ class TruthTable:
             )
 
 
-def _numbers(truth: Moment) -> list[str]:
+def _numbers(truth: SceneMoment) -> list[str]:
     if truth.contacts == 0:
         contact: list[str] = [""] * 10
     else:

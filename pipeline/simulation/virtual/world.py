@@ -31,10 +31,6 @@ class World:
     """
     The source of any number of streams: one bench, and those who watch it.
 
-    Parameters
-    ----------
-    address : DeviceAddress
-
     Raises
     ------
     InputError

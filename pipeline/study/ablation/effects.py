@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.control.settings import LEFT
-from contactbench.pipeline.study.ablation import locating, reading
-from contactbench.pipeline.study.ablation.locating import Locators, locators, sigmas_of
+from contactbench.pipeline.study.ablation import location_choices, sensor_choices
+from contactbench.pipeline.study.ablation.location_choices import Locators, locators, sigmas_of
 from contactbench.pipeline.study.sweep.noise import FILTERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.study.ablation.records import Record
+    from contactbench.pipeline.study.ablation.records import SceneRecord
 
-INERTIA = reading.INERTIA
-CHOICES = (*locating.CHOICES, *reading.CHOICES, INERTIA)
-# Noise of a wrench, times that of one reading.
+INERTIA = sensor_choices.INERTIA
+CHOICES = (*location_choices.CHOICES, *sensor_choices.CHOICES, INERTIA)
+# Noise of a wrench, times that of one sensor_choices.
 QUIET, FILTERED, RAW = 0.0, FILTERS["kalman"], 1.0
 NOISES = {"none": QUIET, "filtered": FILTERED, "one reading": RAW}
 MOVING = ("platform", "arm")
@@ -31,7 +31,7 @@ def meaningful(choice: str, scene: str) -> bool:
 
 
 def effect(
-    choice: str, record: Record, facets: int, noise: float, seed: int, amount: float | None = None
+    choice: str, record: SceneRecord, facets: int, noise: float, seed: int, amount: float | None = None
 ) -> dict[str, Any]:
     """
     Locate a record without a choice and with it.
@@ -40,15 +40,14 @@ def effect(
     ----------
     choice : str
         Of CHOICES.
-    record : Record
     facets : int
         Of the mesh.
     noise : float
-        Times that of one reading.
+        Times that of one sensor_choices.
     seed : int
         Of the noise; the same for both, and for all choices of how a wrench is located.
     amount : float, optional
-        Of what a sensor does wrong, for the choices of how it is read; as `reading.USUAL` when left out.
+        Of what a sensor does wrong, for the choices of how it is read; as `sensor_choices.USUAL` when left out.
 
     Returns
     -------
@@ -59,15 +58,15 @@ def effect(
     """
     rng = np.random.default_rng([seed, 11])
     made = locators(record.probe, facets, noise)
-    if choice in reading.CHOICES:
-        size = reading.USUAL[choice] if amount is None else amount
+    if choice in sensor_choices.CHOICES:
+        size = sensor_choices.USUAL[choice] if amount is None else amount
         return _read(choice, record, made, size, noise, rng)
     drawn = sigmas_of(noise) * rng.standard_normal(record.felt.shape)
     if choice == INERTIA:
         # The controller's own model does not take all of it off.
         kept = record.contacts + LEFT * (record.felt - record.contacts)
         pair = made.ours.locate_batch(record.felt + drawn), made.ours.locate_batch(kept + drawn)
-    elif choice in locating.SMOOTHED:
+    elif choice in location_choices.SMOOTHED:
         flat, points = made.smoothed(choice, record.contacts + drawn)
         sure = flat.accepted
         return compared(record.points, flat.points, points, sure, sure)
@@ -124,14 +123,14 @@ def _figures(name: str, mm: NDArray[np.float64]) -> dict[str, float]:
 
 
 def _read(
-    choice: str, record: Record, made: Locators, amount: float, noise: float, rng: np.random.Generator
+    choice: str, record: SceneRecord, made: Locators, amount: float, noise: float, rng: np.random.Generator
 ) -> dict[str, Any]:
-    read = reading.read(choice, record, amount, noise, rng)
+    read = sensor_choices.read(choice, record, amount, noise, rng)
     without, with_it = made.ours.locate_batch(read.without), made.ours.locate_batch(read.made)
     sure = without.accepted, with_it.accepted
     figures = compared(record.points, without.points, with_it.points, *sure)
     true, taken, found = read.turns
-    if choice == reading.MOUNT:
+    if choice == sensor_choices.MOUNT:
         # A robot goes to where the contact is on its flange, not in the sensor.
         seen = [points @ R.T for points, R in zip((record.points, without.points, with_it.points),
                                                   (true, taken, found), strict=True)]  # fmt: skip

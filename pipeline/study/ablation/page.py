@@ -7,21 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.study.ablation import locating, scenery
+from contactbench.pipeline.study.ablation import location_choices, scenery
 from contactbench.pipeline.study.ablation.effects import INERTIA, NOISES
-from contactbench.pipeline.study.ablation.reading import MOUNT
 from contactbench.pipeline.study.ablation.records import ANYWHERE, SCENES
+from contactbench.pipeline.study.ablation.sensor_choices import MOUNT
 from contactbench.pipeline.study.ablation.verdicts import (
     MATTERS,
     NOISE,
-    Verdict,
+    ChoiceVerdict,
     about_choices,
     bought,
     crossings,
     unit_of,
 )
-from contactbench.pipeline.study.chapters import chapter
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import chapter, number, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,7 +57,6 @@ def make(results: Results, folder: Path) -> str:
 
     Parameters
     ----------
-    results : Results
     folder : Path
         For the pictures.
 
@@ -90,7 +88,7 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
     return [(title, text) for title, text in made if text]
 
 
-def _verdicts(found: Sequence[Verdict]) -> str:
+def _verdicts(found: Sequence[ChoiceVerdict]) -> str:
     scenes = [scene for scene in _ALL if any(each.scene == scene for v in found for each in v.scenes)]
     rows = []
     for verdict in found:
@@ -115,7 +113,7 @@ def _cell(each: Any) -> str:
     return f"**{text}**" if each.models else text
 
 
-def _costs(found: Sequence[Verdict]) -> str:
+def _costs(found: Sequence[ChoiceVerdict]) -> str:
     rows = [
         [v.choice, v.cost.per, f"{v.cost.without:.3g}", f"{v.cost.made:.3g}", f"{v.cost.more:+.3g}"]
         for v in found
@@ -147,14 +145,14 @@ def _smooth(rows: Sequence[Row]) -> str:
     curve = [r for r in rows if r["kind"] == "curve" and r["x_name"] == "noise"]
     lines = []
     for probe, facets in sorted(
-        {(r["probe"], r["facets"]) for r in curve if r["choice"] in locating.SMOOTHED}
+        {(r["probe"], r["facets"]) for r in curve if r["choice"] in location_choices.SMOOTHED}
     ):
         cells = [probe, f"{facets:,}"]
         for noise in NOISES.values():
             for choice, which in (
-                (locating.SMOOTH, "without"),
-                (locating.SMOOTH, "made"),
-                (locating.BULGE, "made"),
+                (location_choices.SMOOTH, "without"),
+                (location_choices.SMOOTH, "made"),
+                (location_choices.BULGE, "made"),
             ):
                 mine = [
                     r[f"{which}_mean_mm"]
@@ -170,7 +168,9 @@ def _smooth(rows: Sequence[Row]) -> str:
 def _gross(rows: Sequence[Row]) -> str:
     """Return how many sure answers of flat facets miss by 10 mm, by mesh and noise."""
     curve = [
-        r for r in rows if r["kind"] == "curve" and r["x_name"] == "noise" and r["choice"] == locating.SMOOTH
+        r
+        for r in rows
+        if r["kind"] == "curve" and r["x_name"] == "noise" and r["choice"] == location_choices.SMOOTH
     ]
     lines = []
     for probe, facets in sorted({(r["probe"], r["facets"]) for r in curve}):
@@ -207,7 +207,7 @@ def _facets(at: str) -> int:
 
 def _noises(rows: Sequence[Row]) -> str:
     lines = []
-    for choice in (*locating.CHOICES, INERTIA):
+    for choice in (*location_choices.CHOICES, INERTIA):
         for noise in NOISES:
             cells = []
             for scene in _ALL:

@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from contactbench.pipeline.study.ablation import locating, reading
+from contactbench.pipeline.study.ablation import location_choices, sensor_choices
 from contactbench.pipeline.study.ablation.effects import FILTERED
 from contactbench.pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
+from contactbench.pipeline.study.pages import COLOURS, STYLE, png
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -37,7 +37,7 @@ Panel = tuple[str, str, str, dict[str, tuple[list[float], list[float], str]], fl
 
 def _smooth(curves: Sequence[Row]) -> list[Panel]:
     panels: list[Panel] = []
-    for choice in locating.SMOOTHED:
+    for choice in location_choices.SMOOTHED:
         mine = [r for r in curves if r["choice"] == choice]
         noisy = [r for r in mine if r["x_name"] == "noise"]
         lines = _lines(noisy, "facets", lambda facets: f"{facets:,} facets")
@@ -51,13 +51,13 @@ def _smooth(curves: Sequence[Row]) -> list[Panel]:
 def _torque(curves: Sequence[Row]) -> list[Panel]:
     panels: list[Panel] = []
     for choice, name in (
-        (locating.LOCAL_TORQUE, "torsion, mm"),
-        (locating.LOCAL_TORQUE, "noise"),
-        (locating.GATE, "force angle up to, deg"),
+        (location_choices.LOCAL_TORQUE, "torsion, mm"),
+        (location_choices.LOCAL_TORQUE, "noise"),
+        (location_choices.GATE, "force angle up to, deg"),
     ):
         mine = [r for r in curves if r["choice"] == choice and r["x_name"] == name]
         split = "probe" if name == "noise" else "noise_times"
-        gate = choice == locating.GATE
+        gate = choice == location_choices.GATE
         figure = located_more if gate else share_of
         lines = _lines(mine, split, lambda v: v if isinstance(v, str) else f"noise: {noise_name(v)}", figure)
         shown = "noise, times that of a reading" if name == "noise" else name
@@ -68,13 +68,13 @@ def _torque(curves: Sequence[Row]) -> list[Panel]:
 
 def _readings(curves: Sequence[Row]) -> list[Panel]:
     panels: list[Panel] = []
-    for choice in reading.CHOICES:
+    for choice in sensor_choices.CHOICES:
         mine = [r for r in curves if r["choice"] == choice]
         lines: dict[str, tuple[list[float], list[float], str]] = {}
         for which, style in (("without", "--"), ("made", "-")):
             for label, (xs, ys, _) in _lines(mine, "probe", str, _mean_of(f"{which}_mean_mm")).items():
                 lines[f"{label}, {'modelled' if which == 'made' else 'left out'}"] = (xs, ys, style)
-        panels.append((choice, reading.UNITS[choice], "mean error, mm", lines, None))
+        panels.append((choice, sensor_choices.UNITS[choice], "mean error, mm", lines, None))
     return panels
 
 

@@ -16,8 +16,8 @@ from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.simulation.scenes import (
     BenchScene,
     Payload,
-    Press,
     PressScene,
+    TipPress,
     depth_for,
     hand_motion,
 )
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment, MovedScene, Truth
+    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment, TrueSurface
 
 TOUCH, PRESS, BENCH, PLATFORM, ARM = SCENES = ("touch", "press", "bench", "platform", "arm")
 ANYWHERE = "whole head"  # touches drawn over the whole head: no physics, but every curvature
@@ -49,36 +49,24 @@ _ROUNDS = 3  # depth and heave depend on each other
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
-    """
-    Contacts of one probe in one scene, one row each; S, SI units.
-
-    Attributes
-    ----------
-    scene, probe : str
-    contacts, felt : (n, 6)
-        True wrench on the probe, and what a perfect sensor reads beside the weight: the contact, and inertia where
-        something moves.
-    points : (n, 3)
-        True place of the contact.
-    R_WS : (n, 3, 3)
-    seconds : float
-        That computing a row took.
-    """
+class SceneRecord:
+    """Contacts of one probe in one scene, one row each; S, SI units."""
 
     scene: str
     probe: str
+    # contacts, felt: (n, 6) True wrench on the probe, and what a perfect sensor reads beside the weight:
+    # the contact, and inertia where something moves
     contacts: NDArray[np.float64]
     felt: NDArray[np.float64]
-    points: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    seconds: float
+    points: NDArray[np.float64]  # (n, 3) True place of the contact
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    seconds: float  # that computing a row took
 
     def __len__(self) -> int:
         return len(self.contacts)
 
 
-def record(scene: str, probe: str, size: int) -> Record:
+def record(scene: str, probe: str, size: int) -> SceneRecord:
     """
     Run a scene.
 
@@ -113,15 +101,12 @@ def record(scene: str, probe: str, size: int) -> Record:
 
 def drawn(
     probe: str, count: int, rng: np.random.Generator, *, torsion: float = 0.0003, angle: float = 30.0
-) -> Record:
+) -> SceneRecord:
     """
     Draw touches of the exact surface, without physics: as in the static experiments, if nothing else is said.
 
     Parameters
     ----------
-    probe : str
-    count : int
-    rng : numpy.random.Generator
     torsion : float
         Standard deviation of k / |F|, m.
     angle : float
@@ -133,21 +118,25 @@ def drawn(
     )
     upright = np.broadcast_to(np.diag([1.0, -1.0, -1.0]), (count, 3, 3))
     spent = time.perf_counter() - began
-    return Record(ANYWHERE, probe, touches.wrenches, touches.wrenches, touches.points, upright, spent / count)
+    return SceneRecord(
+        ANYWHERE, probe, touches.wrenches, touches.wrenches, touches.points, upright, spent / count
+    )
 
 
 def ridden(
-    truth: Truth, make: Callable[..., MovedScene], motion: str
-) -> tuple[scene_limits.Ride, list[Moment]]:
+    truth: TrueSurface, make: Callable[..., MovedScene], motion: str
+) -> tuple[scene_limits.Ride, list[SceneMoment]]:
     """Move a probe beside a phantom for 2 s; return what was met, and the moments, every 5 ms."""
-    moments: list[Moment] = []
+    moments: list[SceneMoment] = []
     axis, amplitude = scene_limits.MOTIONS[motion]
     depth = depth_for(truth, FORCE_N)
     met, _ = scene_limits.ride(make, axis, amplitude, _PERIOD_S, depth, seen=moments.append)
     return met, moments
 
 
-def pressed(truth: Truth, size: int, *, step: float = PRESS_STEP_S) -> tuple[PressScene, list[Moment]]:
+def pressed(
+    truth: TrueSurface, size: int, *, step: float = PRESS_STEP_S
+) -> tuple[PressScene, list[SceneMoment]]:
     """Press by hand for `size` fifths of a second, with 7 N in the mean; return the scene and a moment every 25 ms."""
     depth = depth_for(truth, FORCE_N)
     for _ in range(_ROUNDS):
@@ -162,33 +151,33 @@ def pressed(truth: Truth, size: int, *, step: float = PRESS_STEP_S) -> tuple[Pre
     return scene, moments
 
 
-def _touched(probe: str, size: int) -> Record:
+def _touched(probe: str, size: int) -> SceneRecord:
     began = time.perf_counter()
     touched = press_markers(probe, markers(probe)[:size], 1, 1)
     spent = (time.perf_counter() - began) / len(touched)
-    return Record(TOUCH, probe, touched.contacts, touched.contacts, touched.points, touched.R_WS, spent)
+    return SceneRecord(TOUCH, probe, touched.contacts, touched.contacts, touched.points, touched.R_WS, spent)
 
 
-def _benched(probe: str, size: int) -> list[Moment]:
+def _benched(probe: str, size: int) -> list[SceneMoment]:
     scene = BenchScene(truth_of(probe), payload=PAYLOAD)
     moments = []
     for marker in markers(probe)[:size]:
         for tilt, azimuth in ANGLES.values():
             scene.aim(marker)
-            scene.press(Press(_TIP_N, tilt, azimuth, 0.0003 * _TIP_N))
+            scene.press(TipPress(_TIP_N, tilt, azimuth, 0.0003 * _TIP_N))
             scene.advance(_REST_S)
             moments.append(scene.moment())
             scene.release()
     return moments
 
 
-def _timed(scene: str, probe: str, run: Callable[[], Sequence[Moment]]) -> Record:
+def _timed(scene: str, probe: str, run: Callable[[], Sequence[SceneMoment]]) -> SceneRecord:
     began = time.perf_counter()
     moments = [moment for moment in run() if moment.force > LEAST_N]
     spent = (time.perf_counter() - began) / max(len(moments), 1)
     R_WS = np.array([moment.R_WS for moment in moments])
     readings = np.array([moment.reading for moment in moments])
-    return Record(
+    return SceneRecord(
         scene,
         probe,
         np.array([moment.contact for moment in moments]),

@@ -10,7 +10,7 @@ import numpy as np
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.ablation import locating, reading, scenery
+from contactbench.pipeline.study.ablation import location_choices, scenery, sensor_choices
 from contactbench.pipeline.study.ablation.effects import (
     CHOICES,
     FILTERED,
@@ -20,8 +20,8 @@ from contactbench.pipeline.study.ablation.effects import (
     effect,
     meaningful,
 )
-from contactbench.pipeline.study.ablation.locating import locators, sigmas_of
-from contactbench.pipeline.study.ablation.records import SCENES, Record, drawn, record
+from contactbench.pipeline.study.ablation.location_choices import locators, sigmas_of
+from contactbench.pipeline.study.ablation.records import SCENES, SceneRecord, drawn, record
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -33,47 +33,26 @@ _NOISE_STEPS = (0.0, 0.001, 0.003, 0.01, 0.03, 0.1, FILTERED, 0.3, 1.0)
 _TORSIONS_MM = (0.0, 0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 10.0)
 _ANGLES_DEG = (15.0, 30.0, 45.0, 60.0, 70.0, 80.0)
 _AMOUNTS = {
-    reading.DRIFT: (0.1, 0.3, 1.0, 2.0, 4.0, 8.0),
-    reading.MOUNT: (0.1, 0.3, 1.0, 2.0, 5.0, 10.0),
-    reading.CROSSTALK: (0.01, 0.03, 0.1, 0.3, 1.0, 3.0),
+    sensor_choices.DRIFT: (0.1, 0.3, 1.0, 2.0, 4.0, 8.0),
+    sensor_choices.MOUNT: (0.1, 0.3, 1.0, 2.0, 5.0, 10.0),
+    sensor_choices.CROSSTALK: (0.01, 0.03, 0.1, 0.3, 1.0, 3.0),
 }
 
 
 @dataclass(frozen=True)
-class Sizes:
-    """
-    How much is done.
-
-    Attributes
-    ----------
-    probes, scenes : tuple of str
-    facets : int
-        Of the mesh in the scenes.
-    coarse : tuple of int
-        Of the meshes on which smooth normals are tried.
-    twisted : tuple of int
-        Of those, the ones on which the local torque is varied.
-    size : int
-        Markers, and fifths of a second, of a scene.
-    touches : int
-        Drawn for each point of a curve.
-    seeds : int
-    rounds : int
-        Of timed blocks.
-    motions : tuple of str
-        Of the platform.
-    """
+class AblationSizes:
+    """How much is done."""
 
     probes: tuple[str, ...] = assets.PROBE_NAMES
     scenes: tuple[str, ...] = SCENES
-    facets: int = 2_000
-    coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)
-    twisted: tuple[int, ...] = (500, 2_000)
-    size: int = 15
-    touches: int = 4_000
+    facets: int = 2_000  # of the mesh in the scenes
+    coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)  # of the meshes on which smooth normals are tried
+    twisted: tuple[int, ...] = (500, 2_000)  # of those, the ones on which the local torque is varied
+    size: int = 15  # markers, and fifths of a second, of a scene
+    touches: int = 4_000  # drawn for each point of a curve
     seeds: int = 5
-    rounds: int = 20
-    motions: tuple[str, ...] = ("vertical", "in plane", "out of plane")
+    rounds: int = 20  # of timed blocks
+    motions: tuple[str, ...] = ("vertical", "in plane", "out of plane")  # of the platform
 
     def __post_init__(self) -> None:
         for probe in self.probes:
@@ -86,7 +65,7 @@ class Sizes:
             raise InputError(f"--seeds {self.seeds}: give 1 to {_MOST_SEEDS}.")
 
 
-QUICK = Sizes(
+QUICK = AblationSizes(
     probes=("linear",),
     scenes=("touch", "platform"),
     coarse=(500,),
@@ -99,13 +78,14 @@ QUICK = Sizes(
 )
 
 
-def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
+def run(
+    sizes: AblationSizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None
+) -> list[Row]:
     """
     Measure everything.
 
     Parameters
     ----------
-    sizes : Sizes
     seed : int
         Of touches and noise; that of each repetition is this one plus its number.
     progress : callable
@@ -135,7 +115,7 @@ def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda
     return rows
 
 
-def effects(made: Record, sizes: Sizes, seed: int) -> Iterator[Row]:
+def effects(made: SceneRecord, sizes: AblationSizes, seed: int) -> Iterator[Row]:
     """Give every choice that can matter on a record, at every noise and for every seed."""
     for choice in CHOICES:
         if not meaningful(choice, made.scene):
@@ -147,7 +127,7 @@ def effects(made: Record, sizes: Sizes, seed: int) -> Iterator[Row]:
                 yield {"kind": "effect", **about, "facets": sizes.facets, "seed": seed + number} | figures
 
 
-def costs(sizes: Sizes, seed: int) -> list[Row]:
+def costs(sizes: AblationSizes, seed: int) -> list[Row]:
     """Time every choice beside doing without it."""
     rng = np.random.default_rng([seed, 12])
     rows = []
@@ -157,12 +137,12 @@ def costs(sizes: Sizes, seed: int) -> list[Row]:
         timed = locators(probe, sizes.facets, FILTERED).costs(wrenches, sizes.rounds)
         rows += [_cost(choice, probe, "a solve", *pair) for choice, pair in timed.items()]
     per = {
-        reading.DRIFT: "a moment without contact",
-        reading.MOUNT: "a calibration",
-        reading.CROSSTALK: "a reading",
-        reading.INERTIA: "a control period",
+        sensor_choices.DRIFT: "a moment without contact",
+        sensor_choices.MOUNT: "a calibration",
+        sensor_choices.CROSSTALK: "a reading",
+        sensor_choices.INERTIA: "a control period",
     }
-    timed = reading.costs(rng, max(sizes.rounds // 2, 2))
+    timed = sensor_choices.costs(rng, max(sizes.rounds // 2, 2))
     return rows + [_cost(choice, "", per[choice], *pair) for choice, pair in timed.items()]
 
 
@@ -177,7 +157,7 @@ def _cost(choice: str, probe: str, per: str, without: float, made: float) -> Row
     }
 
 
-def _scenery(scene: str, probe: str, sizes: Sizes) -> Iterator[scenery.Difference]:
+def _scenery(scene: str, probe: str, sizes: AblationSizes) -> Iterator[scenery.SceneryDifference]:
     if scene == "press":
         yield scenery.phantom_pressed(probe, sizes.size)
     for motion in sizes.motions:
@@ -187,39 +167,43 @@ def _scenery(scene: str, probe: str, sizes: Sizes) -> Iterator[scenery.Differenc
             yield scenery.arm_ridden(probe, motion)
 
 
-def _curves(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
+def _curves(probe: str, sizes: AblationSizes, seed: int) -> Iterator[Row]:
     for number in range(sizes.seeds):
         usual = drawn(probe, sizes.touches, np.random.default_rng([seed + number, 13]))
         for noise in _NOISE_STEPS:
-            for facets, choice in product(sizes.coarse, locating.SMOOTHED):
+            for facets, choice in product(sizes.coarse, location_choices.SMOOTHED):
                 yield _point(choice, usual, facets, noise, seed + number, "noise", noise)
-            yield _point(locating.LOCAL_TORQUE, usual, sizes.facets, noise, seed + number, "noise", noise)
+            yield _point(
+                location_choices.LOCAL_TORQUE, usual, sizes.facets, noise, seed + number, "noise", noise
+            )
         yield from _twisted(probe, sizes, seed + number)
         for choice, amounts in _AMOUNTS.items():
             for amount in amounts:
-                unit = reading.UNITS[choice]
+                unit = sensor_choices.UNITS[choice]
                 yield _point(choice, usual, sizes.facets, FILTERED, seed + number, unit, amount, amount)
 
 
-def _twisted(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
+def _twisted(probe: str, sizes: AblationSizes, seed: int) -> Iterator[Row]:
     """Vary the local torque, and the angle of the force."""
     for torsion in _TORSIONS_MM:
         made = drawn(probe, sizes.touches, np.random.default_rng([seed, 13]), torsion=1e-3 * torsion)
         for noise in (QUIET, FILTERED, RAW):
             for choice, facets in (
-                (locating.LOCAL_TORQUE, sizes.facets),
-                *product(locating.SMOOTHED, sizes.twisted),
+                (location_choices.LOCAL_TORQUE, sizes.facets),
+                *product(location_choices.SMOOTHED, sizes.twisted),
             ):
                 yield _point(choice, made, facets, noise, seed, "torsion, mm", torsion)
     for angle in _ANGLES_DEG:
         made = drawn(probe, sizes.touches, np.random.default_rng([seed, 13]), angle=angle)
         for noise in (QUIET, FILTERED, RAW):
-            yield _point(locating.GATE, made, sizes.facets, noise, seed, "force angle up to, deg", angle)
+            yield _point(
+                location_choices.GATE, made, sizes.facets, noise, seed, "force angle up to, deg", angle
+            )
 
 
 def _point(
     choice: str,
-    made: Record,
+    made: SceneRecord,
     facets: int,
     noise: float,
     seed: int,
@@ -234,4 +218,4 @@ def _point(
 
 def _seeds(noise: float, choice: str, count: int) -> Sequence[int]:
     """Return the repetitions that differ: without noise only the sensors of the choices of reading do."""
-    return range(count if noise > 0 or choice in reading.CHOICES else 1)
+    return range(count if noise > 0 or choice in sensor_choices.CHOICES else 1)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment, Truth
+    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
     Array = NDArray[np.float64]
 
@@ -30,39 +30,28 @@ _TOUCHING_M = 2e-5  # what lies so near to the foremost place touches a rigid pl
 
 
 @dataclass(frozen=True)
-class Difference:
-    """
-    What leaving a choice out changes in the truth of a scene.
-
-    Attributes
-    ----------
-    choice, scene, probe, motion : str
-    samples : int
-    mean_mm, rms_mm, p95_mm : float
-        How far the contact moves on the probe.
-    floor_mm : float
-        The same, root mean square, for half the time step: less than this the scene does not know.
-    force_n : float or None
-        Root mean square difference of the force; None where a rigid body's is whatever one pushes with.
-    without_us, made_us : float
-        Of computing a millisecond of the scene.
-    """
+class SceneryDifference:
+    """What leaving a choice out changes in the truth of a scene."""
 
     choice: str
     scene: str
     probe: str
     motion: str
     samples: int
+    # mean_mm, rms_mm, p95_mm: how far the contact moves on the probe
     mean_mm: float
     rms_mm: float
     p95_mm: float
+    # the same, root mean square, for half the time step: less than this the scene does not know
     floor_mm: float
+    # root mean square difference of the force; None where a rigid body's is whatever one pushes with
     force_n: float | None
+    # without_us, made_us: of computing a millisecond of the scene
     without_us: float
     made_us: float
 
 
-def phantom_pressed(probe: str, size: int) -> Difference:
+def phantom_pressed(probe: str, size: int) -> SceneryDifference:
     """Press by hand on tissue, and compare with where a rigid plane that is turned the same would touch."""
     truth = truth_of(probe)
     (scene, soft), seconds = _timed(lambda: pressed(truth, size))
@@ -73,7 +62,7 @@ def phantom_pressed(probe: str, size: int) -> Difference:
     )
 
 
-def phantom_ridden(probe: str, motion: str) -> Difference:
+def phantom_ridden(probe: str, motion: str) -> SceneryDifference:
     """Follow a platform with tissue on it, and compare with where a rigid plane that is turned the same would touch."""
     truth = truth_of(probe)
     known = scene_limits.changes(truth)
@@ -84,7 +73,7 @@ def phantom_ridden(probe: str, motion: str) -> Difference:
     return _on_rigid(truth, "platform", motion, (soft, fine), into, seconds / len(soft) / _RIDE_SAMPLE_S)
 
 
-def arm_ridden(probe: str, motion: str) -> Difference:
+def arm_ridden(probe: str, motion: str) -> SceneryDifference:
     """Follow a platform with an arm, and with a mount that goes where it is told."""
     truth = truth_of(probe)
     known = scene_limits.changes(truth)
@@ -122,13 +111,13 @@ def foremost(probe_vertices: Array, into: Array) -> Array:
 
 
 def _on_rigid(
-    truth: Truth,
+    truth: TrueSurface,
     scene: str,
     motion: str,
-    runs: tuple[Sequence[Moment], Sequence[Moment]],
+    runs: tuple[Sequence[SceneMoment], Sequence[SceneMoment]],
     into: Array,
     soft_s: float,
-) -> Difference:
+) -> SceneryDifference:
     soft, fine = runs
     rigid, rigid_s = _timed(lambda: foremost(truth.probe.vertices, into))
     moved = _between(_points(soft), rigid)[_touching(soft)]
@@ -147,21 +136,21 @@ def _summed(
     floor: Array,
     force: float | None,
     times_us: tuple[float, float],
-) -> Difference:
+) -> SceneryDifference:
     rms, least = (float(np.sqrt(np.mean(mm**2))) for mm in (moved, floor))
     mean, p95 = float(moved.mean()), float(np.percentile(moved, 95))
-    return Difference(*names, len(moved), mean, rms, p95, least, force, *times_us)
+    return SceneryDifference(*names, len(moved), mean, rms, p95, least, force, *times_us)
 
 
-def _floor(one: Sequence[Moment], other: Sequence[Moment]) -> Array:
+def _floor(one: Sequence[SceneMoment], other: Sequence[SceneMoment]) -> Array:
     return _between(_points(one), _points(other))[_touching(one) & _touching(other)]
 
 
-def _points(moments: Sequence[Moment]) -> Array:
+def _points(moments: Sequence[SceneMoment]) -> Array:
     return np.array([moment.point_S for moment in moments])
 
 
-def _touching(moments: Sequence[Moment]) -> NDArray[np.bool_]:
+def _touching(moments: Sequence[SceneMoment]) -> NDArray[np.bool_]:
     return np.array([moment.force > LEAST_N for moment in moments])
 
 

@@ -23,10 +23,6 @@ class SmoothNormals:
 
     It begins at what a solver found, and walks to a neighbour where the point leaves its facet; where it comes to no
     rest, the flat facet's point stays. The length of n(p) does not count: k takes it up.
-
-    Parameters
-    ----------
-    probe : Probe
     """
 
     def __init__(self, probe: Probe) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.study.ablation import effects, locating, reading, scenery
+from contactbench.pipeline.study.ablation import effects, location_choices, scenery, sensor_choices
 from contactbench.pipeline.study.ablation.records import ANYWHERE, SCENES
 
 if TYPE_CHECKING:
@@ -18,38 +18,26 @@ CHOICES = (*effects.CHOICES, *scenery.CHOICES)
 MATTERS = 0.05  # of the error without it
 _SIGMAS, ANSWERS = 2.0, 1e-3
 _LEAST_MM = 0.05  # that a scene must move a contact by
-LOSES = f"{locating.GATE}: touches lost"
+LOSES = f"{location_choices.GATE}: touches lost"
 _FREE = 0.02  # of what is without it, at most
 NOISE = "filtered"
 
 
 @dataclass(frozen=True)
 class Bought:
-    """
-    What a choice buys in one scene, over all probes and repetitions; mm.
-
-    Attributes
-    ----------
-    choice, scene : str
-    without, made : float
-        Mean error without it, and with it. Of the scene's own choices: how far the contact is off without it, and what
-        the scene does not know itself.
-    bought, sigma : float
-        Mean difference, and its standard error.
-    answers : float
-        By how much the share of touches grows that are located without a gross miss.
-    models : bool
-        Whether to model it there.
-    """
+    """What a choice buys in one scene, over all probes and repetitions; mm."""
 
     choice: str
     scene: str
+    # without, made: mean error without it, and with it. Of the scene's own choices: how far the contact is
+    # off without it, and what the scene does not know itself.
     without: float
     made: float
+    # bought, sigma: mean difference, and its standard error
     bought: float
     sigma: float
-    answers: float
-    models: bool
+    answers: float  # by how much the share of touches grows that are located without a gross miss
+    models: bool  # whether to model it there
 
 
 @dataclass(frozen=True)
@@ -74,29 +62,17 @@ class Cost:
 
 @dataclass(frozen=True)
 class Crossing:
-    """
-    Where a choice begins to matter, along something that is varied.
+    """Where a choice begins to matter, along something that is varied."""
 
-    Attributes
-    ----------
-    choice, varied, at : str
-        Of what, and with what mesh and noise.
-    probe : str
-    where : float or None
-        In the unit of `varied`, where it buys `MATTERS` of the error; None: nowhere in the range.
-    above : bool
-        Whether it matters above it, or below; nowhere or everywhere: at the end of the range.
-    always : bool
-        It matters over the whole range.
-    """
-
+    # choice, varied, at: of what, and with what mesh and noise
     choice: str
     varied: str
     at: str
     probe: str
+    # in the unit of `varied`, where it buys `MATTERS` of the error; None: nowhere in the range
     where: float | None
-    above: bool
-    always: bool
+    above: bool  # whether it matters above it, or below; nowhere or everywhere: at the end of the range
+    always: bool  # it matters over the whole range
 
     @property
     def words(self) -> str:
@@ -109,7 +85,7 @@ class Crossing:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class ChoiceVerdict:
     """All that is known of a choice, in short."""
 
     choice: str
@@ -139,7 +115,7 @@ class Verdict:
         return {**asdict(self), "verdict": self.verdict}
 
 
-def about_choices(rows: Sequence[Row]) -> list[Verdict]:
+def about_choices(rows: Sequence[Row]) -> list[ChoiceVerdict]:
     """Return what the rows say of every choice that they have something of."""
     found = []
     for choice in CHOICES:
@@ -147,7 +123,7 @@ def about_choices(rows: Sequence[Row]) -> list[Verdict]:
             bought(choice, scene, rows) for scene in (ANYWHERE, *SCENES) if _there(choice, scene, rows)
         )
         if scenes:
-            found.append(Verdict(choice, scenes, cost_of(choice, rows)))
+            found.append(ChoiceVerdict(choice, scenes, cost_of(choice, rows)))
     return found
 
 
@@ -195,7 +171,7 @@ def crossings(rows: Sequence[Row]) -> list[Crossing]:
     for (choice, varied, facets, noise, probe), by_x in groups.items():
         xs = sorted(by_x)
         level, values = MATTERS, [share_of(by_x[x]) for x in xs]
-        if choice == locating.GATE:  # what it can do to a touch is to lose it
+        if choice == location_choices.GATE:  # what it can do to a touch is to lose it
             choice, level, values = LOSES, ANSWERS, [-located_more(by_x[x]) for x in xs]
         at = f"{facets:,} facets" + ("" if noise is None else f", noise {noise_name(noise)}")
         found.append(Crossing(choice, varied, at, probe, *crossing(xs, values, level)))
@@ -223,8 +199,6 @@ def crossing(
     ----------
     xs : sequence of float
         Ascending; interpolated between their logarithms, but for 0.
-    values : sequence of float
-    level : float
     """
     over = np.array(values) >= level
     if over.all():
@@ -247,15 +221,15 @@ def crossing(
 
 
 def noise_name(times: float) -> str:
-    """Return the name of a noise, times that of one reading."""
+    """Return the name of a noise, times that of one sensor_choices."""
     return next((name for name, value in effects.NOISES.items() if value == times), f"{times:g}")
 
 
 def unit_of(choice: str) -> str:
     """Return what a choice of reading is varied by, with its usual amount; empty for the others."""
-    if choice not in reading.CHOICES:
+    if choice not in sensor_choices.CHOICES:
         return ""
-    return f"{reading.USUAL[choice]:g} {reading.UNITS[choice]}"
+    return f"{sensor_choices.USUAL[choice]:g} {sensor_choices.UNITS[choice]}"
 
 
 def _located(row: Row, which: str) -> float:

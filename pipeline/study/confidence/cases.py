@@ -12,7 +12,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.sweep.bodies import Body, MeshSurface, body_of, mesh_of
+from contactbench.pipeline.study.sweep.bodies import MeshSurface, TouchedBody, body_of, mesh_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -42,25 +42,13 @@ _ELLIPSE = -2 * np.log(0.05)
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """
-    Touches, and what was answered.
-
-    Attributes
-    ----------
-    touches : Touches
-    wrenches : (n, 6) as the sensor read them
-    batch : Batch
-    errors : (n,) m
-        NaN without a point.
-    sure : (n,) bool
-        Reason ``ok`` or ``vertex``: nothing but the wrench was needed.
-    """
+    """Touches, and what was answered."""
 
     touches: Touches
-    wrenches: Float
+    wrenches: Float  # (n, 6) as the sensor read them
     batch: Batch
-    errors: Float
-    sure: Bools
+    errors: Float  # (n,) m NaN without a point
+    sure: Bools  # (n,) bool Reason ``ok`` or ``vertex``: nothing but the wrench was needed
 
     def off(self, limit: float) -> Bools:
         """Tell which answers have a point that is further off than this, m."""
@@ -79,7 +67,7 @@ def ask(solver: ContactSolver, touches: Touches, wrenches: Float) -> Asked:
 
 
 def press(
-    body: Body,
+    body: TouchedBody,
     solver: ContactSolver,
     count: int,
     rng: np.random.Generator,
@@ -114,7 +102,7 @@ def mesh(name: str, facets: int, *, region: bool = False) -> Probe:
 def fin(thickness: float, noise: WrenchNoise, count: int, rng: np.random.Generator) -> Measured:
     """Press on the edge of a thin fin: beside it, the body behind it answers as well."""
     probe, edge = make_fin(thickness)
-    asked = press(Body(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
+    asked = press(TouchedBody(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
     return {
         "sure": float(asked.sure.mean()),
         "sure and over 10 mm off": float(np.mean(asked.sure & asked.off(ASTRAY_M))),

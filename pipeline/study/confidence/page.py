@@ -6,9 +6,8 @@ from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from contactbench.assets import PROBE_NAMES
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, chapter, png
-from contactbench.pipeline.study.confidence.study import PARTS, Row
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.confidence.study import PARTS, ConfidenceRow
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,10 +36,9 @@ def make(results: Results, folder: Path) -> str:
     ----------
     results : Results
         Of kind ``confidence``.
-    folder : Path
     """
-    known = [field.name for field in fields(Row)]
-    rows = [Row(**{name: row[name] for name in known}) for row in results.rows]
+    known = [field.name for field in fields(ConfidenceRow)]
+    rows = [ConfidenceRow(**{name: row[name] for name in known}) for row in results.rows]
     missed = [row for row in rows if not row.met]
     lines = [f"- {row.probe}, {row.case}, {row.figure}: {figure(row)}, {bound(row)}" for row in missed]
     verdict = "\n".join(["Bounds that are missed:", "", *lines]) if missed else "Every bound is kept."
@@ -52,12 +50,12 @@ def make(results: Results, folder: Path) -> str:
     return chapter("Confidence", about, tables(rows), {_PICTURE: _diagram(rows)}, _SAID, folder) + "\n"
 
 
-def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
+def tables(rows: Sequence[ConfidenceRow]) -> list[tuple[str, str]]:
     """Return a title and a table, Markdown, for each part: a line for each case, a column for each figure."""
     return [(title, _table([row for row in rows if row.part == part])) for part, title in PARTS.items()]
 
 
-def _table(rows: Sequence[Row]) -> str:
+def _table(rows: Sequence[ConfidenceRow]) -> str:
     if rows and rows[0].stated is not None:
         columns = ["probe", "case", "answers", "stated", "right", "bound"]
         lines = [
@@ -76,13 +74,13 @@ def _table(rows: Sequence[Row]) -> str:
     )
 
 
-def figure(row: Row) -> str:
+def figure(row: ConfidenceRow) -> str:
     """Return a figure with its spread, for people."""
     spread = "" if row.low == row.high else f" ({number(row.low)} to {number(row.high)})"
     return f"{number(row.value)}{spread}{f' {row.unit}' if row.unit else ''}"
 
 
-def bound(row: Row) -> str:
+def bound(row: ConfidenceRow) -> str:
     """Return what a figure must keep, for people; nothing where it is only shown."""
     if row.at_least is not None and row.at_most is not None:
         return f"{number(row.at_least)} to {number(row.at_most)}"
@@ -91,15 +89,15 @@ def bound(row: Row) -> str:
     return "" if row.at_most is None else f"at most {number(row.at_most)}"
 
 
-def _marked(row: Row) -> str:
+def _marked(row: ConfidenceRow) -> str:
     return figure(row) if row.met else f"**{figure(row)}**"
 
 
-def _diagram(rows: Sequence[Row]) -> bytes:
+def _diagram(rows: Sequence[ConfidenceRow]) -> bytes:
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    found: dict[tuple[str, str], list[Row]] = {}
+    found: dict[tuple[str, str], list[ConfidenceRow]] = {}
     for row in rows:
         if row.stated is not None:
             found.setdefault((row.probe, row.case), []).append(row)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from itertools import pairwise
+from dataclasses import asdict, dataclass, field
+from functools import partial
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,11 +15,13 @@ from contactbench.pipeline.study.confidence import cases
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from rich.table import Table
 
     from contactbench.pipeline.study.confidence.cases import Bools, Float, Measured
+
+    Bounds = tuple[float | None, float | None]
 
 KIND = "confidence"
 PARTS = {
@@ -40,64 +43,40 @@ _FEW = 20  # answers: a bin of fewer says nothing
 
 
 @dataclass(frozen=True)
-class Sizes:
-    """
-    How much is tried.
+class ConfidenceSizes:
+    """How much is tried."""
 
-    Attributes
-    ----------
-    touches, seeds : int
-        Of each figure, and repetitions of it.
-    facets : int
-        Of the meshes, where they do not vary.
-    ellipse_facets : tuple of int
-    pruned : int
-        Wrenches of a probe that are compared with every facet one by one.
-    """
-
+    # touches, seeds: of each figure, and repetitions of it
     touches: int = 10_000
     seeds: int = 5
-    facets: int = 2_000
+    facets: int = 2_000  # of the meshes, where they do not vary
     ellipse_facets: tuple[int, ...] = (500, 1_000, 2_000, 20_000)
-    pruned: int = 100_000
+    pruned: int = 100_000  # wrenches of a probe that are compared with every facet one by one
 
 
-QUICK = Sizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
+QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
 
 
 @dataclass(frozen=True)
-class Row:
-    """
-    One figure.
+class ConfidenceRow:
+    """One figure."""
 
-    Attributes
-    ----------
-    part : str
-        A key of :data:`PARTS`.
-    probe, case, figure, unit : str
-        In words.
-    tries : int
-        Touches of one seed; for the reliability, answers.
-    value, low, high : float
-        Mean, least and most of the seeds; for what is right, the share and its 95 % interval.
-    at_least, at_most : float or None
-        What the mean must keep.
-    stated : float or None
-        Confidence, mean of the bin.
-    """
-
-    part: str
+    part: str  # a key of :data:`PARTS`
+    # probe, case, figure, unit: in words
     probe: str
     case: str
     figure: str
     unit: str
-    tries: int
+    tries: int  # touches of one seed; for the reliability, answers
+    # value, low, high: mean, least and most of the seeds; for what is right, the share and its 95 %
+    # interval
     value: float
     low: float
     high: float
+    # at_least, at_most: what the mean must keep
     at_least: float | None = None
     at_most: float | None = None
-    stated: float | None = None
+    stated: float | None = None  # confidence, mean of the bin
 
     @property
     def met(self) -> bool:
@@ -109,22 +88,12 @@ class Row:
 
 @dataclass(frozen=True)
 class ConfidenceReport:
-    """
-    Every figure.
+    """Every figure."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Probes.
-    sizes : Sizes
-    seed : int
-    rows : tuple of Row
-    """
-
-    names: tuple[str, ...]
-    sizes: Sizes
+    names: tuple[str, ...]  # probes
+    sizes: ConfidenceSizes
     seed: int
-    rows: tuple[Row, ...]
+    rows: tuple[ConfidenceRow, ...]
 
     @property
     def passed(self) -> bool:
@@ -141,7 +110,7 @@ class ConfidenceReport:
             "rows": [asdict(row) | {"met": row.met} for row in self.rows],
         }
 
-    def table(self) -> Table:
+    def tables(self) -> list[Table]:
         """Build what missed its bound for a terminal."""
         from rich.table import Table
 
@@ -159,18 +128,12 @@ class ConfidenceReport:
             built.add_column(heading)
         for row in missed:
             built.add_row(row.probe, row.case, row.figure, figure(row), bound(row), style="red")
-        return built
-
-    def markdown(self) -> str:
-        """Write every figure as Markdown."""
-        from contactbench.pipeline.study.confidence.page import tables
-
-        return "\n\n".join(f"### {title}\n\n{text}" for title, text in tables(self.rows)) + "\n"
+        return [built]
 
 
 def run(
     names: Sequence[str] = PROBE_NAMES,
-    sizes: Sizes | None = None,
+    sizes: ConfidenceSizes | None = None,
     *,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
@@ -182,7 +145,6 @@ def run(
     ----------
     names : sequence of str
         Bundled probes, or prepared files in S: those have no declared lens, and are their own truth.
-    sizes : Sizes, optional
     seed : int
         At least 0.
     progress : callable
@@ -196,73 +158,101 @@ def run(
     if seed < 0:
         raise InputError(f"seed: {seed} is negative: give at least 0.")
     check(names)
-    sizes, rows = sizes or Sizes(), list[Row]()
-    for part, measure in _MEASURES.items():
-        progress(PARTS[part])
-        rows += measure(tuple(names), sizes, seed)
+    sizes, rows = sizes or ConfidenceSizes(), list[ConfidenceRow]()
+    tried = list(_cases(names, sizes))
+    for part, title in PARTS.items():
+        progress(title)
+        if part == "reliability":
+            rows += _reliability(names, sizes, seed)
+        elif part == "pruning":
+            rows += _pruning(names, sizes, seed)
+        else:
+            rows += (row for case in tried if case.part == part for row in case.rows(sizes, seed))
     return ConfidenceReport(tuple(names), sizes, seed, tuple(rows))
 
 
 # ---- the parts -----------------------------------------------------------------------------------------
 
 
-def _fin(_: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, thickness in enumerate(cases.FINS_M):
-        for j, (said, noise) in enumerate(cases.NOISES.items()):
-            measured = [
-                cases.fin(thickness, noise, sizes.touches, rng) for rng in _chances(sizes, seed, i, j)
-            ]
-            case = f"{1e3 * thickness:g} mm, {said} noise"
-            yield from _rows(
-                "fin", "capsule", case, sizes, measured, {"sure and over 10 mm off": (None, 0.1)}
+@dataclass(frozen=True)
+class ConfidenceCase:
+    """One thing that is tried with several seeds: its figures, and what the mean of each must keep."""
+
+    part: str
+    probe: str
+    name: str
+    chance: tuple[int, ...]  # beside the seed and the repetition
+    measure: Callable[[np.random.Generator], Measured]
+    bounds: Mapping[str, Bounds] = field(default_factory=dict)
+
+    def rows(self, sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
+        """Sum up what several seeds gave: shares as %."""
+        measured = [self.measure(rng) for rng in _chances(sizes, seed, *self.chance)]
+        for figure in measured[0]:
+            length = figure.endswith("mean")
+            values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
+            middle = (float(values.mean()), float(values.min()), float(values.max()))
+            unit, bounds = "mm" if length else "%", self.bounds.get(figure, (None, None))
+            yield ConfidenceRow(
+                self.part, self.probe, self.name, figure, unit, sizes.touches, *middle, *bounds
             )
 
 
-def _region(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(_bundled(names)):
-        measured = [cases.region(name, sizes.facets, sizes.touches, rng) for rng in _chances(sizes, seed, i)]
-        bounds = {"sure, of these over 5 mm off": (None, 0.1)}
-        yield from _rows("region", name, "8 to 10 N", sizes, measured, bounds)
+def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[ConfidenceCase]:
+    """Give every case but the reliability and the pruning, which are no figures of several seeds."""
+    count, facets = sizes.touches, sizes.facets
+    wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
+    for i, thickness in enumerate(cases.FINS_M):
+        for j, (said, noise) in enumerate(cases.NOISES.items()):
+            name = f"{1e3 * thickness:g} mm, {said} noise"
+            yield ConfidenceCase(
+                "fin", "capsule", name, (i, j), partial(cases.fin, thickness, noise, count), wrong
+            )
+    for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
+        measure = partial(cases.region, probe, facets, count)
+        yield ConfidenceCase(
+            "region", probe, "8 to 10 N", (i,), measure, {"sure, of these over 5 mm off": (None, 0.1)}
+        )
+        for (said, noise), region, pull in product(cases.NOISES.items(), (False, True), cases.PULLS_N):
+            name = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
+            pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=region)
+            # A pull of ten times the model's error is shown, not judged.
+            yield ConfidenceCase(
+                "pull", probe, name, (i,), pulled, wrong if pull == min(cases.PULLS_N) else {}
+            )
+    for i, probe in enumerate(names):
+        title = title_of(probe)
+        yield ConfidenceCase(
+            "two touches", title, "forces 1:1 to 1:3", (i,), partial(cases.two, probe, facets, count),
+            {"sure and over 5 mm from both": (None, 15.0)},
+        )  # fmt: skip
+        for (said, noise), torsion in product(cases.NOISES.items(), cases.TORSIONS_M):
+            # Of a file nobody knows how often one wrench has several answers.
+            judged = probe in PROBE_NAMES and torsion == min(cases.TORSIONS_M)
+            name = f"torsion {1e3 * torsion:g} mm, {said} noise"
+            single = partial(cases.single, probe, facets, noise, torsion, count)
+            least = 95.0 if probe == "t-shape" else 98.0
+            yield ConfidenceCase(
+                "one touch", title, name, (i,), single, {"sure": (least, None)} if judged else {}
+            )
+        for size, (said, noise), torsion, drift in product(
+            sizes.ellipse_facets, cases.NOISES.items(), cases.TORSIONS_M, (True, False)
+        ):
+            error = "with the model's error" if drift else "without"
+            name = f"{size:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
+            ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
+            # Without it the ellipse, which allows for it, holds more.
+            yield ConfidenceCase(
+                "ellipse", title, name, (i,), ellipse, {"inside": (92.0, 98.0)} if drift else {}
+            )
+        for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
+            name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
+            yield ConfidenceCase(
+                "error", title, name, (i,), partial(cases.errors, probe, facets, force, torsion, count)
+            )
 
 
-def _pull(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(_bundled(names)):
-        for said, noise in cases.NOISES.items():
-            for region in (False, True):
-                for pull in cases.PULLS_N:
-                    measured = [
-                        cases.pulled(name, sizes.facets, noise, pull, sizes.touches, rng, region=region)
-                        for rng in _chances(sizes, seed, i)
-                    ]
-                    case = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
-                    # A pull of ten times the model's error is shown, not judged.
-                    wrong = {"sure and over 10 mm off": (None, 0.1)} if pull == min(cases.PULLS_N) else {}
-                    yield from _rows("pull", name, case, sizes, measured, wrong)
-
-
-def _two(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        measured = [cases.two(name, sizes.facets, sizes.touches, rng) for rng in _chances(sizes, seed, i)]
-        bounds = {"sure and over 5 mm from both": (None, 15.0)}
-        yield from _rows("two touches", name, "forces 1:1 to 1:3", sizes, measured, bounds)
-
-
-def _one(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for said, noise in cases.NOISES.items():
-            for torsion in cases.TORSIONS_M:
-                measured = [
-                    cases.single(name, sizes.facets, noise, torsion, sizes.touches, rng)
-                    for rng in _chances(sizes, seed, i)
-                ]
-                # Of a file nobody knows how often one wrench has several answers.
-                judged = name in PROBE_NAMES and torsion == min(cases.TORSIONS_M)
-                bounds = {"sure": (95.0 if name == "t-shape" else 98.0, None)} if judged else {}
-                case = f"torsion {1e3 * torsion:g} mm, {said} noise"
-                yield from _rows("one touch", name, case, sizes, measured, bounds)
-
-
-def _reliability(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
+def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     for i, name in enumerate(names):
         for region in (False, True) if name in PROBE_NAMES else (False,):
             pairs = [
@@ -273,7 +263,7 @@ def _reliability(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]
             yield from bins(title_of(name), "lens declared" if region else "no region", stated, right)
 
 
-def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Row]:
+def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[ConfidenceRow]:
     """Compare stated confidence (n,) with what was right (n,): by its tenths, the last one split at 0.99."""
     from scipy.stats import binomtest
 
@@ -295,89 +285,16 @@ def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Row]:
             least, most = mean - 100 * _WITHIN, mean + 100 * _WITHIN
         figure = f"{RIGHT}, where {low:g} to {high:g} is {STATED}"
         sure = (100.0 * hits / count, 100.0 * interval.low, 100.0 * interval.high)
-        yield Row("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
+        yield ConfidenceRow("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
 
 
-def _ellipse(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for facets in sizes.ellipse_facets:
-            for said, noise in cases.NOISES.items():
-                for torsion in cases.TORSIONS_M:
-                    for drift in (True, False):
-                        measured = [
-                            cases.ellipse(name, facets, noise, torsion, sizes.touches, rng, drift=drift)
-                            for rng in _chances(sizes, seed, i)
-                        ]
-                        error = "with the model's error" if drift else "without"
-                        case = f"{facets:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
-                        # Without it the ellipse, which allows for it, holds more.
-                        bounds = {"inside": (92.0, 98.0)} if drift else {}
-                        yield from _rows("ellipse", name, case, sizes, measured, bounds)
-
-
-def _error(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for torsion in cases.TORSIONS_M:
-            for force in cases.FORCES_N:
-                measured = [
-                    cases.errors(name, sizes.facets, force, torsion, sizes.touches, rng)
-                    for rng in _chances(sizes, seed, i)
-                ]
-                case = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
-                yield from _rows("error", name, case, sizes, measured, {})
-
-
-def _pruning(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
+def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     for i, name in enumerate(names):
         found = cases.pruning(name, _PRUNED_FACETS, sizes.pruned, np.random.default_rng((seed, i)))
         differ = (float(found),) * 3
         case, figure = f"{_PRUNED_FACETS} facets", "answers that differ"
-        yield Row("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
+        yield ConfidenceRow("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
 
 
-_MEASURES: dict[str, Callable[[Sequence[str], Sizes, int], Iterable[Row]]] = {
-    "fin": _fin,
-    "region": _region,
-    "pull": _pull,
-    "two touches": _two,
-    "one touch": _one,
-    "reliability": _reliability,
-    "ellipse": _ellipse,
-    "error": _error,
-    "pruning": _pruning,
-}
-
-
-def _rows(
-    part: str,
-    name: str,
-    case: str,
-    sizes: Sizes,
-    measured: Sequence[Measured],
-    bounds: Mapping[str, tuple[float | None, float | None]],
-) -> Iterator[Row]:
-    """Sum up what several seeds gave: shares as %."""
-    for figure in measured[0]:
-        length = figure.endswith("mean")
-        values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
-        middle = (float(values.mean()), float(values.min()), float(values.max()))
-        unit = "mm" if length else "%"
-        yield Row(
-            part,
-            title_of(name),
-            case,
-            figure,
-            unit,
-            sizes.touches,
-            *middle,
-            *bounds.get(figure, (None, None)),
-        )
-
-
-def _chances(sizes: Sizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
+def _chances(sizes: ConfidenceSizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
     return (np.random.default_rng((seed, *place, i)) for i in range(sizes.seeds))
-
-
-def _bundled(names: Sequence[str]) -> list[str]:
-    """Return the probes whose lens is known."""
-    return [name for name in names if name in PROBE_NAMES]

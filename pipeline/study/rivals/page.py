@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.study.chapters import chapter
-from contactbench.pipeline.study.markdown import number, table
-from contactbench.pipeline.study.rivals import place
-from contactbench.pipeline.study.rivals.rows import OURS
-from contactbench.pipeline.study.rivals.verdicts import MARGIN, Duel, duels
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
+from contactbench.pipeline.study.rivals.rows import FAMILY, MARGIN, OURS, RAY, WRENCH, Duel, duels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,6 +16,8 @@ if TYPE_CHECKING:
 Row = dict[str, Any]
 _MAIN_NOISE = "filtered"
 _ROUNDING_MM = 1e-6
+_MARKS = "osv^D<>P"
+_PANEL, _HEIGHT, _DPI = 3.3, 3.0, 80
 _SAID = "Time against error of everybody, in one run; ours filled. Times from Python; a ray alone for ray tracers."
 _ABOUT = f"""Everybody gets the same inputs, in turns, in one process. Times are medians, with the 5th to 95th
 percentile of the rounds; ratios are to contactbench in the same run. A ray tracer's time for one prepared ray counts as
@@ -32,7 +31,6 @@ def make(results: Results, folder: Path) -> str:
 
     Parameters
     ----------
-    results : Results
     folder : Path
         For the pictures.
 
@@ -41,76 +39,51 @@ def make(results: Results, folder: Path) -> str:
     InputError
         A picture cannot be written.
     """
-    from contactbench.pipeline.study.rivals.plots import plots
-
-    # Earlier versions measured planes, meshes and calibrations, too.
-    rows = [row for row in results.rows if row["family"] == place.FAMILY]
-    pictures = plots(rows)
+    rows = [row for row in results.rows if row["family"] == FAMILY]
+    pictures = {name: data for name, data in {"location.png": _location(rows)}.items() if data}
     return chapter("Rivals, measured", _ABOUT, tables(rows), pictures, dict.fromkeys(pictures, _SAID), folder)
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Return the tables, each with its title; the verdict first."""
     found = duels(rows)
-    made = [("Is anybody both faster and more accurate?", verdict(found))]
-    for family in (place.FAMILY,):
-        text = _family(family, rows, found)
-        if text:
-            made.append((family.capitalize(), text))
-    made.append(("What was measured", _versions(rows)))
-    return made
+    return [
+        ("Is anybody both faster and more accurate?", verdict(found)),
+        (FAMILY.capitalize(), _meshes(rows, found)),
+        ("What was measured", _versions(rows)),
+    ]
 
 
 def verdict(found: Sequence[Duel]) -> str:
     """Return who is both faster and more accurate than ours, and who is one of them where."""
     winners = [duel for duel in found if duel.beats]
-    lines = []
-    for family in (place.FAMILY,):
-        mine = [duel for duel in found if duel.family == family]
-        if not mine:
-            continue
-        beaten = [duel for duel in winners if duel.family == family]
-        faster = sorted({duel.contender for duel in mine if duel.faster})
-        better = sorted({duel.contender for duel in mine if duel.better})
-        lines.append(
-            [
-                family,
-                str(len(mine)),
-                str(len(beaten)),
-                "; ".join(faster) or "nobody",
-                "; ".join(better) or "nobody",
-            ]
-        )
-    text = table(["family", "comparisons", "both", "faster somewhere", "more accurate somewhere"], lines)
-    for family, contender in dict.fromkeys((duel.family, duel.contender) for duel in winners):
-        mine = [duel for duel in winners if (duel.family, duel.contender) == (family, contender)]
-        count = f"{len(mine)} of the comparisons of {family}"
-        text += f"\n\n**{contender}** is both in {count}.\n\n"
+    faster = sorted({duel.contender for duel in found if duel.faster})
+    better = sorted({duel.contender for duel in found if duel.better})
+    counts = [FAMILY, str(len(found)), str(len(winners))]
+    line = [*counts, "; ".join(faster) or "nobody", "; ".join(better) or "nobody"]
+    columns = ["family", "comparisons", "both", "faster somewhere", "more accurate somewhere"]
+    text = table(columns, [line] if found else [])
+    for contender in dict.fromkeys(duel.contender for duel in winners):
+        mine = [duel for duel in winners if duel.contender == contender]
+        text += f"\n\n**{contender}** is both in {len(mine)} of the comparisons of {FAMILY}.\n\n"
         text += "\n".join(f"- {duel.words}." for duel in mine)
     return text
 
 
-def _family(family: str, rows: Sequence[Row], found: Sequence[Duel]) -> str:
-    parts: list[str] = []
-    subjects = dict.fromkeys(
-        (row["subject"], _facets(row))
-        for row in rows
-        if row.get("family") == family and row["kind"] == "error"
-    )
-    details: list[str] = []
+def _meshes(rows: Sequence[Row], found: Sequence[Duel]) -> str:
+    """Return a table for each mesh; those that are not of the middle size are folded away."""
+    subjects = dict.fromkeys((row["subject"], row["facets"]) for row in rows if row["kind"] == "error")
+    counts = sorted({facets for _, facets in subjects})
+    shown: list[str] = []
+    others: list[str] = []
     for subject, facets in subjects:
-        mine = [
-            r
-            for r in rows
-            if r.get("family") == family and (r.get("subject"), _facets(r)) == (subject, facets)
-        ]
-        name = subject + (f", {facets:,} facets" if facets else "")
-        text = f"**{name}**\n\n{_subject(mine, found)}"
-        (details if family == place.FAMILY and facets != _middle(subjects) else parts).append(text)
-    if details:
-        shown = "\n\n".join(details)
-        parts.append(f"<details><summary>Other meshes</summary>\n\n{shown}\n\n</details>")
-    return "\n\n".join(parts)
+        mine = [row for row in rows if (row.get("subject"), row.get("facets")) == (subject, facets)]
+        text = f"**{subject}, {facets:,} facets**\n\n{_subject(mine, found)}"
+        (shown if facets == counts[len(counts) // 2] else others).append(text)
+    if others:
+        folded = "\n\n".join(others)
+        shown.append(f"<details><summary>Other meshes</summary>\n\n{folded}\n\n</details>")
+    return "\n\n".join(shown)
 
 
 def _subject(mine: Sequence[Row], found: Sequence[Duel]) -> str:
@@ -135,17 +108,7 @@ def _subject(mine: Sequence[Row], found: Sequence[Duel]) -> str:
 
 
 def _same(duel: Duel, row: Row, contender: str) -> bool:
-    mine = (row["family"], row["subject"], _facets(row), contender)
-    return (duel.family, duel.subject, duel.facets, duel.contender) == mine
-
-
-def _facets(row: Row) -> int | None:
-    return row.get("facets") if row.get("family") == place.FAMILY else None
-
-
-def _middle(subjects: Any) -> int | None:
-    counts = sorted({facets for _, facets in subjects if facets})
-    return counts[len(counts) // 2] if counts else None
+    return (duel.subject, duel.facets, duel.contender) == (row["subject"], row["facets"], contender)
 
 
 def _condition(name: str) -> str:
@@ -180,3 +143,65 @@ def _versions(rows: Sequence[Row]) -> str:
     ]
     lines += [[r["contender"], r["family"], r["package"], r["note"]] for r in rows if r["kind"] == "missing"]
     return table(["contender", "for", "package", "version"], lines)
+
+
+# ---- the picture --------------------------------------------------------------------------------
+
+Points = dict[str, list[tuple[float, float]]]
+
+
+def _location(rows: Sequence[Row]) -> bytes:
+    errors = {
+        (r["subject"], r["facets"], r["contender"]): r["mean_mm"]
+        for r in rows
+        if r["kind"] == "error" and r["condition"] == _MAIN_NOISE
+    }
+    panels: dict[str, Points] = {}
+    for row in rows:
+        if row["kind"] != "time":
+            continue
+        alone = any(
+            other["kind"] == "time" and other["mode"] == RAY and other["contender"] == row["contender"]
+            for other in rows
+        )
+        if row["mode"] != (RAY if alone else WRENCH):
+            continue
+        error = errors.get((row["subject"], row["facets"], row["contender"]))
+        if error is not None:
+            points = panels.setdefault(row["subject"], {}).setdefault(row["contender"], [])
+            points.append((row["median_us"], error))
+    return _draw(panels)
+
+
+def _draw(panels: dict[str, Points]) -> bytes:
+    if not panels:
+        return b""
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    names = list(dict.fromkeys(name for points in panels.values() for name in points))
+    with rc_context(STYLE):
+        figure = Figure(figsize=(_PANEL * max(len(panels), 2), _HEIGHT + 0.6), dpi=_DPI, layout="constrained")
+        drawn = figure.subplots(1, len(panels), squeeze=False)[0]
+        for axes, (title, points) in zip(drawn, panels.items(), strict=True):
+            for name, some in points.items():
+                k = names.index(name)
+                colour = COLOURS[k % len(COLOURS)]
+                axes.plot(
+                    *zip(*some, strict=True),
+                    _MARKS[k % len(_MARKS)],
+                    color=colour,
+                    markerfacecolor=colour if name == OURS else "none",
+                    label=name,
+                )
+            axes.set(
+                title=title, xlabel="µs", ylabel="mean error, mm, noise filtered", xscale="log", yscale="log"
+            )
+            for axis in (axes.xaxis, axes.yaxis):
+                axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=6))
+                axis.set_major_formatter("{x:g}")
+                axis.set_minor_formatter(NullFormatter())
+        handles, labels = drawn[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(panels) + 1, 4), fontsize=7)
+        return png(figure)

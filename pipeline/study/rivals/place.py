@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from time import perf_counter_ns
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -13,31 +14,43 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.study.ablation.effects import NOISES
-from contactbench.pipeline.study.ablation.locating import sigmas_of
+from contactbench.pipeline.study.ablation.location_choices import sigmas_of
 from contactbench.pipeline.study.marker_touches import model_of
-from contactbench.pipeline.study.rivals.interleave import medians
 from contactbench.pipeline.study.rivals.rays import TRACERS, bare_ray
-from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
+from contactbench.pipeline.study.rivals.rows import (
+    BATCH,
+    COMPILED,
+    FAMILY,
+    OURS,
+    RAY,
+    SURE,
+    WRENCH,
+    Contender,
+    Row,
+    erred,
+    known,
+    missing,
+    timed,
+)
+from contactbench.pipeline.timing import clock_overhead
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.simulation import Touches
 
-FAMILY = "contact location"
-WRENCH, RAY, BATCH, COMPILED = (
-    "one wrench, from Python",
-    "one ray, from Python",
-    "1,000 wrenches, each",
-    "compiled",
-)
 _QUIETEST = np.repeat([1e-6, 1e-8], 3)
 _TOGETHER = 1_000
+_ROUND_NS = 4_000_000  # of one contender: long beside a clock, short beside what a machine does meanwhile
+_MOST_CALLS = 200
 _FEW = 300  # wrenches of methods that take up to a millisecond each
 _SLOW = ("Algorithm 1, C++", "Levenberg-Marquardt, SciPy", "closed form over all facets, C++")
+
+
+_Key = TypeVar("_Key", bound="Hashable")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +64,6 @@ class _Built:
 def place_rows(probe: str, facets: int, touches: int, rounds: int, seed: int) -> Iterator[Row]:
     """
     Measure all contenders on one mesh of a bundled probe.
-
-    Parameters
-    ----------
-    probe : str
-    facets, touches, rounds, seed : int
 
     Yields
     ------
@@ -150,3 +158,42 @@ def _times(
             own[name].append(float(np.median(time_each())) / 1e3)
     for name, us in own.items():
         yield timed(FAMILY, name, probe, COMPILED, us, facets=facets)
+
+
+def medians(
+    calls: Mapping[_Key, tuple[Callable[[Any], object], Sequence[Any]]], rounds: int
+) -> dict[_Key, list[float]]:
+    """
+    Time each callable in every round, one call at a time; a contender's round follows the others'.
+
+    Parameters
+    ----------
+    calls : mapping
+        Key -> (function, arguments it is called with in turn).
+
+    Returns
+    -------
+    dict
+        Key -> the median of each round, µs.
+    """
+    overhead = clock_overhead()
+    counts = {key: _count(function, arguments) for key, (function, arguments) in calls.items()}
+    found: dict[_Key, list[float]] = {key: [] for key in calls}
+    for number in range(rounds):
+        for key, (function, arguments) in calls.items():
+            taken = np.empty(counts[key])
+            for i in range(len(taken)):
+                argument = arguments[(number * len(taken) + i) % len(arguments)]
+                before = perf_counter_ns()
+                function(argument)
+                taken[i] = perf_counter_ns() - before
+            found[key].append((float(np.median(taken)) - overhead) / 1e3)
+    return found
+
+
+def _count(function: Callable[[Any], object], arguments: Sequence[Any]) -> int:
+    """Warm up, and return how many calls make a round."""
+    function(arguments[0])
+    before = perf_counter_ns()
+    function(arguments[-1])
+    return int(np.clip(_ROUND_NS // max(perf_counter_ns() - before, 1), 1, _MOST_CALLS))

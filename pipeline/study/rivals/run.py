@@ -19,20 +19,11 @@ _FEWEST, _MOST = 300, 200_000
 
 
 @dataclass(frozen=True)
-class Sizes:
-    """
-    How much is measured.
-
-    Attributes
-    ----------
-    probes : tuple of str
-    facets : tuple of int
-        Of the meshes that contacts are located on.
-    touches, rounds : int
-    """
+class RivalsSizes:
+    """How much is measured."""
 
     probes: tuple[str, ...] = assets.PROBE_NAMES
-    facets: tuple[int, ...] = (500, 2_000, 20_000)
+    facets: tuple[int, ...] = (500, 2_000, 20_000)  # of the meshes that contacts are located on
     touches: int = 4_000
     rounds: int = 15
 
@@ -47,16 +38,15 @@ class Sizes:
             raise InputError(f"--rounds {self.rounds}: give at least 1.")
 
 
-QUICK = Sizes(probes=("linear",), facets=(500,), touches=500, rounds=3)
+QUICK = RivalsSizes(probes=("linear",), facets=(500,), touches=500, rounds=3)
 
 
-def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
+def run(sizes: RivalsSizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
     """
     Measure everything that is installed.
 
     Parameters
     ----------
-    sizes : Sizes
     seed : int
         Of touches and noise.
     progress : callable

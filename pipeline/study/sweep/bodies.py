@@ -15,9 +15,10 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.study.marker_touches import model_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -29,30 +30,15 @@ _SHOWN = 1_500  # facets of a picture
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
-    """
-    A probe that is touched.
+class TouchedBody:
+    """A probe that is touched."""
 
-    Attributes
-    ----------
-    surface : Sampled
-        As it truly is.
-    above : float
-        Only what lies higher than this is touched, z in S, m.
-    """
-
-    surface: Sampled
-    above: float
+    surface: Sampled  # as it truly is
+    above: float  # only what lies higher than this is touched, z in S, m
 
 
 class MeshSurface:
-    """
-    A mesh as a true surface.
-
-    Parameters
-    ----------
-    probe : Probe
-    """
+    """A mesh as a true surface."""
 
     def __init__(self, probe: Probe) -> None:
         self._corners = probe.vertices[probe.faces]
@@ -72,21 +58,20 @@ class MeshSurface:
 
 
 @lru_cache(maxsize=_KEPT)
-def body_of(name: str) -> Body:
+def body_of(name: str) -> TouchedBody:
     """Return what is touched: a bundled probe's exact surface, or the file's own mesh; InputError."""
     if name in assets.PROBE_NAMES:
-        return Body(assets.surface(name), _ABOVE_M)
+        return TouchedBody(assets.surface(name), _ABOVE_M)
     probe = _file(name)
     low, high = probe.bounds
-    return Body(MeshSurface(probe), float(low[2] + 0.15 * (high[2] - low[2])))
+    return TouchedBody(MeshSurface(probe), float(low[2] + 0.15 * (high[2] - low[2])))
 
 
 @lru_cache(maxsize=_KEPT)
 def mesh_of(name: str, facets: int) -> Probe:
     """Return the mesh of about so many facets that contacts are located on; InputError."""
     if name in assets.PROBE_NAMES:
-        vertices, faces = assets.make(name, facets)
-        return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
+        return model_of(name, facets)
     from contactbench.pipeline.mesh.simplify import Count, simplify
 
     probe = _file(name)
@@ -100,7 +85,7 @@ def packed_mesh(name: str) -> dict[str, str]:
     return {key: base64.b64encode(zlib.compress(a.tobytes(), 9)).decode() for key, a in arrays.items()}
 
 
-def unpacked_mesh(packed: dict[str, str]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def unpacked_mesh(packed: Mapping[str, str]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Return vertices (n, 3), S, m, and faces (m, 3) of a packed mesh; ValueError if it is none."""
     parts = {key: zlib.decompress(base64.b64decode(text)) for key, text in packed.items()}
     vertices = np.frombuffer(parts["vertices"], "<f4").reshape(-1, 3).astype(np.float64)

@@ -14,9 +14,9 @@ from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.study.sweep.bodies import body_of, file_facets, mesh_of
-from contactbench.pipeline.study.sweep.judging import bound_of, judged
 from contactbench.pipeline.study.sweep.noise import believed, deviations
 from contactbench.pipeline.study.sweep.plan import identity, label
+from contactbench.pipeline.study.sweep.scores import bound_of, judged
 from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
@@ -43,7 +43,6 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
 
     Parameters
     ----------
-    cell : Cell
     timed : bool
         Whether to measure times, too.
 

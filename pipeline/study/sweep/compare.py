@@ -26,24 +26,17 @@ _VARIED = ("probe", "facets", "force", "angle", "torsion", "noise", "filter")
 
 
 @dataclass(frozen=True)
-class Finding:
-    """
-    One conclusion of both sweeps.
+class Conclusion:
+    """One conclusion of both sweeps."""
 
-    Attributes
-    ----------
-    what, small, large : str
-        What it is about, and what each says.
-    same : bool
-    """
-
+    # what, small, large: what it is about, and what each says
     what: str
     small: str
     large: str
     same: bool
 
 
-def compare(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
+def compare(small: Sequence[Row], large: Sequence[Row]) -> list[Conclusion]:
     """
     Compare the conclusions of two sweeps.
 
@@ -66,7 +59,7 @@ def compare(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
     return found
 
 
-def _orders(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
+def _orders(small: Sequence[Row], large: Sequence[Row]) -> list[Conclusion]:
     shared = {name: {row[name] for row in small} & {row[name] for row in large} for name in _VARIED}
     points = []
     for rows in (small, large):
@@ -82,7 +75,7 @@ def _orders(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
             mine, theirs = (" < ".join(_order(each, probe, facets, methods, figure)) for each in points)
             pairs = [_swapped(points, probe, facets, pair, figure) for pair in combinations(methods, 2)]
             what = f"{_NAMES[figure]}: {plain(probe)}, {facets:,} facets"
-            found.append(Finding(what, mine, theirs, not any(pairs)))
+            found.append(Conclusion(what, mine, theirs, not any(pairs)))
     return found
 
 
@@ -107,7 +100,7 @@ def _swapped(
     return bool(signs[0] * signs[1] < 0)
 
 
-def _exponents(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
+def _exponents(small: Sequence[Row], large: Sequence[Row]) -> list[Conclusion]:
     found = []
     mine, theirs = exponents(small), exponents(large)
     for key in (key for key in mine if key in theirs):
@@ -115,5 +108,5 @@ def _exponents(small: Sequence[Row], large: Sequence[Row]) -> list[Finding]:
             if few is not None and many is not None:
                 name = f"exponent of {what}: {plain(key[0])}, {key[1]}"
                 same = abs(few.exponent - many.exponent) <= MOST_EXPONENT
-                found.append(Finding(name, f"{few.exponent:.2f}", f"{many.exponent:.2f}", same))
+                found.append(Conclusion(name, f"{few.exponent:.2f}", f"{many.exponent:.2f}", same))
     return found

@@ -89,24 +89,14 @@ def knee(rows: Sequence[Row], time: str = TIME, error: str = ERROR) -> Row | Non
 
 @dataclass(frozen=True)
 class Power:
-    """
-    A figure that grows as a power of the facets: figure = scale * facets ** exponent.
+    """A figure that grows as a power of the facets: figure = scale * facets ** exponent."""
 
-    Attributes
-    ----------
-    exponent, sigma : float
-        With its standard error.
-    scale : float
-    count : int
-        Of the points it is fitted to.
-    floor : float
-        What is left however fine the mesh is: its square adds to that of the power. 0: nothing that shows.
-    """
-
+    # exponent, sigma: with its standard error
     exponent: float
     sigma: float
     scale: float
-    count: int
+    count: int  # of the points it is fitted to
+    # what is left however fine the mesh is: its square adds to that of the power. 0: nothing that shows.
     floor: float = 0.0
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.study.sweep.pictures import astray, draw
-from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import faults_of
 from contactbench.pipeline.study.sweep.tables import speed_table, tables
 from contactbench.pipeline.study.sweep.targets import is_noisy, plain, usual
@@ -46,7 +45,6 @@ def make(results: Results, folder: Path) -> str:
 
     Parameters
     ----------
-    results : Results
     folder : Path
         For the pictures.
 
@@ -58,14 +56,14 @@ def make(results: Results, folder: Path) -> str:
     from contactbench.pipeline.study.sweep.plots import plots
 
     rows = list(results.rows)
-    plan = Plan.of(dict(results.about.get("plan", {})), "results")
+    plan = SweepPlan.of(dict(results.about.get("plan", {})), "results")
     pictures = plots(rows) | {"astray.png": draw(astray(rows, results.about.get("meshes", {})))}
     parts = [f"## Sweep: {plan.name}", _about(plan, len(rows))]
     for title, text in tables(rows):
         parts += [f"### {title}", text, *([_SAID[title]] if title in _SAID else [])]
     for name, data in pictures.items():
         if data:
-            _write(folder / name, data)
+            write_file(folder / name, data)
             parts.append(f"![{name.removesuffix('.png')}]({name})\n\n{_SAID[name]}")
     noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
     parts.append(
@@ -79,7 +77,7 @@ def make(results: Results, folder: Path) -> str:
     return "\n\n".join(parts)
 
 
-def _about(plan: Plan, cells: int) -> str:
+def _about(plan: SweepPlan, cells: int) -> str:
     def of(values: tuple[object, ...]) -> str:
         return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
 
@@ -92,10 +90,3 @@ def _about(plan: Plan, cells: int) -> str:
         f" {of(plan.noises)}; filters {of(plan.filters)}. Truth of a bundled probe is its exact surface, of a"
         " file the mesh in it."
     )
-
-
-def _write(file: Path, data: bytes) -> None:
-    try:
-        write_durably(file, data)
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error

@@ -19,7 +19,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.sweep.noise import FILTERS, NOISES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 _MOST_CELLS = 1_000_000
 
@@ -31,40 +31,19 @@ Arm = Annotated[float, Field(ge=0, le=0.1, allow_inf_nan=False)]
 
 @dataclass(frozen=True)
 class Cell:
-    """
-    One combination of everything that is varied.
+    """One combination of everything that is varied."""
 
-    Attributes
-    ----------
-    method : str
-        Of `contactbench.pipeline.contact.methods.METHODS`.
-    probe : str
-        Name of a bundled probe, or path of a prepared one.
-    facets : int
-        Asked for; what there is may differ by a few.
-    force : float
-        |F|, N.
-    angle : float
-        Between the force and the normal, degrees.
-    torsion : float
-        Standard deviation of the torque about the normal over |F|, m.
-    noise, filter : str
-        Of `NOISES` and `FILTERS`.
-    touches : int
-    seed : int
-        Of the plan.
-    """
-
-    method: str
-    probe: str
-    facets: int
-    force: float
-    angle: float
-    torsion: float
+    method: str  # of `contactbench.pipeline.contact.methods.METHODS`
+    probe: str  # name of a bundled probe, or path of a prepared one
+    facets: int  # asked for; what there is may differ by a few
+    force: float  # |F|, N
+    angle: float  # between the force and the normal, degrees
+    torsion: float  # standard deviation of the torque about the normal over |F|, m
+    # noise, filter: of `NOISES` and `FILTERS`
     noise: str
     filter: str
     touches: int
-    seed: int
+    seed: int  # of the plan
 
     @property
     def key(self) -> str:
@@ -104,7 +83,7 @@ def _hash(values: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-class Plan(BaseModel):
+class SweepPlan(BaseModel):
     """
     What a sweep varies: every combination is a cell.
 
@@ -135,21 +114,13 @@ class Plan(BaseModel):
     touches: Annotated[int, Field(ge=10, le=1_000_000)] = 1_000
     seed: Annotated[int, Field(ge=0, le=2**32)] = 0
 
-    @field_validator("methods", "noises", "filters")
+    @field_validator("methods", "noises", "filters", "most_facets")
     @classmethod
-    def _known(cls, values: tuple[str, ...], info: Any) -> tuple[str, ...]:
-        known = {"methods": METHODS, "noises": NOISES, "filters": FILTERS}[info.field_name]
+    def _known(cls, values: Any, info: Any) -> Any:
+        known = {"noises": NOISES, "filters": FILTERS}.get(info.field_name, METHODS)
         for value in values:
             if value not in known:
                 raise ValueError(f"{value!r} is none of {', '.join(known)}")
-        return values
-
-    @field_validator("most_facets")
-    @classmethod
-    def _methods(cls, values: dict[str, int]) -> dict[str, int]:
-        for name in values:
-            if name not in METHODS:
-                raise ValueError(f"{name!r} is none of {', '.join(METHODS)}")
         return values
 
     @field_validator("probes")
@@ -193,8 +164,17 @@ class Plan(BaseModel):
             if self._wanted(method, facets):
                 yield Cell(method, probe, facets, force, angle, torsion, noise, way, self.touches, self.seed)
 
+    def changed(
+        self, probes: Sequence[str] = (), touches: int | None = None, seed: int | None = None
+    ) -> SweepPlan:
+        """Return it with other probes, touches or seed, where they are given; InputError."""
+        given = {"probes": tuple(probes) or None, "touches": touches, "seed": seed}
+        return SweepPlan.of(
+            self.model_dump() | {name: value for name, value in given.items() if value is not None}
+        )
+
     @classmethod
-    def read(cls, file: Path) -> Plan:
+    def read(cls, file: Path) -> SweepPlan:
         """
         Read a plan, TOML with the names of the attributes.
 
@@ -210,7 +190,7 @@ class Plan(BaseModel):
         return cls.of({"name": _plain(file.stem), **values}, str(file))
 
     @classmethod
-    def of(cls, values: dict[str, Any], where: str = "study") -> Plan:
+    def of(cls, values: dict[str, Any], where: str = "study") -> SweepPlan:
         """Return the plan of plain values; InputError that names the field."""
         try:
             return cls.model_validate(values)
@@ -228,3 +208,62 @@ _VARIED = ("probes", "facets", "forces", "angles", "torsions", "noises", "filter
 def _plain(stem: str) -> str:
     kept = "".join(c if c.isascii() and (c.isalnum() or c in "-_") else "-" for c in stem.lower())
     return kept if kept[:1].isalpha() else f"s-{kept}"
+
+
+# ---- plans that are there by name ------------------------------------------------------------------
+
+_ALL = ("contactbench", "algorithm1", "wrench_axis", "iterative")
+# What the paper varied: its three probes, 1 to 20 N, 0 and 30 degrees, its filter, its rivals.
+_PAPER = {
+    "name": "paper",
+    "methods": _ALL,
+    "facets": (500, 2_000),
+    "forces": (1.0, 2.0, 5.0, 9.0, 20.0),
+    "angles": (0.0, 30.0),
+    "filters": ("none", "kalman"),
+    "touches": 2_000,
+}
+_GROWING = {
+    "methods": _ALL,
+    "forces": (2.0, 9.0, 20.0),
+    "angles": (0.0, 30.0),
+    "noises": ("none", "paper"),
+    # The literal loop takes a millisecond for 20,000 facets: its law is known long before.
+    "most_facets": {"algorithm1": 5_000},
+}
+# How time and error grow with the mesh.
+_RESOLUTION = _GROWING | {
+    "name": "resolution",
+    "facets": (100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 300_000, 1_000_000),
+    "touches": 2_000,
+}
+# The same in a minute: fewer meshes, forces and touches.
+_QUICK = _GROWING | {
+    "name": "quick",
+    "facets": (100, 500, 2_000, 20_000, 300_000),
+    "forces": (9.0,),
+    "most_facets": {"algorithm1": 2_000},
+    "touches": 500,
+}
+# Error against force and angle: little and much force, steep, twisted, quiet and loud.
+_STEEP = {
+    "name": "steep",
+    "methods": ("contactbench", "algorithm1", "wrench_axis"),
+    "facets": (2_000, 20_000),
+    "forces": (1.0, 2.0, 5.0, 10.0, 20.0),
+    "angles": (0.0, 30.0, 45.0, 60.0, 70.0),
+    "torsions": (0.0003, 0.003),
+    "noises": ("none", "paper"),
+    "most_facets": {"algorithm1": 2_000},
+    "touches": 1_000,
+}
+PRESETS: dict[str, dict[str, Any]] = {
+    str(each["name"]): each for each in (_PAPER, _RESOLUTION, _QUICK, _STEEP)
+}
+
+
+def preset_plan(name: str) -> SweepPlan:
+    """Return a plan by its name; InputError if there is none of that name."""
+    if name not in PRESETS:
+        raise InputError(f"--preset {name}: choose one of {', '.join(PRESETS)}.")
+    return SweepPlan.of(PRESETS[name])

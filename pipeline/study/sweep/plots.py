@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from contactbench.pipeline.study.pages import STYLE, png
 from contactbench.pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
 from contactbench.pipeline.study.sweep.tables import exponents
 from contactbench.pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
@@ -23,17 +23,6 @@ _LOOK = {
     "wrench_axis": ("#009e73", "^"),
     "iterative": ("#cc79a7", "D"),
     "scan": ("#56b4e9", "v"),
-}
-_STYLE: dict[Any, Any] = {
-    "font.size": 8.5,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e5e7",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.3,
-    "lines.markersize": 4.0,
-    "legend.frameon": False,
 }
 _PANEL, _HEIGHT, _DPI = 3.1, 2.9, 90  # inches
 
@@ -96,7 +85,7 @@ def _growth(rows: Sequence[Row]) -> bytes:
     halves = [half for half in halves if half[1]]
     if not halves:
         return b""
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure, grid = _grid(len(halves), len(probes))
         for (name, points, said, which), line in zip(halves, grid, strict=True):
             for axes, probe in zip(line, probes, strict=True):
@@ -122,7 +111,7 @@ def _growth(rows: Sequence[Row]) -> bytes:
                 axes.set(xscale="log", yscale="log", xlabel="facets", title=plain(probe))
                 axes.legend(fontsize=6.5)
             line[0].set_ylabel(said)
-        return _png(figure)
+        return png(figure)
 
 
 def _time(row: Row) -> float:
@@ -180,25 +169,19 @@ def _against(rows: Sequence[Row], name: str) -> bytes:
 
 def _panels(points: Sequence[Row], draw: Callable[[Any, str], None], said: str) -> bytes:
     probes = list(dict.fromkeys(row["probe"] for row in points))
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure, [line] = _grid(1, len(probes))
         for axes, probe in zip(line, probes, strict=True):
             draw(axes, probe)
             axes.set_title(plain(probe))
         line[0].set_ylabel(said)
         line[0].legend(fontsize=6.5)
-        return _png(figure)
+        return png(figure)
 
 
 def _grid(rows: int, columns: int) -> tuple[Figure, Any]:
     figure = Figure(figsize=(_PANEL * columns, _HEIGHT * rows), dpi=_DPI, layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, sharey="row")
-
-
-def _png(figure: Figure) -> bytes:
-    data = BytesIO()
-    figure.savefig(data, format="png", metadata={"Software": None}, pil_kwargs={"optimize": True})
-    return data.getvalue()
 
 
 def _short(facets: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.study.sweep.plan import Cell, Plan
+    from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
 
 KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled
@@ -27,31 +27,23 @@ _TOGETHER = 24  # cells of a task: few enough that little is lost when it is can
 
 @dataclass(frozen=True)
 class Swept:
-    """
-    What a run did.
+    """What a run did."""
 
-    Attributes
-    ----------
-    results : Path or None
-        The Parquet file; None: it was cancelled before all was done.
-    cells, computed, failed : int
-        All of them, those computed now, and those that could not be.
-    left_out : tuple of str
-        Meshes that a file cannot be made into, and why.
-    faults : tuple of str
-        What could not be computed, and why.
-    """
-
-    results: Path | None
+    results: Path | None  # the Parquet file; None: it was cancelled before all was done
+    # cells, computed, failed: all of them, those computed now, and those that could not be
     cells: int
     computed: int
     failed: int
-    left_out: tuple[str, ...] = ()
-    faults: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()  # meshes that a file cannot be made into, and why
+    faults: tuple[str, ...] = ()  # what could not be computed, and why
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return asdict(self) | {"results": str(self.results)}
 
 
 def run(
-    plan: Plan,
+    plan: SweepPlan,
     out: Path,
     *,
     command: str = "contactbench study run",
@@ -69,7 +61,6 @@ def run(
 
     Parameters
     ----------
-    plan : Plan
     out : Path
         Folder; what is done in it is not done again, but what failed.
     command : str
@@ -119,7 +110,7 @@ def faults_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [f"{', '.join(sorted(who))}: {reason}" for reason, who in found.items()]
 
 
-def _distinct(plan: Plan) -> tuple[list[Cell], tuple[str, ...]]:
+def _distinct(plan: SweepPlan) -> tuple[list[Cell], tuple[str, ...]]:
     """
     Return the cells of a plan, and which meshes a file cannot be made into, and why.
 
@@ -146,7 +137,7 @@ def _distinct(plan: Plan) -> tuple[list[Cell], tuple[str, ...]]:
     return [c for c in plan.cells() if some[c.probe][0] <= c.facets <= some[c.probe][1]], tuple(left_out)
 
 
-def _about(plan: Plan) -> dict[str, Any]:
+def _about(plan: SweepPlan) -> dict[str, Any]:
     """Return the plan without paths, and what the probes look like: pictures are made of the results alone."""
     named = plan.model_copy(update={"probes": tuple(map(label, plan.probes))})
     meshes = {label(probe): packed_mesh(probe) for probe in plan.probes}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import number, table
 from contactbench.pipeline.study.sweep.growth import (
     COMPILED,
     ERROR,

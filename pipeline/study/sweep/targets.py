@@ -23,15 +23,8 @@ _SPREAD = 0.5
 
 
 @dataclass(frozen=True)
-class Target:
-    """
-    A figure that should be reached.
-
-    Attributes
-    ----------
-    what, measured : str
-    met : bool
-    """
+class SweepTarget:
+    """A figure that should be reached."""
 
     what: str
     measured: str
@@ -48,7 +41,7 @@ def of_meshes(rows: Iterable[Row]) -> list[Row]:
     return [row for row in rows if not is_noisy(row) and not row.get("exact")]
 
 
-def targets(rows: Sequence[Row]) -> list[Target]:
+def targets(rows: Sequence[Row]) -> list[SweepTarget]:
     """Return the targets that the rows can tell about."""
     beyond = [row for row in rows if row["angle"] > STEEP_DEG]
     return [*over_bound(rows), *on_front(usual(rows)), *on_front(beyond, f", beyond {STEEP_DEG:g}°")]
@@ -59,7 +52,7 @@ def usual(rows: Iterable[Row]) -> list[Row]:
     return [row for row in rows if row["angle"] <= STEEP_DEG]
 
 
-def over_bound(rows: Iterable[Row]) -> list[Target]:
+def over_bound(rows: Iterable[Row]) -> list[SweepTarget]:
     """
     Judge, for each probe, the error over the noise bound, 2-20 N within 60 degrees at about 20,000 facets.
 
@@ -85,7 +78,7 @@ def over_bound(rows: Iterable[Row]) -> list[Target]:
         # The worst of many is too high by chance alone: two deviations are allowed to it, none to all together.
         met = whole["over_bound"] <= MOST_OVER_BOUND and worst["over_bound"] <= MOST_OVER_BOUND + 2 * sigma
         found.append(
-            Target(
+            SweepTarget(
                 f"{plain(probe)}: error over the noise bound at most {MOST_OVER_BOUND}"
                 " (2-20 N, within 60°, 20,000 facets)",
                 f"{whole['over_bound']:.3f} of all; worst {worst['over_bound']:.3f} ± {sigma:.3f}"
@@ -96,7 +89,7 @@ def over_bound(rows: Iterable[Row]) -> list[Target]:
     return found
 
 
-def on_front(rows: Iterable[Row], where: str = "") -> list[Target]:
+def on_front(rows: Iterable[Row], where: str = "") -> list[SweepTarget]:
     """Judge, for each probe, whether at any resolution a rival is both faster and more accurate; both from Python."""
     points = merged([row for row in rows if is_noisy(row)], ("probe", "facets", "method"))
     found = []
@@ -110,7 +103,7 @@ def on_front(rows: Iterable[Row], where: str = "") -> list[Target]:
         if ours and len({row["method"] for row in here}) > 1:
             what = f"{plain(probe)}: no rival is both faster and more accurate at the same resolution{where}"
             said = f"{len(ours)} of {len(ours)} resolutions" if not worse else "beaten at " + ", ".join(worse)
-            found.append(Target(what, said, not worse))
+            found.append(SweepTarget(what, said, not worse))
     return found
 
 

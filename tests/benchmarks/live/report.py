@@ -10,7 +10,7 @@ from benchmarks.live.parsing import PROTOCOLS, parse_speed
 from benchmarks.live.trial import run_trial
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -38,7 +38,7 @@ def run(
     frames: int = 50_000,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """
     Read emulated SRI sensors on pseudo-terminals, each in a process of its own, in one process, all at once.
     """
@@ -67,7 +67,7 @@ def run(
         "frames": frames,
         "seed": seed,
     }
-    return Report("Live sensors", settings, tuple(figures), tuple(dict.fromkeys(notes)))
+    return StudyReport("Live sensors", settings, tuple(figures), tuple(dict.fromkeys(notes)))
 
 
 def _counted(sensors: int) -> str:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import IO, TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,7 +54,7 @@ class Tally:
     worst_memory: float = 0.0  # bytes
     worst_file: str = "none"  # what took the most memory for its size
 
-    def report(self) -> Report:
+    def report(self) -> StudyReport:
         """Judge it."""
         judged = self.refused.total() + self.valid.total()
         figures = [
@@ -84,10 +84,12 @@ class Tally:
         if len(self.failures) > _LISTED:
             notes.append(f"And {len(self.failures) - _LISTED} more failures.")
         settings = {"files": f"{self.count:,}", "seed": self.seed}
-        return Report("Hostile mesh files", settings, tuple(figures), tuple(notes))
+        return StudyReport("Hostile mesh files", settings, tuple(figures), tuple(notes))
 
 
-def run(count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None] | None = None) -> Report:
+def run(
+    count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None] | None = None
+) -> StudyReport:
     """Read hostile mesh files in child processes: each must give a valid mesh or a typed error, soon."""
     if count < 1:
         raise InputError(f"count: {count} files are none; give at least 1")

@@ -21,7 +21,7 @@ from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fi
 from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
 from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
 from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -67,7 +67,7 @@ def run(
     adoptions: int = 60,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """
     Measure every figure: 15 touches of 8 to 10 N, 0.05 N and 2 mN·m of noise, markers hit within 0.3 mm.
     """
@@ -87,7 +87,7 @@ def run(
         "Errors are of new touches all over the probe, root mean square over all set-ups; their spread and worst are"
         " those of single set-ups. Touches that a mount leaves without an answer are counted apart."
     )
-    return Report("Alignment by touches", settings, tuple(figures), (note,))
+    return StudyReport("Alignment by touches", settings, tuple(figures), (note,))
 
 
 def draw_setup(

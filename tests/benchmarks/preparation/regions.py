@@ -14,7 +14,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Geodesic
 from contactbench.pipeline.mesh.regions import Brush, FacetGraph, RegionModel, RegionSet
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -90,7 +90,7 @@ def run(
     undone: int = 1_000,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Measure every figure."""
     if strokes < 2 or undone < 1:
         raise InputError(f"{strokes} strokes, {undone} undone: give at least 2, and at least 1 to undo")
@@ -114,7 +114,7 @@ def run(
         " the gaps in between nor keeps what it changed. Processor: what the stroke itself took, without waiting."
     )
     settings = {"facets": f"{facets:,}", "strokes": strokes, "seed": seed}
-    return Report("Painting regions", settings, tuple(figures), (note,))
+    return StudyReport("Painting regions", settings, tuple(figures), (note,))
 
 
 class Rivals:

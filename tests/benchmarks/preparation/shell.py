@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.shell import Closing, make_shell
 from contactbench.pipeline.mesh.shell.fit import sample_surface
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, twins
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -83,7 +83,7 @@ def run(
     quick: bool = False,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Make a shell of every mesh and measure it."""
     figures: list[Figure] = []
     for case in _cases(files, facets, quick):
@@ -98,7 +98,7 @@ def run(
         " what is visible of the original, except at invented facets, and inner hits: half-lines from all round"
         " outside that land on an inner wall."
     )
-    return Report("Outer shell", settings, tuple(figures), (note,))
+    return StudyReport("Outer shell", settings, tuple(figures), (note,))
 
 
 def judge(case: Case, rng: np.random.Generator) -> list[Figure]:

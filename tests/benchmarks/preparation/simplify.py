@@ -18,7 +18,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.deviation import Reference
 from contactbench.pipeline.mesh.simplify import Count, simplify
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -49,7 +49,7 @@ def run(
     memory: bool = False,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> StudyReport:
     """Measure every figure."""
     _check(facets_in, facets_out, shapes, rounds)
     figures: list[Figure] = []
@@ -74,7 +74,7 @@ def run(
     note = (
         "Rivals are called bare in a process of their own; their time is that of the library's calls alone."
     )
-    return Report("Simplification", settings, tuple(figures), (note,))
+    return StudyReport("Simplification", settings, tuple(figures), (note,))
 
 
 def _check(facets_in: int, facets_out: int, shapes: Sequence[str], rounds: int) -> None:

@@ -26,14 +26,14 @@ from benchmarks.reproduce.dynamic_tables import (
     table_one,
     table_two,
 )
+from benchmarks.reproduce.tilt_bound import tilt_bound
 
 from contactbench import assets
-from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -151,7 +151,7 @@ def run(
     workers: int | None = None,
     settings: ControlSettings | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> Report:
+) -> StudyReport:
     """Track a moving phantom with every method, and judge ours."""
     return report_of(
         measure(
@@ -170,7 +170,7 @@ def run(
     )
 
 
-def report_of(result: DynamicResult) -> Report:
+def report_of(result: DynamicResult) -> StudyReport:
     """What is judged: our method, aware of the motion - or plain, if only that was run."""
     variant = Variant.AWARE if _of(result, Variant.AWARE) else Variant.PLAIN
     figures = [
@@ -197,7 +197,7 @@ def report_of(result: DynamicResult) -> Report:
         name = f"traces/{cell.variant}-{cell.motion.replace(' ', '-')}-{cell.period:g}s.csv"
         files[name] = trace.csv().encode()
     sheets = (table_one(result.outcomes), table_two(result.outcomes), runs(result.outcomes))
-    return Report(
+    return StudyReport(
         "reproduce dynamic", result.settings, tuple(figures), tuple(notes), sheets, files, DIFFERENCES
     )
 

@@ -11,7 +11,7 @@ from benchmarks.trials import in_processes, rms
 
 from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
@@ -108,7 +108,7 @@ def outcome_of(cell: Cell, trace: Trace, scene: MovedScene) -> Outcome:
     ms = 1e3 * np.percentile(trace.step_s, [50, 99])
     # A run that ended itself early did not follow for the rest; where its periods begin does not matter.
     missing = max(round(cell.seconds / period) - len(moving) - 1, 0)
-    followed = float(moving.was(State.TRACK).sum()) / max(len(moving) + missing, 1)
+    followed = float(moving.was(ControlState.TRACK).sum()) / max(len(moving) + missing, 1)
     if not len(moving):
         nothing = (float("nan"), float("nan"))
         moved: dict[str, Any] = {"force": (*nothing, float("nan")), "angle": nothing, "other": nothing}

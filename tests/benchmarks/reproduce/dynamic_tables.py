@@ -12,8 +12,8 @@ from benchmarks.trials import canvas, png
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.study.control_rig import foundation_of
-from contactbench.pipeline.study.sheets import Cell as Value
-from contactbench.pipeline.study.sheets import Sheet, short
+from contactbench.pipeline.study.report import Cell as Value
+from contactbench.pipeline.study.report import Sheet, short
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

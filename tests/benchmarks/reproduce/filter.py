@@ -18,10 +18,9 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S, draw_sensor
 from contactbench.pipeline.study.marker_touches import model_of, truth_of
-from contactbench.pipeline.study.paper_setup import RATE_HZ, WARM_S, draw_bench
-from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet
+from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.kernel import Batch
-    from contactbench.pipeline.simulation.scenes import Motion, Truth
+    from contactbench.pipeline.simulation.scenes import Motion, TrueSurface
 
 FORCE_N = 7.0  # mean, as the paper presses
 _ROUNDS = 5  # depth and heave depend on each other
@@ -56,13 +55,13 @@ class Slide:
 
 def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[[int, int], None]) -> Slide:
     """Press, read and locate; a sample per reading of the sensor."""
-    bench = draw_bench(seed)
+    bench = draw_sensor(seed)
     motion = _hand(truth_of(name), seed)
     contacts, points = _pressed(name, round(seconds * RATE_HZ), motion, progress)
     count = len(contacts)
     R_WS = np.broadcast_to(np.eye(3), (count, 3, 3))  # the phantom moves, the probe stands
     times = WARM_S + np.arange(count) / RATE_HZ
-    weight = bench.truth.predict(R_WS) - bench.settings.bias
+    weight = bench.weight(R_WS)
     model = SensorModel(bench.settings, np.random.default_rng([seed, 4]))
     net = bench.calibration.model.compensate(R_WS, model.read(times, weight + contacts).wrenches)
     sigma = np.sqrt(bench.settings.noise**2 + bench.settings.resolution**2 / 12)
@@ -81,7 +80,7 @@ def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[
     )
 
 
-def _hand(truth: Truth, seed: int) -> Motion:
+def _hand(truth: TrueSurface, seed: int) -> Motion:
     """Draw a motion that pushes with the wanted mean force, and heaves by half its depth: no probe is lifted off."""
     depth = depth_for(truth, FORCE_N)
     for _ in range(_ROUNDS):
@@ -294,12 +293,12 @@ def run(
     seconds: float = 20.0,
     seed: int = 0,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> Report:
+) -> StudyReport:
     """Press as a hand, locate every reading, filter the contacts, and compare."""
     return report_of(measure(probe, seconds=seconds, seed=seed, progress=progress))
 
 
-def report_of(result: FilterResult) -> Report:
+def report_of(result: FilterResult) -> StudyReport:
     """What is judged."""
     floor, notes = _floor(result), [result.suggestion.explanation]
     left = LowPass(PAPER_HZ, RATE_HZ).noise_left
@@ -335,7 +334,7 @@ def report_of(result: FilterResult) -> Report:
     )
     sheets = (_filters_sheet(result), _spectrum_sheet(result))
     pictures = {"filter.png": draw(result)}
-    return Report(
+    return StudyReport(
         "reproduce filter", result.settings, tuple(figures), tuple(notes), sheets, pictures, DIFFERENCES
     )
 

@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.reproduce.readings import COLD_S, filtered_noise, noise_at, read_touches
 from benchmarks.trials import rms
 from scipy.spatial.transform import Rotation
 
@@ -15,19 +16,19 @@ from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import BenchScene, Press, Tip, TouchScene
+from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.touch import STEP_S
+from contactbench.pipeline.study.control_rig import draw_sensor
 from contactbench.pipeline.study.marker_touches import (
     ANGLES,
     TRUE_FACETS,
-    Station,
+    MarkerStation,
     held,
     model_of,
     row,
     stack,
     truth_of,
 )
-from contactbench.pipeline.study.paper_setup import COLD_S, draw_bench, read_touches
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -36,9 +37,9 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.contact.methods import Method
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
+    from contactbench.pipeline.study.control_rig import CalibratedSensor
     from contactbench.pipeline.study.marker_touches import Touched
-    from contactbench.pipeline.study.paper_setup import Bench
 
 
 @dataclass(frozen=True)
@@ -102,9 +103,9 @@ class Located:
         return Located(self.points[chosen], self.reasons[chosen])
 
 
-def bounds_m(touched: Touched, bench: Bench) -> NDArray[np.float64]:
+def bounds_m(touched: Touched, bench: CalibratedSensor) -> NDArray[np.float64]:
     """Return the root mean square error that noise and calibration alone give to each touch, (n,), m."""
-    covariances = bench.noise_at(touched.R_WS)
+    covariances = noise_at(bench, touched.R_WS)
     squares = [
         np.trace(J @ C @ J.T)
         for J, C in (
@@ -170,10 +171,12 @@ class ProbeResult:
     notes: tuple[str, ...]  # Methods that are left out
 
 
-def solver_for(method: str, name: str, facets: int, bench: Bench, R_WS: NDArray[np.float64]) -> Method:
+def solver_for(
+    method: str, name: str, facets: int, bench: CalibratedSensor, R_WS: NDArray[np.float64]
+) -> Method:
     """Build a method that knows the filtered noise and what the calibration leaves, averaged over the touches."""
     extra = bench.calibration.model.wrench_covariance(R_WS).mean(axis=0)
-    left = bench.filtered_noise
+    left = filtered_noise(bench)
     return make(method, model_of(name, facets), WrenchNoise(left.force, left.torque, extra))
 
 
@@ -182,7 +185,7 @@ def key_of(name: str) -> int:
     return assets.PROBE_NAMES.index(name)
 
 
-def locate_all(name: str, facets: int, touched: Touched, benches: Sequence[Bench]) -> ProbeResult:
+def locate_all(name: str, facets: int, touched: Touched, benches: Sequence[CalibratedSensor]) -> ProbeResult:
     """Read, compensate and filter every touch with the bench of its seed, and locate it with every method."""
     parts: dict[str, list[Located]] = {method: [] for method in METHODS}
     times: dict[str, list[NDArray[np.float64]]] = {method: [] for method in METHODS}
@@ -241,14 +244,14 @@ class ForceErrors:
 
 
 def by_force(
-    name: str, facets: int, marker_S: NDArray[np.float64], benches: Sequence[Bench], key: int
+    name: str, facets: int, marker_S: NDArray[np.float64], benches: Sequence[CalibratedSensor], key: int
 ) -> list[ForceErrors]:
     """Press one marker at every angle with `FORCES_N`, and locate many readings of each touch."""
-    station = Station(name, marker_S)
+    station = MarkerStation(name, marker_S)
     found: list[ForceErrors] = []
     for index, (angle, (tilt, azimuth)) in enumerate(ANGLES.items()):
         for force in FORCES_N:
-            moment = station.touch(Press(force, tilt, azimuth))
+            moment = station.touch(TipPress(force, tilt, azimuth))
             rows = [
                 row((bench.seed, MARKER, index, repeat), station.scene.marker_S, moment)
                 for bench in benches
@@ -259,15 +262,15 @@ def by_force(
 
 
 def force_errors(
-    name: str, markers_S: NDArray[np.float64], benches: Sequence[Bench], key: int
+    name: str, markers_S: NDArray[np.float64], benches: Sequence[CalibratedSensor], key: int
 ) -> NDArray[np.float64]:
     """Press every marker with `RISING_N`, and compare the filtered force with the true one."""
     rows = []
     for number, marker_S in enumerate(markers_S):
-        station = Station(name, marker_S)
+        station = MarkerStation(name, marker_S)
         for index, (tilt, azimuth) in enumerate(ANGLES.values()):
             for repeat, force in enumerate(RISING_N):
-                moment = station.touch(Press(force, tilt, azimuth))
+                moment = station.touch(TipPress(force, tilt, azimuth))
                 rows.append(row((0, number + 1, index, repeat), station.scene.marker_S, moment))
     touched = stack(rows)
     true = np.linalg.norm(touched.contacts[:, :3], axis=1)
@@ -283,7 +286,7 @@ def _at_force(
     name: str,
     facets: int,
     touched: Touched,
-    benches: Sequence[Bench],
+    benches: Sequence[CalibratedSensor],
     key: int,
     force: float,
     angle: str,
@@ -362,7 +365,9 @@ class Explained:
     means: tuple[float, ...]  # mm, by angle
 
 
-def attribute(name: str, facets: int, touched: Touched, benches: Sequence[Bench]) -> list[Attributed]:
+def attribute(
+    name: str, facets: int, touched: Touched, benches: Sequence[CalibratedSensor]
+) -> list[Attributed]:
     """Locate the touches of one probe under each of `CASES`; the parameters as for `locate_all`."""
     rows: list[Attributed] = []
     for cause, causes in CASES.items():
@@ -377,7 +382,7 @@ def attribute(name: str, facets: int, touched: Touched, benches: Sequence[Bench]
     return rows
 
 
-def explain(name: str, facets: int, touched: Touched, bench: Bench) -> Explained:
+def explain(name: str, facets: int, touched: Touched, bench: CalibratedSensor) -> Explained:
     """Find the reference error and the mount's stiffness with which the touches of one seed give the paper's means."""
     mine = touched.where(touched.seeds == bench.seed)
     found = []
@@ -408,20 +413,20 @@ def _located(
     name: str,
     facets: int,
     touched: Touched,
-    benches: Sequence[Bench],
+    benches: Sequence[CalibratedSensor],
     causes: Causes,
 ) -> NDArray[np.float64]:
     """Return the distance of each answer to where its marker is taken to be, mm, (n,)."""
     parts = []
     for bench in benches:
         mine = touched.where(touched.seeds == bench.seed)
-        used = draw_bench(bench.seed, calibrated_at=COLD_S) if causes.cold else bench
+        used = draw_sensor(bench.seed, calibrated_at=COLD_S) if causes.cold else bench
         parts.append(_points(name, facets, mine, used, causes))
     located = Located.joined(parts)
     return distances_mm(located.points, _references(touched, causes.reference))
 
 
-def _points(name: str, facets: int, mine: Touched, bench: Bench, causes: Causes) -> Located:
+def _points(name: str, facets: int, mine: Touched, bench: CalibratedSensor, causes: Causes) -> Located:
     turned = _yielding(mine, causes.compliance)
     wrenches = read_touches(bench, turned.contacts, turned.R_WS, key_of(name))
     method = solver_for(causes.method, name, causes.facets or facets, bench, turned.R_WS)
@@ -469,16 +474,16 @@ class Effect:
     most_located: float
 
 
-def effects(name: str, markers_S: NDArray[np.float64], bench: Bench) -> list[Effect]:
+def effects(name: str, markers_S: NDArray[np.float64], bench: CalibratedSensor) -> list[Effect]:
     """Press some markers (n, 3) in the scene as it is, and in changed ones."""
     truth = truth_of(name)
-    makers: dict[str, Callable[[NDArray[np.float64], Press], Moment]] = {
+    makers: dict[str, Callable[[NDArray[np.float64], TipPress], SceneMoment]] = {
         "as it is": lambda at, press: _rested(TouchScene(truth, at), press),
         "half the time step": lambda at, press: _rested(TouchScene(truth, at, step=STEP_S / 2), press),
         "tip of 3 mm instead of 1.5": lambda at, press: _rested(TouchScene(truth, at, tip=Tip(0.003)), press),
         "on a wrist that yields": lambda at, press: _on_wrist(BenchScene(truth), at, press),
     }
-    presses = [Press(_SCENE_FORCE_N, tilt, azimuth) for tilt, azimuth in ANGLES.values()]
+    presses = [TipPress(_SCENE_FORCE_N, tilt, azimuth) for tilt, azimuth in ANGLES.values()]
     moments = {
         change: [make(at, press) for at in markers_S for press in presses] for change, make in makers.items()
     }
@@ -496,7 +501,7 @@ def effects(name: str, markers_S: NDArray[np.float64], bench: Bench) -> list[Eff
     return found
 
 
-def _rested(scene: TouchScene, press: Press) -> Moment:
+def _rested(scene: TouchScene, press: TipPress) -> SceneMoment:
     scene.press(press)
     moment = scene.settle()
     if moment is None:
@@ -506,7 +511,7 @@ def _rested(scene: TouchScene, press: Press) -> Moment:
     return moment
 
 
-def _on_wrist(scene: BenchScene, marker_S: NDArray[np.float64], press: Press) -> Moment:
+def _on_wrist(scene: BenchScene, marker_S: NDArray[np.float64], press: TipPress) -> SceneMoment:
     scene.aim(marker_S)
     scene.press(press)
     scene.advance(_REST_S)

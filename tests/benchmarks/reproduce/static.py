@@ -28,9 +28,9 @@ from contactbench import assets
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.control_rig import POSES, draw_sensor
 from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, press_markers
-from contactbench.pipeline.study.paper_setup import POSES, draw_bench
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from benchmarks.reproduce.located import Attributed, Effect, Explained, ForceErrors, ProbeResult
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.study.report import Report
+    from contactbench.pipeline.study.report import StudyReport
 
 PROBES = ("t-shape", "linear", "convex")
 FACETS = 2_000
@@ -80,7 +80,7 @@ def measure(
 
     benches = []
     for seed in range(seeds):
-        benches.append(draw_bench(seed))
+        benches.append(draw_sensor(seed))
         step()
     results = []
     for name in names:
@@ -140,7 +140,7 @@ def run(
     facets: int = FACETS,
     most_markers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> Report:
+) -> StudyReport:
     """Repeat the static experiments on the virtual bench, and compare with the paper's."""
     return report_of(
         measure(
@@ -149,7 +149,7 @@ def run(
     )
 
 
-def report_of(result: StaticResult) -> Report:
+def report_of(result: StaticResult) -> StudyReport:
     """Compare with the targets, and say in sentences where errors come from."""
     figures, notes = judged(result.probes, result.attributed, result.explained)
     sheets = (
@@ -162,7 +162,9 @@ def report_of(result: StaticResult) -> Report:
         tables.times_sheet(result.probes),
     )
     pictures = {"static.png": tables.draw(result)}
-    return Report("reproduce static", result.settings, figures, notes, sheets, pictures, tables.DIFFERENCES)
+    return StudyReport(
+        "reproduce static", result.settings, figures, notes, sheets, pictures, tables.DIFFERENCES
+    )
 
 
 def judged(

@@ -9,7 +9,7 @@ from benchmarks.reproduce.located import OURS, distances_mm
 from benchmarks.trials import canvas, png
 
 from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
-from contactbench.pipeline.study.sheets import Sheet
+from contactbench.pipeline.study.report import Sheet
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from benchmarks.reproduce.static import StaticResult
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.study.sheets import Cell
+    from contactbench.pipeline.study.report import Cell
 
 PAPER_PROBE = "t-shape"  # of its angles, forces and times
 

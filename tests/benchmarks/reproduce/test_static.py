@@ -17,10 +17,12 @@ from benchmarks.reproduce.located import (
     distances_mm,
     locate_all,
 )
+from benchmarks.reproduce.readings import filtered_noise, read_touches
 from benchmarks.reproduce.static import StaticResult, judged, report_of
 
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.control_rig import draw_sensor
 from contactbench.pipeline.study.marker_touches import (
     ACROSS,
     ANGLES,
@@ -29,8 +31,7 @@ from contactbench.pipeline.study.marker_touches import (
     held,
     press_markers,
 )
-from contactbench.pipeline.study.paper_setup import draw_bench, read_touches
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 CAUSES = [
     Attributed(cause, (0.2,) * 3, (0.2,) * 3, (0.2,) * 3, (0.0,) * 3) for cause in ("none", FINE, "all")
@@ -45,14 +46,14 @@ def result() -> StaticResult:
 @pytest.fixture(scope="module")
 def probe() -> ProbeResult:
     touched = press_markers("linear", markers("linear")[:3], 2, 1)
-    return locate_all("linear", 1_000, touched, [draw_bench(0), draw_bench(1)])
+    return locate_all("linear", 1_000, touched, [draw_sensor(0), draw_sensor(1)])
 
 
-def told(probe: ProbeResult) -> Report:
-    return Report("", {}, *judged([probe], CAUSES, None))
+def told(probe: ProbeResult) -> StudyReport:
+    return StudyReport("", {}, *judged([probe], CAUSES, None))
 
 
-def figure(report: Report, name: str) -> Figure:
+def figure(report: StudyReport, name: str) -> Figure:
     return next(each for each in report.figures if each.name == name)
 
 
@@ -101,11 +102,13 @@ def test_a_mount_that_yields_moves_the_contact_by_lever_and_torque() -> None:
 
 
 def test_readings_lose_weight_and_bias() -> None:
-    bench = draw_bench(3)
+    bench = draw_sensor(3)
     contact = np.array([[1.0, 0.0, -9.0, 0.05, 0.3, 0.001]])
     many = np.tile(contact, (400, 1))
     read = read_touches(bench, many, np.tile(held(contact[0]), (400, 1, 1)), 0)
-    np.testing.assert_allclose(read.std(axis=0), np.sqrt(np.diag(bench.filtered_noise.covariance)), rtol=0.15)
+    np.testing.assert_allclose(
+        read.std(axis=0), np.sqrt(np.diag(filtered_noise(bench).covariance)), rtol=0.15
+    )
     np.testing.assert_allclose(read.mean(axis=0), contact[0], atol=5e-2)
 
 
@@ -187,7 +190,7 @@ def test_methods_are_compared_on_the_same_touches(
         return made
 
     monkeypatch.setattr(located.Located, "of", some_left_out)
-    errors = locate_all("linear", 1_000, probe.touched, [draw_bench(0), draw_bench(1)]).errors
+    errors = locate_all("linear", 1_000, probe.touched, [draw_sensor(0), draw_sensor(1)]).errors
     assert {one.common for (angle, _), one in errors.items() if angle == PERPENDICULAR} == {5}
     literal = errors[PERPENDICULAR, LITERAL]
     rows = (probe.touched.angles == 0) & (np.arange(len(probe.touched)) != 0)

@@ -16,12 +16,12 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.study.stability import DOUBLE, OPEN, QUIET, ROUNDOFF, answers_on, touch
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Contact
-    from contactbench.pipeline.study.hard_meshes import Body, Drawn, Float
+    from contactbench.pipeline.study.hard_meshes import Drawn, Float, SolidBody
 
     Vector = tuple[Fraction, Fraction, Fraction]
     from benchmarks.solver.bits import Rows
@@ -39,7 +39,7 @@ MOST_MM = 1e-12
 _SURE = 1e-9
 
 
-def run(samples: int = 1000, seed: int = 0) -> Report:
+def run(samples: int = 1000, seed: int = 0) -> StudyReport:
     """Compare the solver with exact arithmetic, in other units, and bit for bit with its other builds."""
     if samples < 1 or seed < 0:
         raise InputError(f"{samples} samples, seed {seed}: give at least 1 sample and a seed of at least 0")
@@ -57,7 +57,7 @@ def run(samples: int = 1000, seed: int = 0) -> Report:
         )
         for row in rows
     )
-    return Report("Solver", {"samples": samples, "seed": seed}, figures)
+    return StudyReport("Solver", {"samples": samples, "seed": seed}, figures)
 
 
 def exact_rows(samples: int, seed: int) -> list[Row]:
@@ -89,7 +89,7 @@ def exact_rows(samples: int, seed: int) -> list[Row]:
     return rows
 
 
-def _compared(case: str, body: Body, drawn: Drawn) -> list[Row]:
+def _compared(case: str, body: SolidBody, drawn: Drawn) -> list[Row]:
     solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     off, long_off, depths, apart, none = [], [], [0.0], [0.0], 0
     for wrench in drawn.wrenches:
@@ -125,7 +125,7 @@ def _compared(case: str, body: Body, drawn: Drawn) -> list[Row]:
     return rows
 
 
-def _convex(body: Body) -> bool:
+def _convex(body: SolidBody) -> bool:
     """Tell whether no vertex lies outside a facet's plane, but for rounding."""
     used = body.vertices[np.unique(body.faces)]
     above = (used - body.corners[:, :1].astype(np.float64)) @ body.normals.astype(np.float64)[:, :, None]
@@ -144,7 +144,7 @@ def _cosine(degrees: float) -> float:
     return math.cos(math.radians(degrees))
 
 
-def _possible(body: Body, wrench: Float) -> set[int]:
+def _possible(body: SolidBody, wrench: Float) -> set[int]:
     """Return facets that may accept a wrench (6,), as far as long double tells."""
     every = np.arange(len(body.faces))
     hit = answers_on(body, every, np.tile(wrench, (len(every), 1)))
@@ -155,12 +155,12 @@ def _possible(body: Body, wrench: Float) -> set[int]:
     return {int(f) for f in np.flatnonzero((facing > 0) & (least > -_SURE) & ~edge_on)}
 
 
-def _corners(body: Body, face: int) -> tuple[Vector, Vector, Vector]:
+def _corners(body: SolidBody, face: int) -> tuple[Vector, Vector, Vector]:
     a, b, c = (_vector(body.vertices[v]) for v in body.faces[face])
     return a, b, c
 
 
-def _facet_point(body: Body, face: int, F: Vector, M: Vector) -> Vector:
+def _facet_point(body: SolidBody, face: int, F: Vector, M: Vector) -> Vector:
     """Solve Eq. 6 on a facet's plane: p (n . F) = n x M + (n . a) F, whatever the length of n."""
     a, b, c = _corners(body, face)
     n = _cross(_minus(b, a), _minus(c, a))
@@ -169,7 +169,7 @@ def _facet_point(body: Body, face: int, F: Vector, M: Vector) -> Vector:
     return x, y, z
 
 
-def _margins(body: Body, face: int, F: Vector, M: Vector) -> tuple[Fraction, ...]:
+def _margins(body: SolidBody, face: int, F: Vector, M: Vector) -> tuple[Fraction, ...]:
     """Return the wrench's moments about the three edges: all negative, and the facet accepts it."""
     corners = _corners(body, face)
     return tuple(
@@ -178,7 +178,7 @@ def _margins(body: Body, face: int, F: Vector, M: Vector) -> tuple[Fraction, ...
     )
 
 
-def _depth(body: Body, face: int, F: Vector, margins: tuple[Fraction, ...]) -> float:
+def _depth(body: SolidBody, face: int, F: Vector, margins: tuple[Fraction, ...]) -> float:
     """Return how far the exact point is from the edge that decides, times the cosine of the friction angle, m."""
     corners = _corners(body, face)
     worst = max(range(3), key=lambda i: margins[i])
@@ -260,7 +260,7 @@ def unit_rows(samples: int, seed: int) -> list[Row]:
 class _Scene:
     """One probe and its wrenches, to be scaled."""
 
-    def __init__(self, body: Body, wrenches: Float, model: TouchModel) -> None:
+    def __init__(self, body: SolidBody, wrenches: Float, model: TouchModel) -> None:
         self.body, self.wrenches, self.model = body, wrenches, model
         # What lies in front has odds of its own from 3 mm on, whatever the unit: without these, every limit scales.
         self.gates = Gates(first_odds=1.0)

@@ -28,14 +28,14 @@ def missed(rows: list[Row]) -> list[Row]:
 
 
 @dataclass(frozen=True, eq=False)
-class Bent(hm.Body):
+class Bent(hm.SolidBody):
     """A body whose probe is a little larger than itself: what a wrong solver would look like."""
 
     by: float = 0.0
 
     def probe(self, faces: object = None) -> Probe:
         assert faces is None
-        return hm.Body(self.vertices * (1 + self.by), self.faces).probe()
+        return hm.SolidBody(self.vertices * (1 + self.by), self.faces).probe()
 
 
 def bent(by: float) -> Bent:

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _BETWEEN_S = 1 / _EVENTS_HZ
 
 def run(
     facets: int = 100_000, events: int = 200, *, progress: Callable[[str], None] = lambda _: None
-) -> Report:
+) -> StudyReport:
     """Paint in the 3D view of the real window with mouse events, 60 a second, as a mouse gives them."""
     before = load()
     with own_home() as home, shown_window() as window:
@@ -63,7 +63,7 @@ def run(
         Figure("picking", "99 of 100", float(np.percentile(picks, 99)), "ms", most=_PICK_MS),
         Figure("brush", "painted anything (1: yes)", float(painted), least=1),
     )
-    return Report("Brush", {"facets": facets, "events": events}, figures, (loaded(before),))
+    return StudyReport("Brush", {"facets": facets, "events": events}, figures, (loaded(before),))
 
 
 def make_session(folder: Path, facets: int) -> None:

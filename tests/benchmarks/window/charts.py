@@ -11,7 +11,7 @@ from benchmarks.live.reader import resident
 from benchmarks.live.trial import sensor_process
 from benchmarks.window.driver import load, loaded, opened, own_home, rest, shown_window, until
 
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +26,7 @@ _LOOK_S = 0.5
 _WARM = 0.25  # the share of the time in which buffers fill
 
 
-def run(seconds: float = 60.0, *, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(seconds: float = 60.0, *, progress: Callable[[str], None] = lambda _: None) -> StudyReport:
     """
     Let the charts of the real window show a sensor of 1 kHz, and count what they draw and what it takes.
     """
@@ -54,7 +54,7 @@ def run(seconds: float = 60.0, *, progress: Callable[[str], None] = lambda _: No
         loaded(before),
         f"The slope leaves out the first {_WARM:.0%} of the time, in which buffers fill.",
     )
-    return Report("Strip charts", {"seconds": seconds, "rate": f"{_RATE_HZ:g} Hz"}, figures, notes)
+    return StudyReport("Strip charts", {"seconds": seconds, "rate": f"{_RATE_HZ:g} Hz"}, figures, notes)
 
 
 def _watched(window: MainWindow, seconds: float) -> tuple[list[float], list[float], list[float]]:

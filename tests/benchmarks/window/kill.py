@@ -16,7 +16,7 @@ from benchmarks.window.driver import load, loaded, own_home
 
 from contactbench.app.opening import VIRTUAL_BENCH
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -30,7 +30,9 @@ _FACETS = 2_000
 _POSES = 6
 
 
-def run(steps: Sequence[Step] = tuple(Step), *, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(
+    steps: Sequence[Step] = tuple(Step), *, progress: Callable[[str], None] = lambda _: None
+) -> StudyReport:
     """Start the application, do something at a page, end it with SIGKILL, start it again, and compare."""
     from contactbench.pipeline.calibration.files.calibration_file import save_calibration
     from contactbench.pipeline.session import Session
@@ -58,7 +60,9 @@ def run(steps: Sequence[Step] = tuple(Step), *, progress: Callable[[str], None] 
             figures += _figures(step, left, found)
             if found["question"]:
                 notes.append(f"{step.value}: asked: {found['question']}")
-    return Report("Ended by kill -9", {"pages": len(figures) // 3}, tuple(figures), (*notes, loaded(before)))
+    return StudyReport(
+        "Ended by kill -9", {"pages": len(figures) // 3}, tuple(figures), (*notes, loaded(before))
+    )
 
 
 def _weighed() -> Calibration:

@@ -16,7 +16,7 @@ from benchmarks.window.driver import load, loaded, opened, own_home, rest, shown
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Census:
     memory: float  # MB
 
 
-def run(times: int = 50, *, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(times: int = 50, *, progress: Callable[[str], None] = lambda _: None) -> StudyReport:
     """Open a window with a virtual bench, show all pages, and close it."""
     before = load()
     with own_home() as home:
@@ -70,7 +70,7 @@ def run(times: int = 50, *, progress: Callable[[str], None] = lambda _: None) ->
         " allocator keeps free comes and goes."
     )
     notes = (counted, loaded(before))
-    return Report(
+    return StudyReport(
         "Open and close", {"times": times}, figures, (f"More of VTK: {kinds}.", *notes) if kinds else notes
     )
 

@@ -15,7 +15,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.live import Ring
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene.views import turned
@@ -40,7 +40,7 @@ _KEPT = 120_000
 
 def run(
     seconds: float = 60.0, facets: int = 100_000, *, progress: Callable[[str], None] = lambda _: None
-) -> Report:
+) -> StudyReport:
     """
     Measure the event loop of the real window in its worst hour.
 
@@ -80,7 +80,7 @@ def run(
         rounds = loop.rounds
     figures += (*quiet, *busy, Figure("simplifying, turning, three streams", "meshes begun", rounds, least=1))
     settings = {"seconds": seconds, "facets": facets, "streams": _STREAMS, "rate": f"{_RATE_HZ:g} Hz"}
-    return Report("The window standing still", settings, figures, (loaded(before),))
+    return StudyReport("The window standing still", settings, figures, (loaded(before),))
 
 
 class Sink:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from benchmarks.window.driver import load, loaded, own_home
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -62,7 +62,7 @@ contactbench.app.cli.main()
 """
 
 
-def run(repeats: int = 7, *, progress: Callable[[str], None] = lambda _: None) -> Report:
+def run(repeats: int = 7, *, progress: Callable[[str], None] = lambda _: None) -> StudyReport:
     """Start both as processes of their own, in turns, and compare pair by pair."""
     before = load()
     views: list[float] = []
@@ -83,7 +83,7 @@ def run(repeats: int = 7, *, progress: Callable[[str], None] = lambda _: None) -
         Figure.of("contactbench gui / empty QtInteractor", "ratio, pair by pair", ratios, most=_MOST),
     )
     notes = (loaded(before), "The 3D view of the window is made with the first session, not at its start.")
-    return Report("Start of the window", {"repeats": repeats}, figures, notes)
+    return StudyReport("Start of the window", {"repeats": repeats}, figures, notes)
 
 
 def _seconds(code: str, home: Path) -> float:

@@ -17,7 +17,7 @@ from benchmarks.window.leaks import growth
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QThread
 
 from contactbench.app.garbage import Garbage
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 pytestmark = [
     pytest.mark.window,
@@ -90,7 +90,7 @@ def test_memory_that_grows_misses_its_target():
     assert study_charts._growth(times, [500.0] * 60) == 0.0
     grows = study_charts._growth(times, [500.0 + 0.1 * second for second in times])
     assert grows == pytest.approx(0.1)
-    assert not Report("", {}, (Figure("", "", grows * 1800, most=10.0),)).passed
+    assert not StudyReport("", {}, (Figure("", "", grows * 1800, most=10.0),)).passed
 
 
 def test_a_sink_keeps_what_streams_give():

@@ -4,11 +4,11 @@ import pytest
 
 from contactbench import assets
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import Truth
+from contactbench.pipeline.simulation.scenes import TrueSurface
 
 
 @pytest.fixture(scope="package")
-def truth() -> Truth:
+def truth() -> TrueSurface:
     """The T-shape, finely meshed."""
     vertices, faces = assets.make("t-shape", 20_000)
-    return Truth(Probe.from_arrays(vertices, faces, name="t-shape"))
+    return TrueSurface(Probe.from_arrays(vertices, faces, name="t-shape"))

@@ -13,7 +13,7 @@ from contactbench.pipeline.simulation.scenes import (
     PlatformScene,
     ServoSettings,
     Tissue,
-    Truth,
+    TrueSurface,
 )
 from contactbench.pipeline.simulation.scenes.platform import DOWN
 
@@ -34,7 +34,7 @@ def _held(scene: ArmScene, seconds: float) -> None:
         scene.advance(_PERIOD)
 
 
-def test_it_begins_above_the_phantom_pointing_down(truth: Truth) -> None:
+def test_it_begins_above_the_phantom_pointing_down(truth: TrueSurface) -> None:
     scene = ArmScene(truth, R_ES=_R_ES, p_ES_E=_P_ES_E, gap=0.004)
     np.testing.assert_allclose(scene.angles(), 0, atol=1e-9)
     R_BE, p_BE_B = scene.robot.flange_pose(scene.start)
@@ -45,7 +45,7 @@ def test_it_begins_above_the_phantom_pointing_down(truth: Truth) -> None:
     np.testing.assert_allclose(tip - scene.surface()[0], [0, 0, 0.004], atol=1e-9)
 
 
-def test_the_sensor_is_where_the_kinematics_say_at_any_joints(truth: Truth) -> None:
+def test_the_sensor_is_where_the_kinematics_say_at_any_joints(truth: TrueSurface) -> None:
     scene = ArmScene(truth, R_ES=_R_ES, p_ES_E=_P_ES_E)
     q = np.array([0.5, -0.4, 1.1, 0.6, -0.7, 0.9])
     scene.data.qpos[:6] = q
@@ -55,7 +55,7 @@ def test_the_sensor_is_where_the_kinematics_say_at_any_joints(truth: Truth) -> N
     np.testing.assert_allclose(scene.data.site("S").xpos, p_BE_B + R_BE @ _P_ES_E, atol=1e-9)
 
 
-def test_gravity_bends_nothing_and_the_motors_hold_the_weight(truth: Truth) -> None:
+def test_gravity_bends_nothing_and_the_motors_hold_the_weight(truth: TrueSurface) -> None:
     scene = ArmScene(truth)
     _held(scene, 0.4)
     np.testing.assert_allclose(scene.true_joints, scene.start, atol=1e-7)
@@ -72,7 +72,7 @@ def test_gravity_bends_nothing_and_the_motors_hold_the_weight(truth: Truth) -> N
     assert scene.torques[1] == pytest.approx(lifted, rel=1e-3)
 
 
-def test_at_rest_it_reads_contact_and_weight(truth: Truth) -> None:
+def test_at_rest_it_reads_contact_and_weight(truth: TrueSurface) -> None:
     payload = Payload(0.6, np.array([0.01, -0.004, 0.05]))
     scene = ArmScene(truth, payload=payload, R_ES=_R_ES, gap=-0.002)
     _held(scene, 0.8)
@@ -81,7 +81,7 @@ def test_at_rest_it_reads_contact_and_weight(truth: Truth) -> None:
     np.testing.assert_allclose(moment.reading, moment.contact + _weight(payload, moment.R_WS), atol=1e-3)
 
 
-def test_a_push_bends_the_arm_for_a_moment_and_the_encoders_see_it(truth: Truth) -> None:
+def test_a_push_bends_the_arm_for_a_moment_and_the_encoders_see_it(truth: TrueSurface) -> None:
     scene = ArmScene(truth, gap=-0.002, servo=ServoSettings(counts=2**20))
     raised = []
     for _ in range(40):
@@ -95,7 +95,7 @@ def test_a_push_bends_the_arm_for_a_moment_and_the_encoders_see_it(truth: Truth)
 
 
 @pytest.mark.parametrize("scene_of", [PlatformScene, ArmScene])
-def test_a_pressed_phantom_hardly_yields_wherever_it_stands(truth: Truth, scene_of: type) -> None:
+def test_a_pressed_phantom_hardly_yields_wherever_it_stands(truth: TrueSurface, scene_of: type) -> None:
     scene = scene_of(truth, gap=-0.002, tissue=Tissue(friction=0.0))
     _held(scene, 0.6)
     point, normal = scene.surface()
@@ -104,7 +104,7 @@ def test_a_pressed_phantom_hardly_yields_wherever_it_stands(truth: Truth, scene_
     np.testing.assert_allclose(scene.angles(), 0, atol=1e-4)
 
 
-def test_the_same_tilt_means_the_same_as_on_the_mount(truth: Truth) -> None:
+def test_the_same_tilt_means_the_same_as_on_the_mount(truth: TrueSurface) -> None:
     motion = PlatformMotion(np.array([0, 0, 0, 0.04, -0.06, 0]), 4.0)
     angles = []
     for scene in (PlatformScene(truth, motion=motion, gap=0.03), ArmScene(truth, motion=motion, gap=0.03)):
@@ -114,7 +114,7 @@ def test_the_same_tilt_means_the_same_as_on_the_mount(truth: Truth) -> None:
     assert angles[0][0] == pytest.approx(0.06, abs=1e-3)
 
 
-def test_the_limits_hold_however_it_is_commanded(truth: Truth) -> None:
+def test_the_limits_hold_however_it_is_commanded(truth: TrueSurface) -> None:
     scene = ArmScene(truth, gap=0.05)
     rng = np.random.default_rng(0)
     before = np.zeros(6)
@@ -129,7 +129,7 @@ def test_the_limits_hold_however_it_is_commanded(truth: Truth) -> None:
         before = speed
 
 
-def test_motors_that_are_too_weak_let_it_sink(truth: Truth) -> None:
+def test_motors_that_are_too_weak_let_it_sink(truth: TrueSurface) -> None:
     scene = ArmScene(truth, payload=Payload(60.0), gap=0.03)
     scene.advance(0.1)
     most = [joint.effort for joint in scene.robot.description.joints]
@@ -139,7 +139,7 @@ def test_motors_that_are_too_weak_let_it_sink(truth: Truth) -> None:
     assert np.abs(scene.true_joints - scene.start).max() > 1e-3
 
 
-def test_all_motions_keep_well_clear_of_the_limits_and_of_the_arm_itself(truth: Truth) -> None:
+def test_all_motions_keep_well_clear_of_the_limits_and_of_the_arm_itself(truth: TrueSurface) -> None:
     scene = ArmScene(truth)
     top = float(truth.probe.vertices[:, 2].max())
     clear = ClearanceCheck(scene.robot.description, Clearance(p_ET_E=(0.0, 0.0, top), tool_radius=0.04))
@@ -157,7 +157,7 @@ _SIGNS = np.array([[0, 0, 0, x, y, 0] for x in (-1, 0, 1) for y in (-1, 0, 1) if
 
 
 @pytest.mark.parametrize("scene_of", [PlatformScene, ArmScene])
-def test_held_on_the_moving_phantom_it_stays_upright_at_its_depth(truth: Truth, scene_of: type) -> None:
+def test_held_on_the_moving_phantom_it_stays_upright_at_its_depth(truth: TrueSurface, scene_of: type) -> None:
     motion = PlatformMotion(np.array([0.002, 0.003, 0.004, 0.08, -0.06, 0.0]), 3.0)
     scene = scene_of(truth, motion=motion, gap=-0.002)
     q, after = scene.start, []
@@ -172,7 +172,7 @@ def test_held_on_the_moving_phantom_it_stays_upright_at_its_depth(truth: Truth, 
     assert push.max() - push.min() < 0.1 * np.abs(push).max()
 
 
-def test_looking_changes_nothing(truth: Truth) -> None:
+def test_looking_changes_nothing(truth: TrueSurface) -> None:
     ends = []
     for looked in (False, True):
         scene = ArmScene(truth, motion=PlatformMotion.along("rx", 0.05, 1.0), gap=-0.002)
@@ -187,7 +187,7 @@ def test_looking_changes_nothing(truth: Truth) -> None:
     np.testing.assert_allclose(ends[0], ends[1], atol=1e-9)
 
 
-def test_what_cannot_be_is_refused(truth: Truth) -> None:
+def test_what_cannot_be_is_refused(truth: TrueSurface) -> None:
     far = np.eye(4)
     far[0, 3] = 2.0
     with pytest.raises(InputError, match="elfin3 does not reach"):
@@ -205,7 +205,7 @@ def test_what_cannot_be_is_refused(truth: Truth) -> None:
     np.testing.assert_allclose(scene.true_joints, scene.start, atol=1e-7)
 
 
-def test_in_motion_it_also_reads_the_inertia(truth: Truth) -> None:
+def test_in_motion_it_also_reads_the_inertia(truth: TrueSurface) -> None:
     payload = Payload()
     scene = ArmScene(truth, payload=payload, gap=0.05)
     for k in range(20):
@@ -224,7 +224,7 @@ def test_in_motion_it_also_reads_the_inertia(truth: Truth) -> None:
     np.testing.assert_allclose(moment.reading[:3], force, atol=0.02)
 
 
-def test_the_same_commands_give_the_same_to_the_last_bit(truth: Truth) -> None:
+def test_the_same_commands_give_the_same_to_the_last_bit(truth: TrueSurface) -> None:
     readings = []
     for _ in range(2):
         scene = ArmScene(truth, motion=PlatformMotion.along("z", 0.002, 1.0), gap=-0.002)

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import BenchScene, Payload, PhysicsError, Press, Truth
+from contactbench.pipeline.simulation.scenes import BenchScene, Payload, PhysicsError, TipPress, TrueSurface
 
 _G = 9.80665
 _MARKER = np.array([0.02, 0.0, 0.13])
@@ -20,7 +20,7 @@ def _angle(A: np.ndarray, B: np.ndarray) -> float:
     return float(Rotation.from_matrix(A.T @ B).magnitude())
 
 
-def test_it_goes_where_it_is_told_and_reads_the_weight_there(truth: Truth) -> None:
+def test_it_goes_where_it_is_told_and_reads_the_weight_there(truth: TrueSurface) -> None:
     payload = Payload(0.6, np.array([0.01, 0.0, 0.05]))
     scene = BenchScene(truth, payload=payload)
     for seed in range(2):
@@ -31,7 +31,7 @@ def test_it_goes_where_it_is_told_and_reads_the_weight_there(truth: Truth) -> No
         np.testing.assert_allclose(moment.reading, _weight(payload, R_WS), atol=1e-6)
 
 
-def test_while_it_turns_the_sensor_feels_the_inertia(truth: Truth) -> None:
+def test_while_it_turns_the_sensor_feels_the_inertia(truth: TrueSurface) -> None:
     payload = Payload(1.0, np.array([0.0, 0.0, 0.1]))
     scene = BenchScene(truth, payload=payload)
     scene.turn_to(Rotation.from_euler("x", 90, degrees=True).as_matrix(), 0.5)
@@ -43,12 +43,12 @@ def test_while_it_turns_the_sensor_feels_the_inertia(truth: Truth) -> None:
     np.testing.assert_allclose(extra[:3], [0, 0, 1.0 * 0.1 * speed**2], atol=0.04)
 
 
-def test_a_touch_in_any_orientation(truth: Truth) -> None:
+def test_a_touch_in_any_orientation(truth: TrueSurface) -> None:
     payload = Payload()
     R_WS = Rotation.from_euler("xyz", [150, 20, 70], degrees=True).as_matrix()
     scene = BenchScene(truth, payload=payload, R_WS=R_WS)
     point = scene.aim(_MARKER)
-    scene.press(Press(9, 30, 90, 0.002))
+    scene.press(TipPress(9, 30, 90, 0.002))
     scene.advance(0.8)
     moment = scene.moment()
     assert moment.force == pytest.approx(9, abs=2e-3)
@@ -57,7 +57,7 @@ def test_a_touch_in_any_orientation(truth: Truth) -> None:
     np.testing.assert_allclose(moment.reading, moment.contact + _weight(payload, moment.R_WS), atol=1e-3)
 
 
-def test_time_and_wrist_go_on_when_the_tip_comes_and_goes(truth: Truth) -> None:
+def test_time_and_wrist_go_on_when_the_tip_comes_and_goes(truth: TrueSurface) -> None:
     R_WS = Rotation.from_euler("x", 40, degrees=True).as_matrix()
     scene = BenchScene(truth, R_WS=R_WS)
     scene.advance(0.1)
@@ -69,7 +69,7 @@ def test_time_and_wrist_go_on_when_the_tip_comes_and_goes(truth: Truth) -> None:
     assert scene.moment().contacts == 0
 
 
-def test_a_bump_is_felt_and_over(truth: Truth) -> None:
+def test_a_bump_is_felt_and_over(truth: TrueSurface) -> None:
     payload = Payload()
     scene = BenchScene(truth, payload=payload)
     scene.bump([5.0, 0, 0], 0.3, [0, 0, 0.1])
@@ -80,7 +80,7 @@ def test_a_bump_is_felt_and_over(truth: Truth) -> None:
     np.testing.assert_allclose(scene.moment().reading, _weight(payload, np.eye(3)), atol=1e-4)
 
 
-def test_the_path_of_a_turn_is_smooth_from_the_one_orientation_to_the_other(truth: Truth) -> None:
+def test_the_path_of_a_turn_is_smooth_from_the_one_orientation_to_the_other(truth: TrueSurface) -> None:
     begin, end = (Rotation.from_euler("xyz", rpy, degrees=True) for rpy in ([10, 20, 0], [30, -50, 20]))
     scene = BenchScene(truth, R_WS=begin.as_matrix())
     scene.turn_to(end.as_matrix(), 0.4)
@@ -92,7 +92,7 @@ def test_the_path_of_a_turn_is_smooth_from_the_one_orientation_to_the_other(trut
         assert _angle(scene.moment().R_WS, wanted.as_matrix()) < 1e-3
 
 
-def test_the_wrist_is_held_at_the_moment_when_the_tip_comes_or_goes(truth: Truth) -> None:
+def test_the_wrist_is_held_at_the_moment_when_the_tip_comes_or_goes(truth: TrueSurface) -> None:
     R_WS = Rotation.from_euler("y", 90, degrees=True).as_matrix()
     scene = BenchScene(truth, R_WS=R_WS)
     scene.advance(0.1)
@@ -102,7 +102,7 @@ def test_the_wrist_is_held_at_the_moment_when_the_tip_comes_or_goes(truth: Truth
         np.testing.assert_allclose(moment.reading, _weight(Payload(), moment.R_WS), atol=1e-4)
 
 
-def test_physics_that_comes_apart_is_an_error_and_no_file(truth: Truth, tmp_path, monkeypatch) -> None:
+def test_physics_that_comes_apart_is_an_error_and_no_file(truth: TrueSurface, tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     scene = BenchScene(truth)
     scene.data.qvel[0] = 1e20
@@ -112,7 +112,9 @@ def test_physics_that_comes_apart_is_an_error_and_no_file(truth: Truth, tmp_path
 
 
 @pytest.mark.parametrize("degrees", [5.0, 180.0])
-def test_a_turn_faster_than_any_arm_is_refused_and_the_fastest_is_sound(truth: Truth, degrees: float) -> None:
+def test_a_turn_faster_than_any_arm_is_refused_and_the_fastest_is_sound(
+    truth: TrueSurface, degrees: float
+) -> None:
     R_WS = Rotation.from_euler("x", degrees, degrees=True).as_matrix()
     scene = BenchScene(truth)
     with pytest.raises(InputError, match="faster than any arm") as error:
@@ -123,14 +125,14 @@ def test_a_turn_faster_than_any_arm_is_refused_and_the_fastest_is_sound(truth: T
     assert _angle(scene.moment().R_WS, R_WS) < 1e-4
 
 
-def test_what_cannot_be_is_refused(truth: Truth) -> None:
+def test_what_cannot_be_is_refused(truth: TrueSurface) -> None:
     scene = BenchScene(truth)
     with pytest.raises(InputError, match="rotation matrix"):
         scene.turn_to(np.ones((3, 3)))
     with pytest.raises(InputError, match="no time"):
         scene.turn_to(np.eye(3), -1.0)
     with pytest.raises(InputError, match="aimed at nothing"):
-        scene.press(Press(5))
+        scene.press(TipPress(5))
     with pytest.raises(InputError, match="a bump"):
         scene.bump([1, 2], 0.1)
     with pytest.raises(InputError, match="at most 1000 N"):

@@ -5,37 +5,37 @@ import pytest
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
+from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
 from contactbench.pipeline.simulation.scenes.pieces import facets_near, triangle_distances
 
 _SIZE, _BASE = np.array([0.06, 0.03, 0.06]), 0.06
 
 
 @pytest.fixture(scope="module")
-def box() -> Truth:
+def box() -> TrueSurface:
     """A box of twelve facets, each wider than a tip's patch."""
     corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0, 1)]) * _SIZE
     faces = [
         [0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3],
     ]  # fmt: skip
-    return Truth(Probe.from_arrays(corners + [0, 0, _BASE], np.array(faces), name="box"))
+    return TrueSurface(Probe.from_arrays(corners + [0, 0, _BASE], np.array(faces), name="box"))
 
 
 @pytest.mark.parametrize("place", [(0.0, 0.0), (0.02, 0.01), (-0.02, -0.01), (0.02, -0.01), (0.0285, 0.0135)])
 def test_a_facet_wider_than_the_patch_is_touched_in_its_middle_and_near_its_corner(
-    box: Truth, place: tuple[float, float]
+    box: TrueSurface, place: tuple[float, float]
 ) -> None:
     marker = np.array([*place, _BASE + _SIZE[2]])
     scene = TouchScene(box, marker)
-    scene.press(Press(9))
+    scene.press(TipPress(9))
     moment = scene.settle()
     assert moment is not None
     assert moment.force == pytest.approx(9, abs=1e-3)
     assert np.linalg.norm(moment.centroid_S - marker) < 2e-5
 
 
-def test_the_side_that_is_touched_wins_where_several_share_a_corner(box: Truth) -> None:
+def test_the_side_that_is_touched_wins_where_several_share_a_corner(box: TrueSurface) -> None:
     corner = np.array([0.03, 0.015, 0.12])
     for axis in range(3):
         outward = np.eye(3)[axis]
@@ -44,7 +44,7 @@ def test_the_side_that_is_touched_wins_where_several_share_a_corner(box: Truth) 
         np.testing.assert_allclose(normals, np.broadcast_to(outward, normals.shape), atol=1e-9)
 
 
-def test_a_point_off_the_surface_is_refused(box: Truth) -> None:
+def test_a_point_off_the_surface_is_refused(box: TrueSurface) -> None:
     with pytest.raises(InputError, match="no surface within 5 mm"):
         facets_near(box, np.array([0.0, 0.0, 0.2]), 0.005)
 

@@ -5,7 +5,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import Payload, PlatformMotion, PlatformScene, Tissue, Truth
+from contactbench.pipeline.simulation.scenes import (
+    Payload,
+    PlatformMotion,
+    PlatformScene,
+    Tissue,
+    TrueSurface,
+)
 from contactbench.pipeline.simulation.scenes.platform import DOWN
 
 _G = np.array([0.0, 0.0, -9.80665])
@@ -22,7 +28,7 @@ def _turned(axis: str, angle: float) -> PlatformMotion:
     return PlatformMotion.along(axis, angle, 4.0)
 
 
-def test_at_rest_it_reads_contact_and_weight(truth: Truth) -> None:
+def test_at_rest_it_reads_contact_and_weight(truth: TrueSurface) -> None:
     payload = Payload(0.6, np.array([0.01, -0.004, 0.05]))
     scene = PlatformScene(truth, payload=payload, gap=-0.002)
     for _ in range(10):
@@ -35,7 +41,7 @@ def test_at_rest_it_reads_contact_and_weight(truth: Truth) -> None:
     np.testing.assert_allclose(moment.reading, moment.contact + _weight(payload, moment.R_WS), atol=1e-3)
 
 
-def test_in_motion_it_also_reads_the_inertia(truth: Truth) -> None:
+def test_in_motion_it_also_reads_the_inertia(truth: TrueSurface) -> None:
     payload = Payload()
     scene = PlatformScene(truth, payload=payload, gap=0.02)
     for k in range(20):
@@ -53,7 +59,7 @@ def test_in_motion_it_also_reads_the_inertia(truth: Truth) -> None:
 
 
 @pytest.mark.parametrize("angle", [0.1, -0.05])
-def test_the_phantom_turns_about_the_axes_of_its_platform(truth: Truth, angle: float) -> None:
+def test_the_phantom_turns_about_the_axes_of_its_platform(truth: TrueSurface, angle: float) -> None:
     for axis, name in enumerate(("rx", "ry")):
         scene = PlatformScene(truth, motion=_turned(name, angle), gap=0.03)
         scene.advance(1.0)
@@ -66,7 +72,7 @@ def test_the_phantom_turns_about_the_axes_of_its_platform(truth: Truth, angle: f
         np.testing.assert_allclose(scene.angles(), expected, atol=1e-5)
 
 
-def test_a_probe_that_turns_by_the_angles_stands_upright(truth: Truth) -> None:
+def test_a_probe_that_turns_by_the_angles_stands_upright(truth: TrueSurface) -> None:
     scene = PlatformScene(truth, motion=_turned("ry", 0.08), gap=0.03)
     scene.advance(1.0)
     about_y, about_x = scene.angles()
@@ -81,7 +87,7 @@ def test_a_probe_that_turns_by_the_angles_stands_upright(truth: Truth) -> None:
     np.testing.assert_allclose(left, (0.08 - wanted, 0.0), atol=1e-4)
 
 
-def test_where_the_phantom_is_deeper_the_contact_is(truth: Truth) -> None:
+def test_where_the_phantom_is_deeper_the_contact_is(truth: TrueSurface) -> None:
     scene = PlatformScene(truth, motion=_turned("ry", 0.03), tissue=Tissue(friction=0.0), gap=-0.002)
     scene.advance(1.0)
     moment = scene.moment()
@@ -90,7 +96,7 @@ def test_where_the_phantom_is_deeper_the_contact_is(truth: Truth) -> None:
     assert moment.centroid_S[0] < -0.002
 
 
-def test_the_phantom_goes_up_and_down_and_the_top_is_where_the_motion_says(truth: Truth) -> None:
+def test_the_phantom_goes_up_and_down_and_the_top_is_where_the_motion_says(truth: TrueSurface) -> None:
     motion = PlatformMotion(np.array([0.003, -0.002, 0.01, 0, 0, 0]), 2.0, start=0.1)
     scene = PlatformScene(truth, motion=motion, gap=0.03)
     for _ in range(8):
@@ -99,7 +105,7 @@ def test_the_phantom_goes_up_and_down_and_the_top_is_where_the_motion_says(truth
         np.testing.assert_allclose(scene.surface()[1], [0, 0, 1], atol=1e-9)
 
 
-def test_a_jump_in_speed_is_followed_without_overshoot(truth: Truth) -> None:
+def test_a_jump_in_speed_is_followed_without_overshoot(truth: TrueSurface) -> None:
     motion = PlatformMotion.along("ry", np.radians(10), 2.0, start=0.1)
     scene = PlatformScene(truth, motion=motion, gap=0.03)
     off = []
@@ -110,7 +116,7 @@ def test_a_jump_in_speed_is_followed_without_overshoot(truth: Truth) -> None:
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_a_command_that_is_not_finite_is_refused_and_changes_nothing(truth: Truth, bad: float) -> None:
+def test_a_command_that_is_not_finite_is_refused_and_changes_nothing(truth: TrueSurface, bad: float) -> None:
     scene = PlatformScene(truth)
     with pytest.raises(InputError, match="give 6 finite numbers"):
         scene.command(np.array([0, 0, bad, 0, 0, 0]))
@@ -120,7 +126,7 @@ def test_a_command_that_is_not_finite_is_refused_and_changes_nothing(truth: Trut
     np.testing.assert_allclose(scene.joints, scene.start, atol=1e-6)
 
 
-def test_a_command_out_of_reach_is_gone_to_within_the_mounts_limits(truth: Truth) -> None:
+def test_a_command_out_of_reach_is_gone_to_within_the_mounts_limits(truth: TrueSurface) -> None:
     scene = PlatformScene(truth)
     before, fastest = scene.joints, np.zeros(6)
     for k in range(300):

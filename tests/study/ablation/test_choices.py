@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from benchmarks.plane import _block
 
-from contactbench.pipeline.study.ablation import effects, locating, reading
+from contactbench.pipeline.study.ablation import effects, location_choices, sensor_choices
 from contactbench.pipeline.study.ablation.effects import compared, effect
 from contactbench.pipeline.study.ablation.records import drawn
 from contactbench.pipeline.study.ablation.scenery import foremost
@@ -28,25 +28,25 @@ def test_figures_are_of_rows_that_are_sure_and_not_grossly_off():
 
 
 def test_without_axial_torque_no_local_torque_is_left(record):
-    plain = locating.without_axial(record.contacts)
+    plain = location_choices.without_axial(record.contacts)
     assert np.allclose(np.einsum("nd,nd->n", plain[:, :3], plain[:, 3:]), 0.0, atol=1e-12)
-    made = locating.locators("linear", 500, 0.0).ours.locate_batch(plain)
+    made = location_choices.locators("linear", 500, 0.0).ours.locate_batch(plain)
     explained = made.misfits < 1e-9  # at the others' edges and corners the axis passes the coarse mesh by
     assert explained.mean() > 0.95
     assert np.abs(made.torques[explained]).max() < 1e-9
 
 
 def test_local_torque_buys_more_the_more_it_twists(record):
-    little = effect(locating.LOCAL_TORQUE, record, 2_000, 0.0, 0)
+    little = effect(location_choices.LOCAL_TORQUE, record, 2_000, 0.0, 0)
     twisted = drawn("linear", 300, np.random.default_rng(1), torsion=0.003)
-    much = effect(locating.LOCAL_TORQUE, twisted, 2_000, 0.0, 0)
+    much = effect(location_choices.LOCAL_TORQUE, twisted, 2_000, 0.0, 0)
     assert 0 < little["bought_mm"] < 0.2 < much["bought_mm"]
 
 
-@pytest.mark.parametrize("choice", reading.CHOICES)
+@pytest.mark.parametrize("choice", sensor_choices.CHOICES)
 def test_what_a_sensor_does_wrong_is_taken_off_again(record, choice):
     found = effect(choice, record, 2_000, effects.FILTERED, 0)
-    clean = effect(locating.LOCAL_TORQUE, record, 2_000, effects.FILTERED, 0)["made_mean_mm"]
+    clean = effect(location_choices.LOCAL_TORQUE, record, 2_000, effects.FILTERED, 0)["made_mean_mm"]
     assert found["without_mean_mm"] > 1.3 * clean
     assert found["made_mean_mm"] < 1.15 * clean
     none = effect(choice, record, 2_000, effects.FILTERED, 0, amount=0.0)
@@ -54,21 +54,21 @@ def test_what_a_sensor_does_wrong_is_taken_off_again(record, choice):
 
 
 def test_a_robot_sees_the_mount_turned_even_where_the_sensor_does_not(record):
-    found = effect(reading.MOUNT, record, 2_000, effects.FILTERED, 0)
+    found = effect(sensor_choices.MOUNT, record, 2_000, effects.FILTERED, 0)
     # 2 degrees at 100 mm and more from the sensor.
     assert found["flange_without_mean_mm"] > 1.0
     assert found["flange_made_mean_mm"] < 0.5
 
 
 def test_ten_times_the_facets_are_nearer(record):
-    found = effect(locating.FINER, record, 500, 0.0, 0)
+    found = effect(location_choices.FINER, record, 500, 0.0, 0)
     assert found["made_mean_mm"] < 0.3 * found["without_mean_mm"]
 
 
 def test_the_same_seed_gives_the_same(record):
-    one, other = (effect(locating.GATE, record, 500, 1.0, 5) for _ in range(2))
+    one, other = (effect(location_choices.GATE, record, 500, 1.0, 5) for _ in range(2))
     assert one == other
-    assert one != effect(locating.GATE, record, 500, 1.0, 6)
+    assert one != effect(location_choices.GATE, record, 500, 1.0, 6)
 
 
 def test_a_rigid_plane_touches_what_is_foremost():

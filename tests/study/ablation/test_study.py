@@ -8,13 +8,13 @@ from typer.testing import CliRunner
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.ablation.effects import CHOICES
-from contactbench.pipeline.study.ablation.run import KIND, Sizes, run
+from contactbench.pipeline.study.ablation.run import KIND, AblationSizes, run
 from contactbench.pipeline.study.ablation.verdicts import CHOICES as ALL
 from contactbench.pipeline.study.ablation.verdicts import about_choices
 from contactbench.pipeline.study.pages import make_page
 from contactbench.pipeline.study.results import write_results
 
-SHORT = Sizes(
+SHORT = AblationSizes(
     probes=("linear",),
     scenes=("touch", "platform"),
     facets=500,
@@ -70,7 +70,7 @@ def test_the_page_is_made_from_the_file_alone(rows, tmp_path):
 )
 def test_wrong_sizes_are_named(change, said):
     with pytest.raises(InputError, match=said):
-        Sizes(**change)
+        AblationSizes(**change)
 
 
 def test_the_command_writes_everything(rows, tmp_path, monkeypatch):

@@ -2,11 +2,11 @@
 
 import pytest
 
-from contactbench.pipeline.study.ablation import locating, reading, scenery, verdicts
+from contactbench.pipeline.study.ablation import location_choices, scenery, sensor_choices, verdicts
 from contactbench.pipeline.study.ablation.verdicts import (
     Bought,
+    ChoiceVerdict,
     Cost,
-    Verdict,
     about_choices,
     bought,
     crossing,
@@ -37,7 +37,7 @@ def test_a_crossing_from_zero_is_not_on_a_logarithm():
 def row(**more):
     values = {
         "kind": "effect",
-        "choice": locating.LOCAL_TORQUE,
+        "choice": location_choices.LOCAL_TORQUE,
         "scene": "touch",
         "probe": "linear",
         "noise": "filtered",
@@ -75,7 +75,7 @@ def row(**more):
     ],
 )
 def test_what_is_worth_modelling(change, models):
-    assert bought(locating.LOCAL_TORQUE, "touch", [row(**change)]).models is models
+    assert bought(location_choices.LOCAL_TORQUE, "touch", [row(**change)]).models is models
 
 
 def test_a_scene_that_moves_the_contact_is_worth_modelling():
@@ -100,7 +100,7 @@ def need(scene, models):
     ],
 )
 def test_verdicts_in_words(scenes, cost, said):
-    verdict = Verdict("it", scenes, Cost("it", "a solve", 2.0, 2.0 + cost))
+    verdict = ChoiceVerdict("it", scenes, Cost("it", "a solve", 2.0, 2.0 + cost))
     assert verdict.verdict == said
     assert f"it: {said}; buys up to 0.5 mm" in verdict.sentence
     assert verdict.to_json()["verdict"] == said
@@ -118,8 +118,8 @@ def test_crossings_are_by_probe_mesh_and_noise_and_the_gate_loses():
         about = {"kind": "curve", "choice": choice, "x_name": "torsion, mm", "x": x, "facets": 500}
         return row(**about, noise_times=1.0, **more)
 
-    rows = [point(locating.LOCAL_TORQUE, x, bought_mm=b) for x, b in ((0.1, 0.0), (1.0, 0.1))]
-    rows += [point(locating.GATE, x, made_sure=s) for x, s in ((0.1, 1.0), (1.0, 0.99))]
+    rows = [point(location_choices.LOCAL_TORQUE, x, bought_mm=b) for x, b in ((0.1, 0.0), (1.0, 0.1))]
+    rows += [point(location_choices.GATE, x, made_sure=s) for x, s in ((0.1, 1.0), (1.0, 0.99))]
     torque, gate = crossings(rows)
     assert torque.words == "from 0.32"
     assert torque.at == "500 facets, noise one reading"
@@ -128,5 +128,5 @@ def test_crossings_are_by_probe_mesh_and_noise_and_the_gate_loses():
 
 
 def test_what_a_reading_is_varied_by_is_named():
-    assert verdicts.unit_of(reading.DRIFT) == "4 K"
-    assert verdicts.unit_of(locating.GATE) == ""
+    assert verdicts.unit_of(sensor_choices.DRIFT) == "4 K"
+    assert verdicts.unit_of(location_choices.GATE) == ""

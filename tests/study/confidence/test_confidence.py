@@ -13,7 +13,7 @@ from contactbench.pipeline.study.confidence import cases, study
 from contactbench.pipeline.study.confidence.page import tables
 from contactbench.pipeline.study.pages import make_page, publish
 
-TINY = study.Sizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
+TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
 
 
 @pytest.fixture(scope="module")
@@ -64,10 +64,10 @@ def test_bins_compare_what_is_stated_with_what_is_right(rng):
 
 
 def test_a_bound_is_judged_by_the_mean():
-    row = study.Row("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.1)
+    row = study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.1)
     assert not row.met
-    assert study.Row("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.2).met
-    assert not study.Row("fin", "p", "c", "f", "%", 10, 97.0, 90.0, 99.0, at_least=98.0).met
+    assert study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.2).met
+    assert not study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 97.0, 90.0, 99.0, at_least=98.0).met
 
 
 def test_the_ellipse_holds_what_it_says_and_more_where_there_is_no_drift():
@@ -88,7 +88,9 @@ def test_one_touch_is_plausible_and_most_pairs_are_not():
 
 
 def test_the_page_is_made_from_the_file_alone(report, tmp_path):
-    page = publish(tmp_path, study.KIND, ["confidence"], [asdict(row) for row in report.rows])
+    page = publish(
+        tmp_path, study.KIND, "contactbench study confidence", [asdict(row) for row in report.rows]
+    )
     first = page.read_text(encoding="utf-8")
     assert make_page(tmp_path) == first
     assert (tmp_path / "reliability.png").stat().st_size > 1_000

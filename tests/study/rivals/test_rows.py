@@ -3,9 +3,20 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.study.rivals import place
-from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, erred, known, missing, timed
-from contactbench.pipeline.study.rivals.verdicts import duels
+from contactbench.pipeline.study.rivals.rows import (
+    BATCH,
+    FAMILY,
+    OURS,
+    RAY,
+    SURE,
+    WRENCH,
+    Contender,
+    duels,
+    erred,
+    known,
+    missing,
+    timed,
+)
 
 MM = 1e-3
 
@@ -38,24 +49,24 @@ def test_versions_and_what_is_missing_are_said():
     assert "libfoo" in missing("a", here, ImportError("libfoo.so: no such file"))["note"]
 
 
-def rows_of(theirs, ours, us, mode=place.WRENCH, contender="x"):
+def rows_of(theirs, ours, us, mode=WRENCH, contender="x"):
     noise = np.random.default_rng(0).normal(0, 1e-3, 200)
     theirs, ours = MM * (theirs + noise), MM * (ours + noise)
-    made = [erred(place.FAMILY, each, "linear", "filtered", error, ours, facets=500)
+    made = [erred(FAMILY, each, "linear", "filtered", error, ours, facets=500)
             for each, error in ((OURS, ours), (contender, theirs))]  # fmt: skip
-    made += [timed(place.FAMILY, OURS, "linear", place.WRENCH, [1.0], facets=500)]
-    return [*made, timed(place.FAMILY, contender, "linear", mode, [us], facets=500)]
+    made += [timed(FAMILY, OURS, "linear", WRENCH, [1.0], facets=500)]
+    return [*made, timed(FAMILY, contender, "linear", mode, [us], facets=500)]
 
 
 @pytest.mark.parametrize(
     ("theirs", "us", "mode", "faster", "better"),
     [
-        (0.5, 0.5, place.WRENCH, True, True),
-        (0.5, 2.0, place.WRENCH, False, True),
-        (2.0, 0.5, place.WRENCH, True, False),
-        (0.99, 0.99, place.WRENCH, False, False),
-        (0.5, 0.5, place.RAY, True, True),
-        (0.5, 0.5, place.BATCH, False, True),
+        (0.5, 0.5, WRENCH, True, True),
+        (0.5, 2.0, WRENCH, False, True),
+        (2.0, 0.5, WRENCH, True, False),
+        (0.99, 0.99, WRENCH, False, False),
+        (0.5, 0.5, RAY, True, True),
+        (0.5, 0.5, BATCH, False, True),
     ],
     ids=[
         "both",

@@ -10,8 +10,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.pages import make_page
 from contactbench.pipeline.study.results import write_results
 from contactbench.pipeline.study.rivals import place
-from contactbench.pipeline.study.rivals.rows import OURS
-from contactbench.pipeline.study.rivals.run import KIND, Sizes, run
+from contactbench.pipeline.study.rivals.rows import FAMILY, OURS
+from contactbench.pipeline.study.rivals.run import KIND, RivalsSizes, run
 
 pytest.importorskip("pyarrow")
 
@@ -20,7 +20,7 @@ pytest.importorskip("pyarrow")
 def rows():
     patch = pytest.MonkeyPatch()
     patch.setattr(place, "_FEW", 20)
-    short = Sizes(probes=("linear",), facets=(500,), touches=200, rounds=1)
+    short = RivalsSizes(probes=("linear",), facets=(500,), touches=200, rounds=1)
     found = run(short)
     patch.undo()
     return found
@@ -39,7 +39,7 @@ def test_ours_is_on_the_front_of_a_short_run(rows):
     errors = {
         row["contender"]: row["mean_mm"]
         for row in rows
-        if (row["kind"], row.get("condition")) == ("error", "none") and row["family"] == place.FAMILY
+        if (row["kind"], row.get("condition")) == ("error", "none") and row["family"] == FAMILY
     }
     # Without noise nobody is nearer; the literal loop and the scan are the same on a face that is convex.
     assert errors[OURS] <= 1.001 * min(mean for name, mean in errors.items() if not name.startswith(OURS))
@@ -66,7 +66,7 @@ def test_the_page_is_made_from_the_file_alone(rows, tmp_path):
 )
 def test_wrong_sizes_are_named(change, said):
     with pytest.raises(InputError, match=said):
-        Sizes(**change)
+        RivalsSizes(**change)
 
 
 def winner(row):
@@ -79,7 +79,7 @@ def winner(row):
 
 def test_the_command_ends_with_1_when_a_rival_wins(rows, tmp_path, monkeypatch):
     mine = [row for row in rows if row["kind"] in ("time", "error") and row["contender"] == OURS]
-    won = rows + [winner(row) for row in mine if row["family"] == place.FAMILY]
+    won = rows + [winner(row) for row in mine if row["family"] == FAMILY]
     for found, code in ((rows, 0), (won, 1)):
         kept = [row for row in found if not _faster(row)]
         monkeypatch.setattr("contactbench.pipeline.study.rivals.run.run", lambda *_, kept=kept, **__: kept)
@@ -93,4 +93,4 @@ def test_the_command_ends_with_1_when_a_rival_wins(rows, tmp_path, monkeypatch):
 
 def _faster(row):
     """Leave the real rivals' times out: how fast they are on a busy machine is not what is tested."""
-    return row["kind"] == "time" and row["family"] == place.FAMILY and row["contender"] not in (OURS, "magic")
+    return row["kind"] == "time" and row["family"] == FAMILY and row["contender"] not in (OURS, "magic")

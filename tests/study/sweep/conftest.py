@@ -2,7 +2,7 @@
 
 import pytest
 
-from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import run
 
 SMALL = {
@@ -21,7 +21,7 @@ SMALL = {
 def small(tmp_path_factory):
     """The folder of a sweep of 108 cells, times and all."""
     folder = tmp_path_factory.mktemp("studies") / "small"
-    run(Plan.of(SMALL), folder, workers=1, command="contactbench study run small.toml")
+    run(SweepPlan.of(SMALL), folder, workers=1, command="contactbench study run small.toml")
     return folder
 
 

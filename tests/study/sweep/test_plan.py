@@ -8,8 +8,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.save import save_probe
-from contactbench.pipeline.study.sweep.plan import Plan, label
-from contactbench.pipeline.study.sweep.presets import PRESETS, changed, preset
+from contactbench.pipeline.study.sweep.plan import PRESETS, SweepPlan, label, preset_plan
 
 _GOOD = """
 methods = ["contactbench", "algorithm1"]
@@ -33,7 +32,7 @@ def _file(folder, text):
 
 
 def test_every_combination_is_a_cell_but_what_takes_too_long(tmp_path):
-    plan = Plan.read(_file(tmp_path, _GOOD))
+    plan = SweepPlan.read(_file(tmp_path, _GOOD))
     cells = plan.cells()
     assert plan.name == "my-study"
     assert len(plan) == len(cells) == 2 * 3 * 2 * 2 * 2 * 2
@@ -68,32 +67,34 @@ def test_every_combination_is_a_cell_but_what_takes_too_long(tmp_path):
 def test_wrong_fields_are_named(tmp_path, line, said):
     file = _file(tmp_path, line)
     with pytest.raises(InputError, match=said) as caught:
-        Plan.read(file)
+        SweepPlan.read(file)
     assert str(file) in str(caught.value)
 
 
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(InputError, match=r"nowhere\.toml: the study cannot be read"):
-        Plan.read(tmp_path / "nowhere.toml")
+        SweepPlan.read(tmp_path / "nowhere.toml")
     with pytest.raises(InputError, match=r"nowhere\.ply: the probe cannot be read.*linear, convex, t-shape"):
-        Plan(probes=(str(tmp_path / "nowhere.ply"),)).cells()[0].key  # noqa: B018 - it reads the file
+        SweepPlan(probes=(str(tmp_path / "nowhere.ply"),)).cells()[0].key  # noqa: B018 - it reads the file
 
 
 def test_too_much_and_nothing_are_refused():
     with pytest.raises(InputError, match="cells are more than"):
-        Plan(forces=tuple(float(x) for x in range(1, 800)), facets=tuple(range(20, 1020))).cells()
+        SweepPlan(forces=tuple(float(x) for x in range(1, 800)), facets=tuple(range(20, 1020))).cells()
     with pytest.raises(InputError, match="it leaves no cell"):
-        Plan(methods=("scan",), facets=(500,), most_facets={"scan": 100}).cells()
+        SweepPlan(methods=("scan",), facets=(500,), most_facets={"scan": 100}).cells()
 
 
 def test_methods_meshes_noises_and_filters_are_paired_on_the_same_touches():
-    plan = Plan(facets=(500, 800), noises=("none", "paper"), filters=("none", "mean-50"), forces=(2.0, 9.0))
+    plan = SweepPlan(
+        facets=(500, 800), noises=("none", "paper"), filters=("none", "mean-50"), forces=(2.0, 9.0)
+    )
     seeds = {(cell.probe, cell.force, cell.angle): set() for cell in plan.cells()}
     for cell in plan.cells():
         seeds[cell.probe, cell.force, cell.angle].add(cell.touch_seed)
     assert all(len(each) == 1 for each in seeds.values())
     assert len(set.union(*seeds.values())) == len(seeds)
-    assert Plan(seed=1).cells()[0].touch_seed != Plan(seed=2).cells()[0].touch_seed
+    assert SweepPlan(seed=1).cells()[0].touch_seed != SweepPlan(seed=2).cells()[0].touch_seed
 
 
 def test_a_file_is_known_by_what_is_in_it_not_by_where_it_lies(tmp_path):
@@ -103,7 +104,7 @@ def test_a_file_is_known_by_what_is_in_it_not_by_where_it_lies(tmp_path):
         save_probe(Probe.from_arrays(*assets.make("linear", facets)), file)
     second.parent.mkdir()
     shutil.copy(first, second)
-    cells = [Plan(probes=(str(file),)).cells()[0] for file in (first, second, third)]
+    cells = [SweepPlan(probes=(str(file),)).cells()[0] for file in (first, second, third)]
     assert cells[0].key == cells[1].key != cells[2].key
     assert cells[0].touch_seed == cells[1].touch_seed != cells[2].touch_seed
     assert label(str(first)) == "mine.ply"
@@ -111,10 +112,10 @@ def test_a_file_is_known_by_what_is_in_it_not_by_where_it_lies(tmp_path):
 
 def test_presets_are_whole_and_can_be_changed():
     for name in PRESETS:
-        assert preset(name).name == name
-        assert len(preset(name)) == len(preset(name).cells())
-    plan = preset("quick", ("convex",), 50, 3)
+        assert preset_plan(name).name == name
+        assert len(preset_plan(name)) == len(preset_plan(name).cells())
+    plan = preset_plan("quick").changed(["convex"], 50, 3)
     assert (plan.probes, plan.touches, plan.seed) == (("convex",), 50, 3)
-    assert changed(plan) == plan
+    assert plan.changed() == plan
     with pytest.raises(InputError, match="choose one of paper, resolution, quick, steep"):
-        preset("slow")
+        preset_plan("slow")

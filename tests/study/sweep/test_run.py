@@ -16,11 +16,11 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.save import save_probe
 from contactbench.pipeline.study.results import RESULTS, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
-from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import run
 from contactbench.pipeline.study.sweep.store import DONE, Store
 
-_TINY = Plan(
+_TINY = SweepPlan(
     name="tiny",
     probes=("linear", "convex"),
     facets=(300, 500),
@@ -177,7 +177,7 @@ def test_a_method_that_cannot_do_it_says_so_and_is_tried_again(tmp_path, monkeyp
 def test_a_file_is_swept_up_to_its_own_mesh(tmp_path):
     file = tmp_path / "mine.ply"
     save_probe(Probe.from_arrays(*assets.make("convex", 800)), file)
-    plan = Plan(probes=(str(file),), facets=(300, 1_000, 2_000), methods=("contactbench",), touches=40)
+    plan = SweepPlan(probes=(str(file),), facets=(300, 1_000, 2_000), methods=("contactbench",), touches=40)
     run(plan, tmp_path / "out", workers=1, timed=False)
     results = read_results(tmp_path / "out")
     found = {row["facets"]: row["facets_found"] for row in results.rows}

@@ -1,0 +1,259 @@
+"""
+Parts of what was touched: a window of time, a range of force, and what to show of it.
+
+Times count from the first sample of a recording or table, and from the start of the first touch of a verification.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contactbench.pipeline.heatmap.heatmap import (
+    HeatmapError,
+    Normalisation,
+    Quantity,
+    default_bandwidth,
+    heatmap,
+)
+from contactbench.pipeline.heatmap.subdivide import drawing_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.mesh import Probe
+
+OUTSIDE_TIME, OUTSIDE_FORCE = "outside the time window", "outside the force range"
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What to show of contacts."""
+
+    quantity: Quantity = "density"
+    normalisation: Normalisation = "contacts"  # of a density
+    bandwidth: float | None = None  # standard deviation of the Gaussian, m; None: that of the contacts
+    # start, end: window of time, s, both ends in it; None: no limit
+    start: float | None = None
+    end: float | None = None
+    # least_force, most_force: range of |F|, N, both ends in it; None: no limit
+    least_force: float | None = None
+    most_force: float | None = None
+    by_confidence: bool = False  # each contact counts as much as its place is sure
+
+    @property
+    def timed(self) -> bool:
+        """Whether it asks for a part of the time."""
+        return self.start is not None or self.end is not None
+
+    @property
+    def forced(self) -> bool:
+        """Whether it asks for a range of force."""
+        return self.least_force is not None or self.most_force is not None
+
+
+def in_order(contacts: Contacts) -> Contacts:
+    """Return contacts sorted by their times; HeatmapError if they have none."""
+    if contacts.times is None:
+        raise HeatmapError(
+            "these contacts do not say when they were: give a recording, or a table with times."
+        )
+    order = np.argsort(contacts.times, kind="stable")
+    return contacts if (np.diff(order) == 1).all() else _of(contacts, order)
+
+
+def _of(contacts: Contacts, which: NDArray[Any]) -> Contacts:
+    """Return some contacts, by a mask or by their numbers."""
+
+    def part(array: NDArray[Any] | None) -> Any:
+        return None if array is None else array[which]
+
+    return replace(
+        contacts,
+        points=contacts.points[which],
+        seconds=contacts.seconds[which],
+        sigmas=contacts.sigmas[which],
+        forces=part(contacts.forces),
+        known_errors=part(contacts.known_errors),
+        settled=part(contacts.settled),
+        times=part(contacts.times),
+        confidences=part(contacts.confidences),
+    )
+
+
+def windowed(contacts: Contacts, selection: Selection) -> Contacts:
+    """
+    Return the contacts in a selection's window of time and range of force; the others are counted in `left_out`.
+
+    A rate is then one of the window, as far as it lies in the recording. A window needs contacts that know their times.
+
+    Raises
+    ------
+    HeatmapError
+        Nothing is left, a limit makes no sense, or the forces are unknown.
+    """
+    if not selection.timed and not selection.forced:
+        return contacts
+    start = 0.0 if selection.start is None else selection.start
+    end = np.inf if selection.end is None else selection.end
+    if not start <= end:
+        raise HeatmapError(
+            f"the time window ends at {end:g} s, before it starts at {start:g} s: exchange them."
+        )
+    inside = np.ones(len(contacts.points), dtype=bool)
+    if selection.timed:
+        if contacts.times is None:
+            raise HeatmapError("a window of time needs contacts that know their times.")
+        inside = (contacts.moments >= start) & (contacts.moments <= end)
+    strong = force_mask(contacts, selection)
+    left_out = dict(contacts.left_out)
+    for why, count in ((OUTSIDE_TIME, (~inside).sum()), (OUTSIDE_FORCE, (inside & ~strong).sum())):
+        if count:
+            left_out[why] = left_out.get(why, 0) + int(count)
+    kept = inside & strong
+    if not kept.any():
+        raise HeatmapError(empty_words(contacts, selection))
+    length = max(min(end, contacts.duration) - max(start, 0.0), 0.0) if selection.timed else contacts.duration
+    return replace(_of(contacts, kept), left_out=left_out, duration=length)
+
+
+def force_mask(contacts: Contacts, selection: Selection) -> NDArray[np.bool_]:
+    """Return which contacts (n,) are in a selection's range of force; HeatmapError if the forces are unknown."""
+    if not selection.forced:
+        return np.ones(len(contacts.points), dtype=bool)
+    if contacts.forces is None:
+        raise HeatmapError(
+            "a range of force needs the forces: give the wrenches that the contacts were located from."
+        )
+    least = 0.0 if selection.least_force is None else selection.least_force
+    most = np.inf if selection.most_force is None else selection.most_force
+    if not least <= most:
+        raise HeatmapError(f"the force range goes from {least:g} N down to {most:g} N: exchange them.")
+    mask: NDArray[np.bool_] = (contacts.forces >= least) & (contacts.forces <= most)
+    return mask
+
+
+def empty_words(contacts: Contacts, selection: Selection) -> str:
+    """Say that a selection holds no contact, and what to do."""
+    parts = []
+    if selection.timed:
+        start, end = selection.start, selection.end
+        parts.append(
+            f"from {start:.4g} s on"
+            if end is None
+            else f"from {0.0 if start is None else start:.4g} to {end:.4g} s"
+        )
+    if selection.forced:
+        least = 0.0 if selection.least_force is None else selection.least_force
+        upto = "" if selection.most_force is None else f" to {selection.most_force:.4g}"
+        parts.append(f"with {least:.4g}{upto} N" if upto else f"with {least:.4g} N or more")
+    place = f" {' '.join(parts)}" if parts else ""
+    return (
+        f"there is no contact{place}: widen the time window or the range of force (the recording lasts"
+        f" {contacts.duration:.4g} s)."
+    )
+
+
+def shown(
+    contacts: Contacts, selection: Selection, errors: NDArray[np.float64] | None = None
+) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
+    """
+    Return what each contact (n,) has of a quantity, in SI units (None for a density), and which (n,) count.
+
+    Parameters
+    ----------
+    errors : (n,), optional
+        Distances to what was touched, m, NaN where one does not count; by default those that a verification knows.
+
+    Raises
+    ------
+    HeatmapError
+        The contacts do not have it.
+    """
+    everyone = np.ones(len(contacts.points), dtype=bool)
+    if selection.quantity == "density":
+        return None, everyone
+    if selection.quantity == "uncertainty":
+        return contacts.sigmas, np.isfinite(contacts.sigmas)
+    if selection.quantity == "error":
+        known = contacts.known_errors if errors is None else errors
+        if known is None:
+            raise HeatmapError(
+                "the error needs the points that were touched: open a verification, or give the markers."
+            )
+        return known, np.isfinite(known)
+    if contacts.forces is None:
+        raise HeatmapError("the forces are unknown: give the wrenches that the contacts were located from.")
+    return contacts.forces, everyone
+
+
+def weights_of(contacts: Contacts, selection: Selection) -> NDArray[np.float64] | None:
+    """
+    Return what each contact (n,) counts for a selection, a rate's duration apart; None: each counts 1.
+
+    Raises
+    ------
+    HeatmapError
+        It should be weighed by confidence, and that is not known, or makes no sense for the quantity.
+    """
+    per_second = selection.quantity == "density" and selection.normalisation == "seconds"
+    if not selection.by_confidence:
+        return contacts.seconds if per_second else None
+    if selection.quantity == "peak":
+        raise HeatmapError(
+            "a peak is the largest force, so its contacts cannot be weighed: choose another quantity, or do not weigh"
+            " by confidence."
+        )
+    if contacts.confidences is None:
+        raise HeatmapError(
+            "these contacts do not say how sure they are: locate them again for a column `confidence`, or do not weigh"
+            " by confidence."
+        )
+    return contacts.confidences * contacts.seconds if per_second else contacts.confidences
+
+
+def drawn(
+    probe: Probe,
+    contacts: Contacts,
+    selection: Selection,
+    values: NDArray[np.float64] | None,
+    use: NDArray[np.bool_],
+) -> Heatmap:
+    """
+    Return the heatmap of contacts that were selected already; it is drawn on facets small enough, see `drawing_of`.
+
+    Parameters
+    ----------
+    values : (n,) or None
+        See `shown`.
+    use : (n,) bool
+        Which of them count.
+    """
+    weights = weights_of(contacts, selection)
+    if weights is not None and not weights[use].any():
+        raise HeatmapError("none of these contacts is sure at all: do not weigh by confidence.")
+    made = heatmap(
+        drawing_of(probe),
+        contacts.points[use],
+        None if weights is None else weights[use],
+        selection.quantity,
+        default_bandwidth(contacts.sigmas) if selection.bandwidth is None else selection.bandwidth,
+        values=None if values is None else values[use],
+        normalisation=selection.normalisation,
+        duration=contacts.duration,
+        counted=contacts.counted,
+    )
+    return replace(made, by_confidence=selection.by_confidence)
+
+
+def selected_heatmap(probe: Probe, contacts: Contacts, selection: Selection) -> Heatmap:
+    """Return the heatmap of a selection, as ``contactbench heatmap draw`` writes it; HeatmapError."""
+    part = windowed(contacts, selection)
+    values, use = shown(part, selection)
+    if not use.any():
+        raise HeatmapError(f"there is no contact with a known {selection.quantity}: choose another quantity.")
+    return drawn(probe, part, selection, values, use)

@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.opening import holds_session
+from contactbench.widgets.controls import accent
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence

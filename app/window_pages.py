@@ -11,9 +11,8 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from contactbench.app.page import Page
 from contactbench.app.window_statuses import statuses_of
-from contactbench.app.window_wheels import guard_wheels
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
-from contactbench.widgets.finish import finish
+from contactbench.widgets.controls import finish, guard_wheels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.alignment_points import PointTable
-from contactbench.widgets.alignment_stack import HeightStack
+from contactbench.widgets.controls import HeightStack
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,16 +73,14 @@ class AlignmentPanel(QWidget):
             ]
         )
         self.way.setAccessibleName(self.tr("How the place of the mesh is given"))
-        self.stack = HeightStack()
-        for page in (
+        self.stack = HeightStack(
             self._numbers_page(),
             self._points_page(),
             self._flange_page(),
             self._touches_page(),
             self._shape_page(),
             self._file_page(),
-        ):
-            self.stack.add(page)
+        )
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.way)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
-from contactbench.widgets.progress import show_value
+from contactbench.widgets.controls import show_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

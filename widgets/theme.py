@@ -13,8 +13,6 @@ from PySide6.QtGui import QColor, QGuiApplication, QPalette
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from PySide6.QtWidgets import QWidget
-
 _PICTURES = Path(__file__).parent / "pictures"  # a style sheet takes pictures from files only
 OKABE_ITO = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
@@ -154,14 +152,6 @@ def use_theme(choice: str = "system") -> None:
         dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
     application.setPalette(palette(dark))
     application.setStyleSheet(style_sheet(dark))  # type: ignore[attr-defined]
-
-
-def accent(button: QWidget, on: bool = True) -> None:
-    """Make a button the accented one of its state, or a plain one again."""
-    if bool(button.property("primary")) != on:
-        button.setProperty("primary", on)
-        button.style().unpolish(button)
-        button.style().polish(button)
 
 
 def follow_system(choice: Callable[[], str]) -> None:

@@ -20,12 +20,10 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.heatmap_viewer.reading import ReadingBox
-from contactbench.widgets.finish import finish
+from contactbench.widgets.controls import PanelScroll, finish, show_value
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.range_slider import RangeSlider
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     import numpy as np
@@ -194,7 +192,7 @@ class Controls(QWidget):
         inside.setLayout(column)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(Scrolled(inside))
+        outer.addWidget(PanelScroll(inside))
         self.setFixedWidth(348)
 
     def _buttons(self, wanted: tuple[tuple[str, str, str, object], ...], saving: bool = False) -> QHBoxLayout:

@@ -17,10 +17,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from contactbench.widgets.controls import PanelScroll, accent
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -153,7 +152,7 @@ class Controls(QWidget):
         inside.setLayout(column)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(Scrolled(inside, self))
+        outer.addWidget(PanelScroll(inside, self))
         self.setFixedWidth(_WIDTH_PX)
 
     def _card(self) -> QFrame:

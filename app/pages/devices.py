@@ -26,9 +26,9 @@ from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -111,7 +111,7 @@ class DevicesPage(Page):
         box.addStretch(1)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 8, 8, 8)
-        outer.addWidget(Scrolled(inside), 1)
+        outer.addWidget(PanelScroll(inside), 1)
         outer.addWidget(self._note)
         buttons = QHBoxLayout()
         buttons.addWidget(self.try_button)

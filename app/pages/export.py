@@ -29,9 +29,9 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.export import Exported, ExportView, export, survey
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.checklist import Checklist, ShownCheck
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -71,7 +71,7 @@ class ExportPage(Page):
         column = QVBoxLayout(inside)
         column.setContentsMargins(10, 8, 10, 8)
         column.setSpacing(8)
-        outer.addWidget(Scrolled(inside))
+        outer.addWidget(PanelScroll(inside))
         title = QLabel(self.tr("Export"))
         title.setProperty("role", "title")
         column.addWidget(title)

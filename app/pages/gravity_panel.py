@@ -22,11 +22,11 @@ from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.wording import plain
 from contactbench.widgets.capture_state import CaptureState
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.coverage import Coverage
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
 from contactbench.widgets.residual_table import ResidualTable
-from contactbench.widgets.scrolled import Scrolled
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
 if TYPE_CHECKING:
@@ -161,7 +161,7 @@ class Findings(QWidget):
         return card
 
 
-class GravityPanel(Scrolled):
+class GravityPanel(PanelScroll):
     """All that the page shows, above its buttons."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

@@ -21,9 +21,8 @@ from contactbench.app.pages.probe_sections import (
 )
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, key_of
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import PanelScroll, accent
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
@@ -63,7 +62,7 @@ class ProbePage(Page):
         for section in (self.mesh_section, self.surface, self.place, self.facets):
             column.addWidget(section)
         column.addStretch()
-        self.area = Scrolled(inside)
+        self.area = PanelScroll(inside)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.area, 1)

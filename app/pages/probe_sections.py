@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.mesh.units import NAMES
 from contactbench.widgets.alignment_panel import AlignmentPanel
+from contactbench.widgets.controls import show_value
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:

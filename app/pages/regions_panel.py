@@ -20,11 +20,10 @@ from contactbench.app.pages.regions_shape import ShapePanel
 from contactbench.app.pages.regions_tools import ToolPanel
 from contactbench.pipeline.workbench.regions_session import Standing
 from contactbench.pipeline.workbench.steps import StepState
+from contactbench.widgets.controls import PanelScroll, show_value
 from contactbench.widgets.icons import Sign, icon, state_icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.region_list import RegionListWidget
-from contactbench.widgets.scrolled import Scrolled
 
 
 class Mode(Enum):
@@ -72,7 +71,7 @@ class View:
     unkept: str = ""
 
 
-class RegionsPanel(Scrolled):
+class RegionsPanel(PanelScroll):
     """The controls of the page; `show_view` is the one place that decides what is seen."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

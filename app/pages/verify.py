@@ -35,8 +35,8 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
     why_locked,
 )
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
 from contactbench.widgets.sounds import Sounds
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ class VerifyPage(Page):
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
         ):
-            self.tabs.addTab(Scrolled(panel), name)
+            self.tabs.addTab(PanelScroll(panel), name)
         column.addWidget(self.tabs, 1)
         column.addStretch(0)
 

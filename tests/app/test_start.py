@@ -18,7 +18,7 @@ from contactbench.app.start import Question, StartPage
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.controls import PanelScroll
 
 from .conftest import shown
 
@@ -172,7 +172,7 @@ def test_no_button_of_any_page_can_be_pressed_in_a_session_that_is_read_only(
             button.setEnabled(True)  # as pages do when their step's state changes
         window.pages.read_statuses()
         assert [each.text() for each in page.findChildren(QPushButton) if each.isEnabled()] == [], step
-        for area in page.findChildren(Scrolled):
+        for area in page.findChildren(PanelScroll):
             assert area.isEnabled(), step
 
 

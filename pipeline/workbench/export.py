@@ -31,7 +31,7 @@ _ALWAYS = ("provenance.", "probe.sha256", "planes.sha256")
 
 
 @dataclass(frozen=True)
-class Preview:
+class ExportPreview:
     """A bundle as it would be written."""
 
     files: tuple[tuple[str, int], ...]  # (name, bytes)
@@ -49,13 +49,13 @@ class ExportView:
     """How an export stands."""
 
     items: tuple[CheckItem, ...]
-    preview: Preview | None
+    preview: ExportPreview | None
     problem: str = ""  # Why there is no preview; empty where there is one
     lacks: str = ""  # The option that somebody must give before there is one; empty: none
 
 
 @dataclass(frozen=True)
-class Exported:
+class ExportedBundle:
     """A bundle that was written, and loaded again."""
 
     place: Path
@@ -90,7 +90,7 @@ def built(session: Session, *, unverified: bool) -> RuntimeConfig:
     return export_from_session(session, options.settings(), unverified=unverified)
 
 
-def export(session: Session, place: Path, *, unverified: bool = False) -> Exported:
+def export(session: Session, place: Path, *, unverified: bool = False) -> ExportedBundle:
     """
     Write a session's bundle, load it as a runtime does, and write that down in the session.
 
@@ -119,7 +119,7 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
             f"{place}: the bundle on the disk is not the one that was written: check the disk, then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
-    return Exported(place, sha256, found.model.verified, _checked(found, place))
+    return ExportedBundle(place, sha256, found.model.verified, _checked(found, place))
 
 
 def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:
@@ -151,11 +151,11 @@ def _checked(config: RuntimeConfig, place: Path) -> str:
     )
 
 
-def _preview(session: Session, config: RuntimeConfig) -> Preview:
+def _preview(session: Session, config: RuntimeConfig) -> ExportPreview:
     files = tuple((name, len(content)) for name, content in config.encoded().items())
     reasons = () if config.model.verified else config.model.provenance.stale
     changes = _changes(session.state.settings, config)
-    return Preview(
+    return ExportPreview(
         files,
         _figures(config),
         _sha256(config),

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.suggest import Plan
     from contactbench.pipeline.workbench.gravity_fit import GravitySettings
-    from contactbench.pipeline.workbench.live import Block
+    from contactbench.pipeline.workbench.live import LiveBlock
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²
@@ -111,7 +111,7 @@ class GravityWork:
 
     # ---- samples, in the streams' threads ------------------------------------------------------
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples."""
         known = block.known
         with self._lock:
@@ -382,7 +382,7 @@ class GravityCheck:
         farthest: NDArray[np.float64] = candidates[int(np.argmin(nearness))]
         return farthest
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples, in the streams' thread."""
         known = block.known
         if self.found is not None or not known.any():

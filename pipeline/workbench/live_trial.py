@@ -22,7 +22,7 @@ _CLOSE = 0.8  # of the range
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class ConnectionTrial:
     """What is measured of open devices."""
 
     state: State  # Of the sensor
@@ -46,7 +46,7 @@ class Trial:
         return self.state is State.STREAMING and not self.sentences
 
 
-def trial_of(live: Live) -> Trial | None:
+def trial_of(live: Live) -> ConnectionTrial | None:
     """Measure the devices that are open; None: none is."""
     health, pair = live.health, live.pair
     if health is None or pair is None:
@@ -63,7 +63,7 @@ def trial_of(live: Live) -> Trial | None:
     bench = pair.bench
     limits = None if bench is None else bench.sensor.settings.limit
     used = None if limits is None else largest / limits
-    return Trial(
+    return ConnectionTrial(
         sensor.state,
         sensor.rate,
         None if poses is None else poses.rate,

@@ -9,7 +9,7 @@ from contactbench.pipeline.session.state import State
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.live import Block
+from contactbench.pipeline.workbench.live import LiveBlock
 
 PLAIN = gravity_settings(State())
 
@@ -126,7 +126,7 @@ def test_a_mount_is_estimated_also_from_inverse_orientations(work):
     given = {"calibration.inverse": True, "calibration.estimate_mount": True}
     run = work(gravity_settings(_state(given)))
     for each in (block(batch, turn) for batch in batches()):
-        run.feed(Block(each.times, each.wrenches, each.R_WS.swapaxes(1, 2), each.saturated))
+        run.feed(LiveBlock(each.times, each.wrenches, each.R_WS.swapaxes(1, 2), each.saturated))
     run.wait()
     assert run.view().solved.calibration.verdict.level is not Level.REFUSE
     assert run.view().solved.calibration.mass == pytest.approx(0.452, abs=0.02)
@@ -135,7 +135,7 @@ def test_a_mount_is_estimated_also_from_inverse_orientations(work):
 def test_without_orientations_it_says_what_is_missing(work):
     run = work(PLAIN)
     first = block(batches()[0])
-    run.feed(Block(first.times, first.wrenches, np.full_like(first.R_WS, np.nan), first.saturated))
+    run.feed(LiveBlock(first.times, first.wrenches, np.full_like(first.R_WS, np.nan), first.saturated))
     assert run.view().state is StillState.STALE
     assert "orientation" in run.view().sentence
 

@@ -16,7 +16,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.session.replay import Outcome, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
+from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.probe_alignment import (
     PointPair,
     back_to_mesh,
@@ -28,9 +28,9 @@ from contactbench.pipeline.workbench.probe_alignment import (
 )
 from contactbench.pipeline.workbench.probe_ladder import trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
-from contactbench.pipeline.workbench.undoing import observed
+from contactbench.pipeline.workbench.session_change import observed
 
-PLAN = Plan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
+PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 
 
 @pytest.fixture

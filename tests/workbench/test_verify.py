@@ -62,7 +62,7 @@ def bench(folder):
 def test_the_recording_is_judged_and_anybody_gets_the_same_bytes(bench, folder):
     work = bench.start()
     assert work.going_on
-    assert work.recording
+    assert work.going_on
     touch_all(bench.live, work)
     seen = work.touches.view()
     outcome = work.finish()
@@ -183,7 +183,7 @@ def test_without_markers_or_with_one_off_the_probe_nothing_begins(folder):
         bench.markers = Markers().added((0.5, 0.0, 0.0))
         with pytest.raises(InputError, match="off the probe"):
             bench.start()
-        assert not bench.work.recording
+        assert not bench.work.going_on
     finally:
         bench.live.close()
         bench.desk.close()

@@ -1,7 +1,7 @@
 import pytest
 
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.undoing import change_between, observed, value_in
+from contactbench.pipeline.workbench.session_change import change_between, observed, value_in
 
 
 @pytest.fixture

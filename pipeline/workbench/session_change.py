@@ -22,7 +22,7 @@ UNDONE = "undone"
 
 
 @dataclass(frozen=True)
-class Change:
+class SessionChange:
     """What an action did to a session; by it, the action can be taken back and done again."""
 
     # Key -> value before and after; a setting that was not there has the value that it then stands for
@@ -65,10 +65,10 @@ class Change:
             put_result(session, after_result)
 
 
-def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, Change]]:
+def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, SessionChange]]:
     """Return an action that also tells what it did."""
 
-    def run(session: Session) -> tuple[T, Change]:
+    def run(session: Session) -> tuple[T, SessionChange]:
         before = session.state
         result = action(session)
         return result, change_between(before, session.state)
@@ -76,7 +76,7 @@ def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, Cha
     return run
 
 
-def change_between(before: State, after: State) -> Change:
+def change_between(before: State, after: State) -> SessionChange:
     """Return what is another in a session's state."""
     settings = {
         key: (value_in(before, key), setting.value)
@@ -94,7 +94,7 @@ def change_between(before: State, after: State) -> Change:
         for slot, new in after.current_results.items()
         if old_results.get(slot) != new
     }
-    return Change(settings, inputs, results)
+    return SessionChange(settings, inputs, results)
 
 
 def value_in(state: State, key: str) -> Any:

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout,
 
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
-from contactbench.widgets.strip_chart_legend import Entry, Legend
+from contactbench.widgets.strip_chart_legend import Legend, LegendEntry
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -190,7 +190,7 @@ class Pane(QWidget):
 
     def _write(self) -> None:
         entries = [
-            Entry(*parts)
+            LegendEntry(*parts)
             for parts in zip(_SIGNS, self.curves.names, self._colours(), self._numbers(), strict=False)
         ]
         self._legend.show_entries(entries, tight=self.width() < _NARROW_PX)

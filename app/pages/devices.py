@@ -32,7 +32,7 @@ from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.live_trial import Trial
+    from contactbench.pipeline.workbench.live_trial import ConnectionTrial
     from contactbench.pipeline.workbench.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
@@ -271,7 +271,7 @@ class DevicesPage(Page):
             self._ports_at = now
             self._ports = self._worker.submit(list_ports)
 
-    def _tell_changes(self, trial: Trial | None) -> None:
+    def _tell_changes(self, trial: ConnectionTrial | None) -> None:
         """Put into the message list that a device went away or came back."""
         state = None if trial is None else trial.state
         if trial is None or state is self._told:

@@ -66,7 +66,7 @@ class FileField(QWidget):
             self.edit.setText(name)
 
 
-class Source(QGroupBox):
+class DeviceChoice(QGroupBox):
     """
     A choice of kinds, what each needs beneath it, and what is wrong with it.
 
@@ -117,7 +117,7 @@ class Source(QGroupBox):
         return self._problem.text() if self._problem.isVisibleTo(self) else ""
 
 
-class SensorSource(Source):
+class SensorSource(DeviceChoice):
     """Which force/torque sensor."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -232,7 +232,7 @@ class SensorSource(Source):
             self.kind.setCurrentIndex(self.kind.findData(_ADDRESS))
 
 
-class PoseSource(Source):
+class PoseSource(DeviceChoice):
     """What tells the sensor's orientation."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

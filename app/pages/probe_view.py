@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.workbench.probe import Preview
+    from contactbench.pipeline.workbench.probe import ProbePreview
     from contactbench.widgets.scene import Scene
 
 
@@ -46,7 +46,7 @@ class ProbeView:
     def __init__(self, scene: Scene, title: str) -> None:
         self._scene, self._title = scene, title
         self.shown = Shown()
-        self.preview: Preview | None = None
+        self.preview: ProbePreview | None = None
         self.used: Probe | None = None  # the session's
         self.overlay = self.deviation = False
         self._main: Probe | None = None

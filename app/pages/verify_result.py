@@ -4,78 +4,44 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
+from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.workbench.verify import Outcome
+    from contactbench.pipeline.workbench.verify import VerifyOutcome
 
-_TALL, _ICON = 36, 34
+_ICON = 34
 
 
 class ResultPanel(QWidget):
     """Shows a verification."""
 
-    again_wanted = Signal()
-    go_on_wanted = Signal()
-
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._report: Path | None = None
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 8, 0, 0)
-        column.setSpacing(8)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        self.sign, self.verdict = Sign(_ICON), QLabel()
-        self.verdict.setProperty("role", "title")
+        self.sign, self.verdict = Sign(_ICON), plain_label("", "title")
         self.verdict.setWordWrap(True)
-        row.addWidget(self.sign)
-        row.addWidget(self.verdict, 1)
-        column.addLayout(row)
-        self.number = self._label("number")
-        self.range = self._label("muted")
-        self.figures = self._label("")
-        self.why = self._label("")
-        self.diagnosis = self._label("")
-        self.notes = self._label("muted")
-        self.model_error = self._label("")
-        for label in self._labels():
-            column.addWidget(label)
-        buttons = QHBoxLayout()
-        self.open = QPushButton(icon("folder"), self.tr("Open the report"))
-        self.open.setMinimumHeight(_TALL)
-        self.open.clicked.connect(self._open)
-        self.again = QPushButton(icon("redo"), self.tr("Verify again"))
-        self.again.setMinimumHeight(_TALL)
-        self.again.clicked.connect(lambda _=False: self.again_wanted.emit())
-        buttons.addWidget(self.open, 1)
-        buttons.addWidget(self.again, 1)
-        column.addLayout(buttons)
-        self.go_on = QPushButton(icon("export", "panel"), self.tr("Go on: Export"))
-        self.go_on.setProperty("primary", True)
-        self.go_on.setMinimumHeight(_TALL)
-        self.go_on.clicked.connect(lambda _=False: self.go_on_wanted.emit())
-        column.addWidget(self.go_on)
-        column.addStretch(1)
+        self.number, self.range = sentence_label(role="number"), sentence_label(role="muted")
+        self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
+        self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
+        self.open = push_button(self.tr("Open the report"), self._open, "folder")
+        self.again = push_button(self.tr("Verify again"), None, "redo")
+        self.go_on = push_button(self.tr("Go on: Export"), None, "export", primary=True)
+        column(
+            self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
+            row((self.open, 1), (self.again, 1)), self.go_on,
+            margins=(0, 8, 0, 0),
+        ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
 
-    def _label(self, role: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        if role:
-            label.setProperty("role", role)
-        return label
-
-    def show_outcome(self, outcome: Outcome | None) -> None:
+    def show_outcome(self, outcome: VerifyOutcome | None) -> None:
         """Show a verification; None: there is none yet."""
         self._report = None if outcome is None else outcome.report
         self.open.setVisible(self._report is not None)
@@ -113,7 +79,7 @@ class ResultPanel(QWidget):
             label.setText(said(text))
             label.setVisible(bool(text))
 
-    def _range(self, outcome: Outcome) -> str:
+    def _range(self, outcome: VerifyOutcome) -> str:
         if outcome.mean_mm is None:
             return ""
         if outcome.touches == 1:
@@ -124,7 +90,7 @@ class ResultPanel(QWidget):
             count=outcome.touches, low=f"{outcome.low_mm:.2f}", high=f"{outcome.high_mm:.2f}"
         )
 
-    def _figures(self, outcome: Outcome) -> str:
+    def _figures(self, outcome: VerifyOutcome) -> str:
         if outcome.mean_mm is None or outcome.max_mm is None:
             return ""
         lines = [
@@ -143,7 +109,7 @@ class ResultPanel(QWidget):
             )
         return "\n".join(lines)
 
-    def _why(self, outcome: Outcome) -> str:
+    def _why(self, outcome: VerifyOutcome) -> str:
         lines = [outcome.stale] if outcome.stale else []
         lines += [f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.reasons]
         if outcome.rejected:

@@ -11,14 +11,14 @@ from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.picking import Pick
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.picker import Pick
+    from contactbench.widgets.scene.stage import SceneStage
 
 
 class BrushLayer:
     """Draws a white circle on a black one, which is seen on every colour."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._radius = 0.0
         rim = circle()

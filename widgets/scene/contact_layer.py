@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.picking import Picker
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.picker import Picker
+    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
@@ -26,7 +26,7 @@ CHI2_95 = 5.991  # of two degrees of freedom
 class ContactLayer:
     """Draws the contact."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._disc = Shape(stage, disc())
         rim = circle()

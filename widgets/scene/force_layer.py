@@ -12,7 +12,7 @@ from contactbench.widgets.scene.stage import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
 
 _LEAST = 1e-4  # m: a shorter arrow is none
 
@@ -26,7 +26,7 @@ class ForceLayer:
     metres_per_newton : float
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self.metres_per_newton = 0.005
         self._shaft, self._head = Shape(stage, cylinder()), Shape(stage, cone())

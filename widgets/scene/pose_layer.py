@@ -23,7 +23,7 @@ from contactbench.widgets.scene.stage import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 # Lighter on dark grounds: a pure blue letter is not read there.
@@ -36,7 +36,7 @@ _THROUGH = 60.0  # a lift that shows the axes through the probe: that of z lies 
 class Arrow:
     """A straight arrow of a length along an axis of its frame's z."""
 
-    def __init__(self, stage: Stage, turns: bool) -> None:
+    def __init__(self, stage: SceneStage, turns: bool) -> None:
         self._stage = stage
         self.shapes = (Shape(stage, cylinder(12), turns=turns), Shape(stage, cone(16), turns=turns))
 
@@ -52,7 +52,7 @@ class Arrow:
 class PoseLayer:
     """Draws frames and poses."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._frame = [Arrow(stage, turns=True) for _ in range(3)]
         self._letters = [Label(stage, offset=(-6.0, 0.0), plain=True) for _ in range(3)]

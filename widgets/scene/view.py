@@ -39,7 +39,7 @@ def log_vtk() -> None:
         window.AddObserver(event, heard)
 
 
-class View(QtInteractor):  # type: ignore[misc]
+class SceneView(QtInteractor):  # type: ignore[misc]
     """
     A QtInteractor that draws when Qt paints, and leaves mouse, keys and dropped files to the scene.
 

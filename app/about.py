@@ -18,7 +18,7 @@ _BUNDLED = ("vtk",)  # needed by a part, and large enough to be named
 
 
 @dataclass(frozen=True)
-class Part:
+class LicensedPart:
     """A part that is installed: its name, version and licence."""
 
     name: str
@@ -26,7 +26,7 @@ class Part:
     licence: str
 
 
-def parts() -> tuple[Part, ...]:
+def parts() -> tuple[LicensedPart, ...]:
     """Return what contactbench needs and is there, as their own metadata say."""
     try:
         needed = distribution("contactbench").requires or []
@@ -40,7 +40,7 @@ def parts() -> tuple[Part, ...]:
             part = distribution(name)
         except PackageNotFoundError:
             continue
-        found.append(Part(name, part.version, _licence(part)))
+        found.append(LicensedPart(name, part.version, _licence(part)))
     return tuple(found)
 
 

@@ -34,7 +34,7 @@ class Weight(StrEnum):
 
 
 @dataclass(frozen=True)
-class Message:
+class Notice:
     """
     Something to tell.
 
@@ -97,7 +97,7 @@ class Bench(QObject):
 
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
-        self.told.emit(Message(weight, text, details))
+        self.told.emit(Notice(weight, text, details))
 
     def do(
         self,
@@ -125,6 +125,14 @@ class Bench(QObject):
             self.failed.pop(step, None)
         if self.failed != before:
             self.changed.emit()
+
+    @property
+    def connected(self) -> bool:
+        """Whether samples come."""
+        from contactbench.pipeline.devices.stream import State
+
+        health = self.live.health
+        return health is not None and health[0].state is State.STREAMING
 
     @property
     def ending(self) -> bool:

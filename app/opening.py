@@ -22,7 +22,7 @@ VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
 
 @dataclass(frozen=True)
-class Opened:
+class OpenedSession:
     """
     A session that can be worked on.
 
@@ -44,7 +44,7 @@ class Opened:
 
 
 @dataclass(frozen=True)
-class Problem:
+class OpeningProblem:
     """
     Why a session was not opened.
 
@@ -62,7 +62,7 @@ class Problem:
     damaged: bool = False
 
 
-def open_session(folder: Path, *, write: bool = True) -> Opened:
+def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
     """
     Open a session, read-only where its folder cannot be written; waits for the disk.
 
@@ -87,13 +87,13 @@ def open_session(folder: Path, *, write: bool = True) -> Opened:
         return open_session(folder, write=False)
     try:
         left = tuple(unfinished(folder)) if write else ()
-        return Opened(Desk(session), left, why_read_only=_why_read_only(session))
+        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session))
     except BaseException:
         session.close()
         raise
 
 
-def new_session(folder: Path) -> Opened:
+def new_session(folder: Path) -> OpenedSession:
     """Make a session in a folder that is new or empty. SessionError, InputError: it cannot be made."""
     from contactbench.pipeline.session import Session, SessionError
     from contactbench.pipeline.workbench.desk import Desk
@@ -104,10 +104,10 @@ def new_session(folder: Path) -> Opened:
         raise SessionError(
             f"{folder.parent}: the folder cannot be made ({error}): choose another place."
         ) from error
-    return Opened(Desk(Session.create(folder)), ())
+    return OpenedSession(Desk(Session.create(folder)), ())
 
 
-def virtual_session(folder: Path) -> Opened:
+def virtual_session(folder: Path) -> OpenedSession:
     """Make, or open, a session whose devices are those of a virtual bench."""
     opened = open_session(folder) if (folder / "journal").exists() else new_session(folder)
 
@@ -135,7 +135,7 @@ def free_folder(parent: Path, name: str) -> Path:
     return candidate
 
 
-def salvaged(folder: Path, elsewhere: Path) -> Opened:
+def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     """
     Salvage a copy beside a damaged session, and open it.
 
@@ -191,14 +191,14 @@ def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
         return ()
 
 
-def problem_with(error: BaseException) -> Problem | None:
+def problem_with(error: BaseException) -> OpeningProblem | None:
     """Return why a session was not opened, in words; None for an error that nobody expected."""
     from contactbench.pipeline.session import JournalError, SessionLockedError
 
     if not isinstance(error, (InputError, OSError)):
         return None
     damaged = isinstance(error, JournalError)
-    return Problem(str(error), damaged or isinstance(error, SessionLockedError), damaged)
+    return OpeningProblem(str(error), damaged or isinstance(error, SessionLockedError), damaged)
 
 
 def holds_session(folder: Path) -> bool:

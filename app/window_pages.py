@@ -10,7 +10,6 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from contactbench.app.page import Page
-from contactbench.app.window_statuses import statuses_of
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels
 
@@ -159,9 +158,16 @@ class Pages(QObject):
         bench.jobs.start(self.tr("Looking at the session"), lambda _p, _c: read_facts(folder, state), came)
 
     def _judge(self) -> None:
-        if self._bench is None:
+        bench = self._bench
+        if bench is None:
             return
-        self.statuses = statuses_of(self._bench, self._facts)
+
+        from contactbench.pipeline.workbench.statuses import statuses
+
+        desk = bench.desk
+        self.statuses = statuses(
+            desk.state, desk.stale, bench.running, bench.connected, bench.failed, self._facts
+        )
         self.judged.emit(self.statuses)
         if self.step is not None:
             self._tell_state(self.step)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.app.heatmap_viewer.how import HowRead
+from contactbench.app.heatmap_viewer.reading_options import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.contact import Gates
@@ -42,7 +42,7 @@ _USUAL = HowRead()
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
+class HeatmapSource:
     """
     Contacts on a probe.
 
@@ -55,7 +55,7 @@ class Source:
         In order of time.
     notes : tuple of str
         Sentences.
-    origin : Files or None
+    origin : HeatmapFiles or None
         What it was read from, with what it was read with: to be read again in another way.
     """
 
@@ -63,11 +63,11 @@ class Source:
     probe: ProbeFile
     contacts: Contacts
     notes: tuple[str, ...] = ()
-    origin: Files | None = None
+    origin: HeatmapFiles | None = None
 
 
 @dataclass(frozen=True)
-class Files:
+class HeatmapFiles:
     """
     Files by what they are.
 
@@ -92,7 +92,7 @@ class Files:
         """All that holds contacts."""
         return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
 
-    def only(self, path: Path) -> Files:
+    def only(self, path: Path) -> HeatmapFiles:
         """Return one of those that hold contacts, with what it is shown with."""
 
         def those(paths: tuple[Path, ...]) -> tuple[Path, ...]:
@@ -108,32 +108,32 @@ class Files:
 
 
 @dataclass(frozen=True, eq=False)
-class Opened:
+class OpenedFiles:
     """
     What came of files.
 
     Attributes
     ----------
-    sources : tuple of Source
+    sources : tuple of HeatmapSource
     problems : tuple of str
         What could not be opened, in sentences.
-    files : Files
+    files : HeatmapFiles
         To be given again with the next ones, so that a probe may come after its recording.
     """
 
-    sources: tuple[Source, ...]
+    sources: tuple[HeatmapSource, ...]
     problems: tuple[str, ...]
-    files: Files = field(default_factory=Files)
+    files: HeatmapFiles = field(default_factory=HeatmapFiles)
 
 
-def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
+def sorted_files(paths: Iterable[Path], before: HeatmapFiles | None = None) -> HeatmapFiles:
     """
     Return files by what they are.
 
     Parameters
     ----------
     paths : iterable of Path
-    before : Files, optional
+    before : HeatmapFiles, optional
         What was given before: its probe, calibration, wrenches and markers still hold.
 
     Raises
@@ -144,12 +144,12 @@ def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
     found: dict[str, list[Path]] = {}
     for path in paths:
         found.setdefault(_kind(path), []).append(path)
-    old = before or Files()
+    old = before or HeatmapFiles()
 
     def one(kind: str, known: Path | None) -> Path | None:
         return found[kind][-1] if kind in found else known
 
-    return Files(
+    return HeatmapFiles(
         sessions=tuple(found.get("session", ())),
         recordings=tuple(found.get("recording", ())),
         tables=tuple(found.get("table", ())),
@@ -162,7 +162,7 @@ def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
 
 
 def _kind(path: Path) -> str:
-    """Return which field of `Files` a path belongs to."""
+    """Return which field of `HeatmapFiles` a path belongs to."""
     if path.is_dir():
         return "session"
     suffix = path.suffix.lower()
@@ -200,17 +200,17 @@ def _kind_of_json(path: Path) -> str:
 
 
 def open_files(
-    files: Files,
+    files: HeatmapFiles,
     how: HowRead = _USUAL,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Opened:
+) -> OpenedFiles:
     """
     Read all contacts, each with its probe; one that cannot be read is a problem of its own.
 
     Parameters
     ----------
-    files : Files
+    files : HeatmapFiles
     how : HowRead
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
@@ -220,7 +220,7 @@ def open_files(
     Cancelled
         `cancelled` answered True.
     """
-    sources: list[Source] = []
+    sources: list[HeatmapSource] = []
     problems: list[str] = []
     count = max(len(files.contacts), 1)
 
@@ -242,22 +242,22 @@ def open_files(
         except InputError as error:
             problems.append(str(error))
         told(1, 1)
-    return Opened(tuple(sources), tuple(problems), files)
+    return OpenedFiles(tuple(sources), tuple(problems), files)
 
 
 def read_again(
-    sources: Iterable[Source],
+    sources: Iterable[HeatmapSource],
     how: HowRead,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Opened:
+) -> OpenedFiles:
     """Read those that come from recordings once more, in another way; as `open_files`."""
     origins = {
         source.origin.contacts: source.origin
         for source in sources
         if source.origin is not None and (source.origin.recordings or source.origin.sessions)
     }
-    found: list[Source] = []
+    found: list[HeatmapSource] = []
     problems: list[str] = []
     for number, origin in enumerate(origins.values()):
 
@@ -268,12 +268,12 @@ def read_again(
         opened = open_files(origin, how, told, cancelled)
         found += opened.sources
         problems += opened.problems
-    return Opened(tuple(found), tuple(problems))
+    return OpenedFiles(tuple(found), tuple(problems))
 
 
 def _of_file(
-    path: Path, files: Files, how: HowRead, told: Callable[[int, int], None], name: str = ""
-) -> Source:
+    path: Path, files: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], name: str = ""
+) -> HeatmapSource:
     if files.probe is None:
         raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
     probe = load_probe_file(files.probe)
@@ -295,11 +295,11 @@ def _of_file(
         raise HeatmapError(f"{path.name}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
         contacts = _with_errors(contacts, files.markers)
-    return Source(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
+    return HeatmapSource(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
 def _of_recording(
-    path: Path, files: Files, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
+    path: Path, files: HeatmapFiles, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
 ) -> Contacts:
     if files.calibration is None:
         raise HeatmapError(
@@ -325,10 +325,10 @@ def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
 
 
 def _of_session(
-    folder: Path, given: Files, how: HowRead, told: Callable[[int, int], None], problems: list[str]
-) -> list[Source]:
+    folder: Path, given: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], problems: list[str]
+) -> list[HeatmapSource]:
     """Return the newest recording of a session, and the touches of its verification."""
-    found: list[Source] = []
+    found: list[HeatmapSource] = []
     reasons: list[str] = []
     with Session.open(folder, write=False) as session:
         how = replace(how, mount=how.mount or mount_of(session.state))

@@ -14,7 +14,7 @@ from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.unfinished import adopt_unfinished
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.gravity_fit import Finding, Solved
+from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Solved
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import StepState, StepStatus
 
@@ -241,7 +241,7 @@ def test_findings_are_told_while_another_page_is_shown(window):
     w.open()
     w.start()
     w.page.leave()
-    found = Finding(
+    found = GravityFinding(
         "rejected pose 2", "Pose 2: bumped. Take it again, or go on with 3 poses.", leave_out=(1,)
     )
     run.work._solved = Solved(None, None, (found,))

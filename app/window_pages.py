@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.statuses import Facts
+    from contactbench.pipeline.workbench.standings import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
 
@@ -143,7 +143,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from contactbench.pipeline.workbench.statuses import read_facts
+        from contactbench.pipeline.workbench.standings import read_facts
 
         folder, state = bench.desk.folder, bench.desk.state
         if state.count == self._read:
@@ -162,7 +162,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from contactbench.pipeline.workbench.statuses import statuses
+        from contactbench.pipeline.workbench.standings import statuses
 
         desk = bench.desk
         self.statuses = statuses(

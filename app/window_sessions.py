@@ -39,7 +39,7 @@ _NEEDED = (
     "contactbench.widgets.scene",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
-    "contactbench.pipeline.workbench.statuses",
+    "contactbench.pipeline.workbench.standings",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 

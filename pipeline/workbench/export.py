@@ -15,7 +15,13 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
+from contactbench.pipeline.workbench.standings import (
+    RESULTS,
+    CheckItem,
+    checklist,
+    refuse_without,
+    results_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +29,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.differ import Differences
     from contactbench.pipeline.session import Session
 
-SHA256, PLACE, RESULTS = "export.sha256", "export.place", "export.results"
+SHA256, PLACE = "export.sha256", "export.place"
 _SHOWN = 60
 _MOST_DIFFERENCES = 12
 # What is another in every bundle, and says nothing by itself.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from pydantic_core import PydanticUndefined
+from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from contactbench.pipeline.session.recompute import PARAMETERS
 from contactbench.pipeline.session.state import MESH
@@ -107,9 +107,7 @@ def value_in(state: State, key: str) -> Any:
     if known is None or parameter not in known.model_fields:
         return None
     default = known.model_fields[parameter].get_default(call_default_factory=True)
-    if default is PydanticUndefined:
-        return None
-    return list(default) if isinstance(default, tuple) else default
+    return None if default is PydanticUndefined else to_jsonable_python(default)
 
 
 def put_result(session: Session, result: Result) -> None:

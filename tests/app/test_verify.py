@@ -5,65 +5,32 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QWidget
+from PySide6.QtWidgets import QInputDialog
 from workbench.touch_session import STEPWISE, make_session, press
 
-from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench import Weight
 from contactbench.app.pages.verify import VerifyPage
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import LiveReading
 from contactbench.pipeline.workbench.markers import Markers, kept
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
 
-READY = StepStatus(StepState.READY, "")
-LONG = 30_000
+from .page_window import PageWindow
 
 
-class Window:
-    """A page beside the scene, with the session behind it."""
-
+class Window(PageWindow):
     def __init__(self, qtbot, folder, devices=True):
-        self.qtbot, self.told = qtbot, []
-        self.desk = Desk(Session.open(folder, by="ada"))
-        self.widget = QWidget()
-        qtbot.addWidget(self.widget)
-        self.scene = Scene()
-        self.bench = Bench(self.desk, self.scene)
-        self.bench.told.connect(self.told.append)
+        super().__init__(qtbot, Session.open(folder, by="ada"), VerifyPage, Scene())
         if devices:
             self.bench.live.open(STEPWISE, STEPWISE)
             self.bench.live.pair.step(300)
-        self.page = VerifyPage(self.bench)
-        layout = QHBoxLayout(self.widget)
-        layout.addWidget(self.scene, 1)
-        layout.addWidget(self.page)
-        self.page.setFixedWidth(360)
-        self.widget.resize(900, 640)
-        self.widget.show()
-        qtbot.waitExposed(self.widget)
-        self.bench.changed.connect(lambda: self.page.show_state(READY))
-        self.page.enter()
-        self.page.show_state(READY)
-
-    def wait(self, condition):
-        self.qtbot.waitUntil(condition, timeout=LONG)
-
-    def click(self, button):
-        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+        self.enter()
 
     def kept(self):
         return kept(self.desk.folder, self.desk.state)
-
-    def close(self):
-        self.page.leave()
-        self.page.close_page()
-        self.bench.close()
-        self.scene.close_scene()
 
 
 @pytest.fixture(scope="module")

@@ -35,21 +35,11 @@ class Weight(StrEnum):
 
 @dataclass(frozen=True)
 class Notice:
-    """
-    Something to tell.
-
-    Attributes
-    ----------
-    weight : Weight
-    text : str
-        What happened, why it matters, what to do.
-    details : str
-        For who asks, such as a stack trace.
-    """
+    """Something to tell."""
 
     weight: Weight
-    text: str
-    details: str = ""
+    text: str  # What happened, why it matters, what to do
+    details: str = ""  # For who asks, such as a stack trace
 
 
 class Bench(QObject):

@@ -23,43 +23,22 @@ VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
 @dataclass(frozen=True)
 class OpenedSession:
-    """
-    A session that can be worked on.
-
-    Attributes
-    ----------
-    desk : Desk
-    unfinished : tuple of str
-        Recordings in it whose making was cut short.
-    found : tuple of str
-        What its salvage found, in sentences.
-    why_read_only : str
-        "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be.
-    """
+    """A session that can be worked on."""
 
     desk: Desk
-    unfinished: tuple[str, ...]
-    found: tuple[str, ...] = ()
+    unfinished: tuple[str, ...]  # Recordings in it whose making was cut short
+    found: tuple[str, ...] = ()  # What its salvage found, in sentences
+    # "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be
     why_read_only: str = ""
 
 
 @dataclass(frozen=True)
 class OpeningProblem:
-    """
-    Why a session was not opened.
-
-    Attributes
-    ----------
-    sentence : str
-    readable : bool
-        Whether it can be opened read-only nevertheless.
-    damaged : bool
-        Whether a copy of what is whole may be made.
-    """
+    """Why a session was not opened."""
 
     sentence: str
-    readable: bool = False
-    damaged: bool = False
+    readable: bool = False  # Whether it can be opened read-only nevertheless
+    damaged: bool = False  # Whether a copy of what is whole may be made
 
 
 def open_session(folder: Path, *, write: bool = True) -> OpenedSession:

@@ -39,25 +39,14 @@ def _none() -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class ChartHistory:
-    """
-    What the charts show.
+    """What the charts show."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s, on any clock, ascending.
-    raw, compensated : (n, 6)
-        N and N·m; NaN where there is none.
-    contact_times : (k,)
-        s, on the same clock.
-    contacts : (k, 3)
-        S, m; NaN where nothing touches.
-    """
-
-    times: NDArray[np.float64]
+    times: NDArray[np.float64]  # (n,): s, on any clock, ascending
+    # raw, compensated: (n, 6): N and N·m; NaN where there is none
     raw: NDArray[np.float64]
     compensated: NDArray[np.float64]
-    contact_times: NDArray[np.float64] = field(default_factory=_none)
+    contact_times: NDArray[np.float64] = field(default_factory=_none)  # (k,): s, on the same clock
+    # (k, 3): S, m; NaN where nothing touches
     contacts: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
 
 

@@ -31,29 +31,14 @@ _NARROW_PX = 280
 
 @dataclass(frozen=True)
 class Curves:
-    """
-    What a pane shows.
-
-    Attributes
-    ----------
-    title : str
-    names : tuple of str
-        Of the lines.
-    unit : str
-    digits : int
-        Behind the point.
-    least : float
-        The smallest span of the axis, in the unit.
-    first_colour : int
-        Of the theme's series.
-    """
+    """What a pane shows."""
 
     title: str
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # Of the lines
     unit: str
-    digits: int
-    least: float
-    first_colour: int = 0
+    digits: int  # Behind the point
+    least: float  # The smallest span of the axis, in the unit
+    first_colour: int = 0  # Of the theme's series
 
 
 class Pane(QWidget):

@@ -19,36 +19,23 @@ OKABE_ITO = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
 @dataclass(frozen=True)
 class Colours:
-    """
-    Colours of a theme, each as `#rrggbb`.
+    """Colours of a theme, each as `#rrggbb`."""
 
-    Attributes
-    ----------
-    text, muted : str
-        What is written, and what is written beside it; both at least 4.5:1 on `panel` and `background`.
-    panel, background : str
-        Of controls, and of what lies behind them.
-    line : str
-        Borders and grids.
-    accent : str
-        The one thing to press; `panel` is written on it.
-    good, warning, bad, stale : str
-        States, for text and icons; never without a word or an icon.
-    series : tuple of str
-        Six categories, Okabe and Ito: Fx, Fy, Fz, Mx, My, Mz.
-    """
-
+    # text, muted: What is written, and what is written beside it; both at least 4.5:1 on `panel` and
+    # `background`
     text: str
     muted: str
+    # panel, background: Of controls, and of what lies behind them
     panel: str
     background: str
-    line: str
-    accent: str
+    line: str  # Borders and grids
+    accent: str  # The one thing to press; `panel` is written on it
+    # good, warning, bad, stale: States, for text and icons; never without a word or an icon
     good: str
     warning: str
     bad: str
     stale: str
-    series: tuple[str, str, str, str, str, str]
+    series: tuple[str, str, str, str, str, str]  # Six categories, Okabe and Ito: Fx, Fy, Fz, Mx, My, Mz
 
 
 _LIGHT = Colours(

@@ -14,23 +14,13 @@ _PATIENCE = 600  # ms without a change before recordings are read again
 
 @dataclass(frozen=True)
 class HowRead:
-    """
-    What a recording does not say itself; as the options of ``contactbench heatmap draw``.
+    """What a recording does not say itself; as the options of ``contactbench heatmap draw``."""
 
-    Attributes
-    ----------
-    mount : (3,) or None
-        How the sensor is turned against the flange: degrees about the fixed axes x, y, z. None: as a session says,
-        not at all without one.
-    delay : float
-        How much later a wrench is heard than its pose, s.
-    min_force : float
-        Touches are above this, N.
-    """
-
+    # (3,) or None: How the sensor is turned against the flange: degrees about the fixed axes x, y, z.
+    # None: as a session says, not at all without one
     mount: tuple[float, float, float] | None = None
-    delay: float = 0.0
-    min_force: float = 0.5
+    delay: float = 0.0  # How much later a wrench is heard than its pose, s
+    min_force: float = 0.5  # Touches are above this, N
 
 
 class ReadingBox(QGroupBox):

@@ -43,45 +43,25 @@ _USUAL = HowRead()
 
 @dataclass(frozen=True, eq=False)
 class HeatmapSource:
-    """
-    Contacts on a probe.
+    """Contacts on a probe."""
 
-    Attributes
-    ----------
-    name : str
-        For people.
-    probe : ProbeFile
-    contacts : Contacts
-        In order of time.
-    notes : tuple of str
-        Sentences.
-    origin : HeatmapFiles or None
-        What it was read from, with what it was read with: to be read again in another way.
-    """
-
-    name: str
+    name: str  # For people
     probe: ProbeFile
-    contacts: Contacts
-    notes: tuple[str, ...] = ()
+    contacts: Contacts  # In order of time
+    notes: tuple[str, ...] = ()  # Sentences
+    # What it was read from, with what it was read with: to be read again in another way
     origin: HeatmapFiles | None = None
 
 
 @dataclass(frozen=True)
 class HeatmapFiles:
-    """
-    Files by what they are.
-
-    Attributes
-    ----------
-    sessions, recordings, tables, verifications : tuple of Path
-    probe, calibration, wrenches, markers : Path or None
-        What the others are shown with; the newest that was given.
-    """
+    """Files by what they are."""
 
     sessions: tuple[Path, ...] = ()
     recordings: tuple[Path, ...] = ()
     tables: tuple[Path, ...] = ()
     verifications: tuple[Path, ...] = ()
+    # probe, calibration, wrenches, markers: What the others are shown with; the newest that was given
     probe: Path | None = None
     calibration: Path | None = None
     wrenches: Path | None = None
@@ -109,20 +89,11 @@ class HeatmapFiles:
 
 @dataclass(frozen=True, eq=False)
 class OpenedFiles:
-    """
-    What came of files.
-
-    Attributes
-    ----------
-    sources : tuple of HeatmapSource
-    problems : tuple of str
-        What could not be opened, in sentences.
-    files : HeatmapFiles
-        To be given again with the next ones, so that a probe may come after its recording.
-    """
+    """What came of files."""
 
     sources: tuple[HeatmapSource, ...]
-    problems: tuple[str, ...]
+    problems: tuple[str, ...]  # What could not be opened, in sentences
+    # To be given again with the next ones, so that a probe may come after its recording
     files: HeatmapFiles = field(default_factory=HeatmapFiles)
 
 

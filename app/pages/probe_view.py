@@ -14,22 +14,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """
-    Meshes that can be shown, all in the same place.
+    """Meshes that can be shown, all in the same place."""
 
-    Attributes
-    ----------
-    original : Probe or None
-        As the file has it.
-    dense : Probe or None
-        The outer surface with all its facets.
-    alignment : Alignment or None
-        What took them from the mesh's frame to where they are shown.
-    """
-
-    original: Probe | None = None
-    dense: Probe | None = None
-    alignment: Alignment | None = None
+    original: Probe | None = None  # As the file has it
+    dense: Probe | None = None  # The outer surface with all its facets
+    alignment: Alignment | None = None  # What took them from the mesh's frame to where they are shown
 
 
 class ProbeView:

@@ -26,22 +26,13 @@ _NEAREST, _FARTHEST = 2e-4, 5.0  # half of what is seen from bottom to top, m
 
 @dataclass(frozen=True)
 class SceneLook:
-    """
-    A camera.
+    """A camera."""
 
-    Attributes
-    ----------
-    position, focal, up : (x, y, z)
-        Where it is, what it looks at, and what points upwards on screen; m.
-    scale : float
-        Half of what is seen from bottom to top at the focal point, m.
-    perspective : bool
-    """
-
+    # position, focal, up: (x, y, z): Where it is, what it looks at, and what points upwards on screen; m
     position: Triple
     focal: Triple
     up: Triple
-    scale: float
+    scale: float  # Half of what is seen from bottom to top at the focal point, m
     perspective: bool = False
 
     @property
@@ -122,17 +113,10 @@ def _triple(vector: NDArray[np.float64]) -> Triple:
 
 @dataclass(frozen=True)
 class Screen:
-    """
-    A camera and the picture it makes.
-
-    Attributes
-    ----------
-    look : SceneLook
-    width, height : int
-        Device pixels.
-    """
+    """A camera and the picture it makes."""
 
     look: SceneLook
+    # width, height: Device pixels
     width: int
     height: int
 

@@ -30,13 +30,7 @@ _KEY = QKeySequence.StandardKey
 
 
 class Menus(QObject):
-    """
-    Every menu of a window.
-
-    Attributes
-    ----------
-    undo, redo, help_here : QAction
-    """
+    """Every menu of a window."""
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)

@@ -42,13 +42,7 @@ class Curves:
 
 
 class Pane(QWidget):
-    """
-    Lines over time. Times are shown as seconds before the newest one.
-
-    Parameters
-    ----------
-    curves : Curves
-    """
+    """Lines over time. Times are shown as seconds before the newest one."""
 
     pointed = Signal(object)  # s after (before: negative) the newest sample, or None
     taken = Signal()  # the mouse zoomed or moved the time

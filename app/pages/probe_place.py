@@ -35,13 +35,7 @@ if TYPE_CHECKING:
 
 
 class PlaceSection(QGroupBox):
-    """
-    Where the mesh lies in the sensor frame.
-
-    Parameters
-    ----------
-    stages : ProbeStages
-    """
+    """Where the mesh lies in the sensor frame."""
 
     def __init__(self, stages: ProbeStages, parent: QWidget | None = None) -> None:
         super().__init__(parent)

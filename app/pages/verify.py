@@ -47,13 +47,7 @@ _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
 
 
 class VerifyPage(Page):
-    """
-    Markers, how to touch them, a known point, the touches, and the verdict, on a tab each.
-
-    Attributes
-    ----------
-    work : VerifyWork
-    """
+    """Markers, how to touch them, a known point, the touches, and the verdict, on a tab each."""
 
     step: ClassVar[Step] = Step.VERIFY
 

@@ -34,13 +34,7 @@ def firm_contact(reading: LiveReading | None) -> Contact | None:
 
 
 class VerifyScene:
-    """
-    Draws for one page; nothing while that is not shown.
-
-    Parameters
-    ----------
-    bench : Bench
-    """
+    """Draws for one page; nothing while that is not shown."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench, self._scene = bench, bench.scene

@@ -34,13 +34,7 @@ _LONGEST = 200  # characters of a reason
 
 
 class TouchPanel(QWidget):
-    """
-    Shows touches as they happen, with words and tones.
-
-    Attributes
-    ----------
-    sounds : Sounds
-    """
+    """Shows touches as they happen, with words and tones."""
 
     def __init__(self, bench: Bench, work: VerifyWork, parent: QWidget | None = None) -> None:
         super().__init__(parent)

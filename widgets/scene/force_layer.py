@@ -18,13 +18,7 @@ _LEAST = 1e-4  # m: a shorter arrow is none
 
 
 class ForceLayer:
-    """
-    Draws the force.
-
-    Attributes
-    ----------
-    metres_per_newton : float
-    """
+    """Draws the force."""
 
     def __init__(self, stage: SceneStage) -> None:
         self._stage = stage

@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QGroupBox, QVBoxLayout, QWidget
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.workbench.probe_alignment import (
-    PointPair,
     back_to_mesh,
     by_axes,
     by_file,
@@ -79,7 +78,7 @@ class PlaceSection(QGroupBox):
         self._try(lambda: from_angles(list(numbers[:3]), list(numbers[3:])))
 
     def _by_points(self, pairs: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> None:
-        self._try(lambda: by_points([PointPair(*pair) for pair in pairs]))
+        self._try(lambda: by_points(pairs))
 
     def _by_shape(self, lowest_mm: float) -> None:
         mesh = self._mesh()

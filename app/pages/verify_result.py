@@ -8,6 +8,7 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QLabel, QWidget
 
+from contactbench.pipeline.verification.model_error import model_error_words
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
@@ -15,6 +16,7 @@ from contactbench.widgets.phrases import said
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from contactbench.pipeline.verification.figures import Verification
     from contactbench.pipeline.workbench.verify import VerifyOutcome
 
 _ICON = 34
@@ -62,10 +64,16 @@ class ResultPanel(QWidget):
         number = (
             self.tr("no touch counted") if mean is None else self.tr("{mean} mm").format(mean=f"{mean:.2f}")
         )
+        found = outcome.found
         self._texts(
-            number, self._range(outcome), self._figures(outcome), self._why(outcome), outcome.diagnosis,
-            "\n".join((*outcome.notes, *outcome.warnings)), outcome.model_error,
-        )  # fmt: skip
+            number,
+            self._range(outcome),
+            self._figures(found),
+            self._why(outcome),
+            "" if found.diagnosis is None else found.diagnosis.text,
+            "\n".join((*found.verdict.notes, *found.warnings)),
+            model_error_words(found.model_error),
+        )
 
     def _put(self, words: str, name: str, colour: str) -> None:
         self.verdict.setText(words)
@@ -84,36 +92,37 @@ class ResultPanel(QWidget):
             return ""
         if outcome.touches == 1:
             return self.tr("mean error of one touch")
-        if outcome.low_mm is None or outcome.high_mm is None:
+        ci = outcome.found.ci
+        if ci is None:
             return self.tr("mean error of {count} touches").format(count=outcome.touches)
+        low, high = ci.mean_mm
         return self.tr("mean error of {count} touches; surely between {low} and {high} mm (95 %)").format(
-            count=outcome.touches, low=f"{outcome.low_mm:.2f}", high=f"{outcome.high_mm:.2f}"
+            count=outcome.touches, low=f"{low:.2f}", high=f"{high:.2f}"
         )
 
-    def _figures(self, outcome: VerifyOutcome) -> str:
-        if outcome.mean_mm is None or outcome.max_mm is None:
+    def _figures(self, found: Verification) -> str:
+        overall, limits = found.overall, found.limits
+        if overall is None:
             return ""
         lines = [
             self.tr("Largest error: {size} mm; up to {limit} mm passes").format(
-                size=f"{outcome.max_mm:.2f}", limit=f"{outcome.max_limit_mm:g}"
+                size=f"{overall.max_mm:.2f}", limit=f"{1e3 * limits.max_m:g}"
             ),
-            self.tr("Mean error: up to {limit} mm passes").format(limit=f"{outcome.mean_limit_mm:g}"),
+            self.tr("95 % of touches: within {size} mm").format(size=f"{overall.p95_mm:.2f}"),
+            self.tr("Mean error: up to {limit} mm passes").format(limit=f"{1e3 * limits.mean_m:g}"),
         ]
-        if outcome.p95_mm is not None:
-            lines.insert(1, self.tr("95 % of touches: within {size} mm").format(size=f"{outcome.p95_mm:.2f}"))
-        if outcome.ratio is not None:
-            lines.append(
-                self.tr("{ratio} times what noise and calibration explain").format(
-                    ratio=f"{outcome.ratio:.1f}"
-                )
-            )
+        if found.ratio is not None:
+            words = self.tr("{ratio} times what noise and calibration explain")
+            lines.append(words.format(ratio=f"{found.ratio:.1f}"))
         return "\n".join(lines)
 
     def _why(self, outcome: VerifyOutcome) -> str:
         lines = [outcome.stale] if outcome.stale else []
-        lines += [f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.reasons]
-        if outcome.rejected:
-            listed = ", ".join(f"{count} × {reason}" for reason, count in outcome.rejected)
+        lines += [
+            f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.found.verdict.reasons
+        ]
+        if rejected := outcome.found.rejected:
+            listed = ", ".join(f"{count} × {reason}" for reason, count in rejected.items())
             lines.append(self.tr("Not counted: {listed}.").format(listed=listed))
         if outcome.differs:
             lines.append(outcome.differs)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import threading
 import time
 from dataclasses import dataclass, replace
@@ -11,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
-from contactbench.pipeline.verification.figures import ModelError
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.verification.figures import Verification
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.tape import SessionTape
@@ -170,13 +169,14 @@ class VerifyWork:
     def rows(self) -> tuple[MarkerRow, ...]:
         """The markers while nothing goes on: as the last verification has them, if it still holds."""
         outcome = self.outcome
-        judged = {} if outcome is None or outcome.stale else {each.name: each for each in outcome.markers}
+        holds = outcome is not None and not outcome.stale
+        judged = {each.name: each for each in outcome.found.per_marker} if outcome and holds else {}
         wanted = self.parameters.repeats * len(self.parameters.windows)
         rows = []
         for marker in self.markers.all:
             row, each = MarkerRow(marker.name, point_mm(marker), 0, wanted), judged.get(marker.name)
             if outcome is not None and each is not None:
-                state = "failed" if each.max_mm > outcome.max_limit_mm else "done"
+                state = "failed" if each.max_mm > 1e3 * outcome.found.limits.max_m else "done"
                 row = replace(
                     row, touches=each.touches, mean_mm=each.mean_mm, max_mm=each.max_mm, state=state
                 )
@@ -313,42 +313,28 @@ class VerifyWork:
 
 
 @dataclass(frozen=True)
-class MarkerOutcome:
-    """Of one marker, mm."""
-
-    name: str
-    touches: int
-    mean_mm: float
-    max_mm: float
-    bias_mm: tuple[float, float, float]
-
-
-@dataclass(frozen=True)
 class VerifyOutcome:
-    """A verification, as it is shown."""
+    """A verification that the session has."""
 
-    passed: bool
-    # reasons, notes, warnings: Why not; what it says nothing about; what to know of the recording
-    reasons: tuple[str, ...]
-    notes: tuple[str, ...]
-    warnings: tuple[str, ...]
-    diagnosis: str  # What to fix first; empty: too few touches
-    touches: int  # Accepted
-    mean_mm: float | None
-    sd_mm: float | None
-    p95_mm: float | None
-    max_mm: float | None
-    low_mm: float | None  # low_mm, high_mm: The mean is between them, 95 %
-    high_mm: float | None
-    ratio: float | None  # Error over what noise and calibration explain
-    mean_limit_mm: float
-    max_limit_mm: float
-    rejected: tuple[tuple[str, int], ...]  # (reason, count)
-    markers: tuple[MarkerOutcome, ...]
+    found: Verification
     report: Path | None
     differs: str = ""  # What was another while it was live; empty: nothing
     stale: str = ""  # Why it no longer holds; empty: it does
-    model_error: str = ""  # What the model leaves out of the wrench, and what to do about it
+
+    @property
+    def passed(self) -> bool:
+        """Whether it did."""
+        return self.found.verdict.passed
+
+    @property
+    def touches(self) -> int:
+        """How many were accepted."""
+        return 0 if self.found.overall is None else self.found.overall.touches
+
+    @property
+    def mean_mm(self) -> float | None:
+        """Mean error; None: no touch was accepted."""
+        return None if self.found.overall is None else self.found.overall.mean_mm
 
 
 def outcome_of(
@@ -377,18 +363,18 @@ def outcome_of(
     found = state.current_results.get((KIND, RESULT))
     if found is None:
         return None
+    from contactbench.pipeline.report import ReportError, read_verification
+
     file = folder / found.file.path
     try:
-        content = json.loads(file.read_bytes())
-        outcome = _read(content, _report(folder, state, found.known_as))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        verification = read_verification(file)
+    except ReportError as error:
         raise InputError(
             f"{file}: the verification cannot be read ({error}): see `contactbench session verify`."
         ) from error
     reasons = stale.get(found.slot, ())
-    return replace(
-        outcome, differs="" if live is None else differs(outcome, live), stale=" ".join(reasons[:1])
-    )
+    outcome = VerifyOutcome(verification, _report(folder, state, found.known_as), stale=" ".join(reasons[:1]))
+    return outcome if live is None else replace(outcome, differs=differs(outcome, live))
 
 
 def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
@@ -396,44 +382,6 @@ def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
     if found is None or not set(found.action.inputs.values()) & verification:
         return None
     return folder / found.file.path
-
-
-def _read(content: dict[str, Any], report: Path | None) -> VerifyOutcome:
-    from contactbench.pipeline.verification.model_error import model_error_words
-
-    verdict, overall = content["verdict"], content.get("overall") or {}
-    interval = (content.get("ci") or {}).get("mean_mm") or (None, None)
-    diagnosis, left = content.get("diagnosis") or {}, content.get("model_error")
-    return VerifyOutcome(
-        passed=bool(verdict["passed"]),
-        reasons=tuple(verdict["reasons"]),
-        notes=tuple(verdict.get("notes", ())),
-        warnings=tuple(content.get("warnings", ())),
-        diagnosis=str(diagnosis.get("text", "")),
-        touches=int(overall.get("touches", 0)),
-        mean_mm=overall.get("mean_mm"),
-        sd_mm=overall.get("sd_mm"),
-        p95_mm=overall.get("p95_mm"),
-        max_mm=overall.get("max_mm"),
-        low_mm=interval[0],
-        high_mm=interval[1],
-        ratio=content.get("ratio"),
-        mean_limit_mm=1e3 * float(content["limits"]["mean_m"]),
-        max_limit_mm=1e3 * float(content["limits"]["max_m"]),
-        rejected=tuple((str(why), int(count)) for why, count in content.get("rejected", {}).items()),
-        markers=tuple(
-            MarkerOutcome(
-                str(each["name"]),
-                int(each["touches"]),
-                float(each["mean_mm"]),
-                float(each["max_mm"]),
-                (float(each["bias_mm"][0]), float(each["bias_mm"][1]), float(each["bias_mm"][2])),
-            )
-            for each in content.get("per_marker", ())
-        ),
-        report=report,
-        model_error=model_error_words(None if left is None else ModelError(**left)),
-    )
 
 
 def differs(outcome: VerifyOutcome, live: TouchView) -> str:

@@ -193,7 +193,7 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     window.click(page.panel_touch.finish)
     window.wait(lambda: page.work.outcome is not None and not page.work.going_on)
     assert page.work.outcome.passed
-    assert any("M1 (the arm cannot get there)" in note for note in page.work.outcome.notes)
+    assert any("M1 (the arm cannot get there)" in note for note in page.work.outcome.found.verdict.notes)
 
 
 def test_settings_are_those_of_the_session_and_can_be_undone(window):

@@ -10,9 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from contactbench.pipeline.mesh.regions import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
-from contactbench.widgets.region_list import RegionListWidget
-from contactbench.widgets.region_list_colour import ColourMenu
-from contactbench.widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY
+from contactbench.widgets.region_list import AREA, FACETS, NAME, PRIORITY, ColourMenu, RegionListWidget
 
 ROWS = (
     RegionRow("Lens", "#e69f00", 1200, 12.34e-4),

@@ -36,7 +36,6 @@ _NAME, _PLACE, _TOUCHES, _ERROR, _STATE = range(5)
 class MarkerTable(QTableWidget):
     """Shows markers; what is typed or deleted is only asked for."""
 
-    selected = Signal(object)  # name, or None
     rename_wanted = Signal(str, str)  # from, to
     remove_wanted = Signal(list)  # names
 
@@ -75,7 +74,6 @@ class MarkerTable(QTableWidget):
         self.setTabKeyNavigation(False)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
         self.itemChanged.connect(self._typed)
-        self.itemSelectionChanged.connect(lambda: self.selected.emit(self.current_name))
 
     @property
     def current_name(self) -> str | None:

@@ -286,12 +286,6 @@ class RegionListWidget(QWidget):
         flag = QItemSelectionModel.SelectionFlag
         self.view.selectionModel().setCurrentIndex(index, flag.ClearAndSelect | flag.Rows)
 
-    def edit_name(self) -> None:
-        """Let the name of the chosen region be typed."""
-        if self.rank:
-            self.view.setFocus()
-            self.view.edit(self.rows.index(self.rank - 1, NAME))
-
     # ---- its parts ---------------------------------------------------------------------------
 
     def _make_view(self) -> QTreeView:

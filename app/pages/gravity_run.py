@@ -387,7 +387,7 @@ class GravityRun(QObject):
             )
             return
         if self.work is not None:
-            self.work.set_left_out_at(moments, left_out)
+            self.work.set_left_out(moments, left_out)
         elif self.phase is Phase.IDLE and self.outcome is not None and self.outcome.changeable:
             before = set(self.outcome.leave_out)
             after = before | set(moments) if left_out else before - set(moments)

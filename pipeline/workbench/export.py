@@ -137,11 +137,6 @@ def record(session: Session, place: Path, sha256: str, *, verified: bool) -> Non
     session.set_parameter(RESULTS, dict(results_of(session.state)))
 
 
-def files_of(config: RuntimeConfig) -> dict[str, bytes]:
-    """Return name -> bytes of a bundle's files."""
-    return config.encoded()
-
-
 def _sha256(config: RuntimeConfig) -> str:
     return hashlib.sha256(config.encoded()[CONFIG]).hexdigest()
 

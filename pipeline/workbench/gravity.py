@@ -173,11 +173,7 @@ class GravityWork:
         with self._lock:
             self.automatic = automatic
 
-    def set_left_out(self, rows: Iterable[PoseRow], left_out: bool) -> None:
-        """Leave poses out, or take them back."""
-        self.set_left_out_at([row.time for row in rows], left_out)
-
-    def set_left_out_at(self, moments: Iterable[float], left_out: bool) -> None:
+    def set_left_out(self, moments: Iterable[float], left_out: bool) -> None:
         """Leave the poses out in which moments lie, s on the samples' clock, or take them back."""
         with self._lock:
             for moment in moments:
@@ -315,11 +311,6 @@ class GravityWork:
                 captures, self._detector.rejected, len(self._earlier) + 1, self.settings, fitted, origin
             ),
         )
-
-    def stands(self) -> str:
-        """Say how the sensor stands."""
-        R_WE = self._R_WE
-        return "" if R_WE is None else describe(self.settings.sensor_orientations(R_WE), self.settings.down_W)
 
 
 class GravityCheck:

@@ -40,11 +40,6 @@ class ConnectionTrial:
     range_used: NDArray[np.float64] | None
     sentences: tuple[str, ...]  # What is wrong, and what to do; empty when nothing is
 
-    @property
-    def well(self) -> bool:
-        """Whether samples come and nothing is wrong."""
-        return self.state is State.STREAMING and not self.sentences
-
 
 def trial_of(live: Live) -> ConnectionTrial | None:
     """Measure the devices that are open; None: none is."""

@@ -377,10 +377,6 @@ class RegionsWork:
             raise RegionError("The regions were changed meanwhile, so nothing was done: do it again.")
         return self.step(lambda model: give(model, found, protect=protect, erase=erase))
 
-    def clear(self, rank: int) -> str | None:
-        """Take all facets out of a region; see `step`."""
-        return self.give(self.finder(Clear(), rank)())
-
     # ---- how ---------------------------------------------------------------------------------
 
     def _all_colours(self) -> NDArray[np.uint8]:

@@ -65,7 +65,7 @@ def test_the_choice_survives_other_areas_and_fewer_rows(listed):
 
 def test_a_name_is_typed_in_its_place(listed, qtbot):
     with qtbot.waitSignal(listed.renamed) as asked:
-        listed.edit_name()
+        listed.view.edit(listed.rows.index(0, NAME))
         field = listed.view.findChild(QLineEdit)
         field.setText("Window")
         qtbot.keyClick(field, Qt.Key.Key_Return)

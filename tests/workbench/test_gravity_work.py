@@ -78,13 +78,13 @@ def test_a_bumped_pose_is_named_left_out_and_can_be_taken_back(work):
     outlier = next(row for row in rejected if row.changeable)
     (finding,) = [each for each in view.solved.findings if each.key == f"rejected {outlier.name}"]
     assert "Take it again" in finding.sentence
-    run.set_left_out([outlier], True)
+    run.set_left_out([outlier.time], True)
     run.wait()
     assert not run.view().solved.findings
     assert [row.name for row in run.view().rows if row.state is PoseState.LEFT_OUT] == [outlier.name]
     (moment,) = run.left_out
     assert moment == outlier.time
-    run.set_left_out([outlier], False)
+    run.set_left_out([outlier.time], False)
     run.wait()
     assert run.left_out == ()
 

@@ -179,10 +179,6 @@ class Scene(QWidget):
         self._force.show(force, at)
         self.redraw()
 
-    def set_force_scale(self, metres_per_newton: float) -> None:
-        """Choose how long the arrow of 1 N is; used from the next force on."""
-        self._force.metres_per_newton = metres_per_newton
-
     def show_contact(
         self,
         point: NDArray[np.float64] | None,

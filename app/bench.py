@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
 
 from contactbench.app.jobs import Jobs
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,6 +89,12 @@ class Bench(QObject):
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
         self.told.emit(Notice(weight, text, details))
+
+    def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
+        """Put into the list why something was refused; what nobody expected is raised, for the hook."""
+        if not isinstance(error, InputError):
+            raise error
+        self.tell(weight, str(error))
 
     def do(
         self,

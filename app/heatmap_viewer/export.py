@@ -49,7 +49,7 @@ class HeatmapExport(QObject):
         from contactbench.pipeline.heatmap.film import FilmSettings
 
         viewer, kind = self._viewer, file.suffix.lower()
-        sources = [viewer.source(number) for number in range(viewer.visible_sides())]
+        sources = [viewer.source(number) for number in range(viewer.visible())]
         names = (
             [file]
             if len(sources) == 1

@@ -217,7 +217,7 @@ class HeatmapViewer(QWidget):
         names = [source.name for source in self.sources]
         for number, side in enumerate(self.sides):
             side.set_sources(names, self._shown[number])
-        seen = [self.sources[self._shown[number]] for number in range(self._visible())]
+        seen = [self.sources[self._shown[number]] for number in range(self.visible())]
         duration = max(max(s.contacts.duration, float(s.contacts.moments[-1])) for s in seen)
         if duration != self.time.slider.limits()[1]:
             self.time.set_duration(duration)
@@ -232,7 +232,8 @@ class HeatmapViewer(QWidget):
         self._shown[number] = source
         self._sources_changed()
 
-    def _visible(self) -> int:
+    def visible(self) -> int:
+        """Return how many heatmaps are seen."""
         return 2 if self.controls.compare.isChecked() and len(self.sides) > 1 else 1
 
     def _compare(self, two: bool) -> None:
@@ -269,7 +270,7 @@ class HeatmapViewer(QWidget):
         """Have every side's contacts spread by the bandwidth that is wanted now."""
         if not self.sources or self._closed:
             return
-        for number in range(self._visible()):
+        for number in range(self.visible()):
             source = self.sources[self._shown[number]]
             self._wanted[number] = (source, self.controls.bandwidth_m())
             self._make(number)
@@ -317,32 +318,26 @@ class HeatmapViewer(QWidget):
 
     def selection(self) -> Selection:
         """Return what is seen now."""
-        start, end = self.time.chosen()
-        return self.controls.selection(
-            None if start is None else round(start, 3), None if end is None else round(end, 3)
-        )
+        return self._selection(*self.time.chosen())
 
     def played_selection(self) -> Selection:
         """Return all that is played."""
-        start, end = self.time.played_range()
-        return self.controls.selection(
-            None if start is None else round(start, 3), None if end is None else round(end, 3)
-        )
+        return self._selection(*self.time.played_range())
+
+    def _selection(self, *ends: float | None) -> Selection:
+        start, end = (None if each is None else round(each, 3) for each in ends)
+        return self.controls.selection(start, end)
 
     def source(self, number: int) -> HeatmapSource:
         """Return what a side shows."""
         return self.sources[self._shown[number]]
-
-    def visible_sides(self) -> int:
-        """Return how many heatmaps are seen."""
-        return self._visible()
 
     def _show(self) -> None:
         if self._closed:
             return
         playing = self.time.slider.playhead() is not None
         window = self.time.seconds() if playing else None
-        sides, whole = self.sides[: self._visible()], self.played_selection()
+        sides, whole = self.sides[: self.visible()], self.played_selection()
         top = max((side.top(whole, window) for side in sides), default=0.0)
         selection = self.selection()
         for side in sides:

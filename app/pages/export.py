@@ -309,13 +309,10 @@ class ExportPage(Page):
         )
 
     def _said(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if self._closed:
-            return
-        self.result.setText(said(str(error)))
-        self.result.show()
-        self.bench.tell(Weight.ERROR, str(error))
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
+            self.result.setText(said(str(error)))
+            self.result.show()
 
     def _place(self) -> Path | None:
         place = self._setting("export.place")

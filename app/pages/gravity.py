@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.workbench.gravity import GravityView
     from contactbench.pipeline.workbench.gravity_fit import GravityFinding
     from contactbench.pipeline.workbench.gravity_poses import PoseRow
@@ -174,7 +173,7 @@ class GravityPage(Page):
         run, panel = self.run, self.panel
         outcome = None if run.busy else run.outcome
         check = run.check
-        virtual = self._bench() is not None
+        virtual = self.bench.live.bench is not None
         panel.next.hide()
         panel.away.setVisible(check is not None)
         panel.turn.setVisible(check is not None and virtual)
@@ -219,7 +218,7 @@ class GravityPage(Page):
         panel.coverage.show_poses(view.rows, None if proposal is None else proposal.R_WS, *self._limits())
         panel.figures.show_figures(view.count, view.expected, view.errors, running=True)
         panel.findings.show_findings(view.solved.findings)
-        panel.show_next(proposal, virtual=self._bench() is not None, running=True)
+        panel.show_next(proposal, virtual=self.bench.live.bench is not None, running=True)
         self.bench.scene.show_ghost(None if proposal is None or not self._entered else proposal.R_WS)
         fitted = view.solved.calibration
         panel.verdict.setVisible(fitted is not None)
@@ -379,13 +378,9 @@ class GravityPage(Page):
 
     # ---- on the virtual bench ----------------------------------------------------------------------
 
-    def _bench(self) -> VirtualBench | None:
-        pair = self.bench.live.pair
-        return None if pair is None else pair.bench
-
     def _turn(self) -> None:
         """Have the virtual wrist turn to the pose that is proposed."""
-        bench = self._bench()
+        bench = self.bench.live.bench
         R_WS = None
         if self.run.check is not None:
             R_WS = self.run.check.proposal
@@ -396,6 +391,6 @@ class GravityPage(Page):
             bench.turn_to(R_WS)
 
     def _bump(self) -> None:
-        bench = self._bench()
+        bench = self.bench.live.bench
         if bench is not None:
             bench.bump(_BUMP_N)

@@ -70,7 +70,7 @@ class WeightPanel(KnownCheckPanel):
         self.take(StillReading(), read)
 
     def _read_loaded(self) -> None:
-        bench, reading = self.virtual, self.bench.live.reading()
+        bench, reading = self.bench.live.bench, self.bench.live.reading()
         if bench is not None and reading is not None and np.isfinite(reading.R_WS).all():
             down = (
                 STANDARD_GRAVITY * self.mass.value() * (reading.R_WS.T @ [0.0, 0.0, -1.0])

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QLayout
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
 _LEVELS = {Outcome.PASSED: GOOD, Outcome.UNDECIDED: USABLE, Outcome.FAILED: REFUSE}
 
@@ -159,11 +158,9 @@ class KnownCheckPanel(QGroupBox):
         self.bench.jobs.start(title, lambda *_: work(), over, wrong)
 
     def _wrong(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if not self._closed:
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
             self.hint.setText(said(str(error)))
-            self.bench.tell(Weight.ERROR, str(error))
 
     # ---- what it shows -----------------------------------------------------------------------------
 
@@ -194,9 +191,3 @@ class KnownCheckPanel(QGroupBox):
         self.cancel.setEnabled(not self._busy)
         self.hint.setVisible(bool(self.hint.text()))
         self.changed.emit()
-
-    @property
-    def virtual(self) -> VirtualBench | None:
-        """The virtual bench, if one is open."""
-        pair = self.bench.live.pair
-        return None if pair is None else pair.bench

@@ -203,10 +203,8 @@ class VerifyPage(Page):
         self._read()
 
     def _not_read(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if not self._closed:
-            self.bench.tell(Weight.ERROR, str(error))
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
 
     def _load_tool(self) -> None:
         """Load probe and calibration, if they are others than before."""
@@ -281,10 +279,8 @@ class VerifyPage(Page):
                 return
             self.bench.set_running(Step.VERIFY, self.work.going_on)
             self._allow()
-            if not isinstance(error, InputError):
-                raise error
+            self.bench.tell_error(error)
             self.panel_touch.say(str(error))
-            self.bench.tell(Weight.ERROR, str(error))
 
         self._job = self.bench.jobs.start(title, work, over, wrong)
 

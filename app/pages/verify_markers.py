@@ -203,9 +203,7 @@ class MarkersPanel(QWidget):
             self._bench.jobs.start(text, lambda *_: make(), lambda made: self.push(made, text), self._wrong)
 
     def _wrong(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        self._bench.tell(Weight.WARNING, str(error))
+        self._bench.tell_error(error, Weight.WARNING)
 
     # ---- edits ---------------------------------------------------------------------------------------
 

@@ -72,7 +72,7 @@ class PointPanel(KnownCheckPanel):
 
     def began(self) -> None:
         """Have the virtual bench press, where there is one."""
-        bench, name = self.virtual, self.point.currentText()
+        bench, name = self.bench.live.bench, self.point.currentText()
         if bench is not None and name in self._points:
             point = np.array(self._points[name]) / 1e3
             bench.touch(point_S=point, force=_PRESS_N, seconds=_PRESS_S)

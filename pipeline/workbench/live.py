@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.streams import Pair
 
 _KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
@@ -376,6 +377,11 @@ class Live:
         if pair is None:
             return None
         return pair.sensor.health, None if pair.poses is None else pair.poses.health
+
+    @property
+    def bench(self) -> VirtualBench | None:
+        """The virtual bench; None: none is open."""
+        return None if self.pair is None else self.pair.bench
 
     @property
     def opening(self) -> bool:

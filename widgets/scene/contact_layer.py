@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.widgets.scene.label import Label
-from contactbench.widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
+from contactbench.widgets.scene.shapes import disc, frame_on, rim, ring_segments, segments
 from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ class ContactLayer:
     def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._disc = Shape(stage, disc())
-        rim = circle()
-        self._rim = Shape(stage, segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3)))
+        self._rim = Shape(stage, rim())
         self._dot = Shape(stage, disc())
         self._lost = Shape(stage, vtkPolyData())
         for shape, lift in ((self._disc, 1.0), (self._lost, 1.1), (self._rim, 1.2), (self._dot, 1.3)):

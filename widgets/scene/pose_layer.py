@@ -9,12 +9,12 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.widgets.scene.label import Label
 from contactbench.widgets.scene.shapes import (
-    circle,
     cone,
     cylinder,
     disc,
     frame_on,
     homogeneous,
+    rim,
     segments,
     triangles,
 )
@@ -64,7 +64,7 @@ class PoseLayer:
         self._down = Arrow(stage, turns=False)
         self._down_word = Label(stage, offset=(8.0, 0.0))
         self._floor = Shape(stage, vtkPolyData(), live=False, turns=False)
-        self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, _rim())
+        self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, rim())
         self.dark = self.in_world = False
         self._ghost.look.BackfaceCullingOn()
         for arrow in self._frame:
@@ -211,8 +211,3 @@ def _tool(size: float) -> Any:
         low + _SIDES + here,
     ]
     return triangles(vertices, np.stack(np.broadcast_arrays(*corners), axis=-1).reshape(-1, 3))
-
-
-def _rim() -> Any:
-    rim = circle()
-    return segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3))

@@ -291,8 +291,9 @@ def _missing(judge: Judge) -> str:
     """Return what has to be done before contacts can be found; empty: nothing."""
     calibration, probe = judge.of("calibration"), judge.of("probe")
     if calibration.found is None:
-        also = " and prepare the probe" if probe.found is None else ""
-        return f"Calibrate gravity{also} first."
+        if probe.found is None:
+            return "Calibrate gravity and prepare the probe first."
+        return "Calibrate gravity first."
     if judge.verdict("calibration").get("level") == "refuse":
         return "The calibration was refused: calibrate gravity again first."
     return "" if probe.found is not None else "Prepare the probe first."
@@ -391,6 +392,6 @@ def results_of(state: State) -> Mapping[str, str]:
 
 def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
-    for kind, what in (("calibration", "Calibrate"), ("probe", "Prepare the probe")):
+    for kind, what in (("calibration", "Calibrate first."), ("probe", "Prepare the probe first.")):
         if state.newest(kind) is None:
-            raise InputError(f"There is no {kind} yet: nothing can be exported. {what} first.")
+            raise InputError(f"There is no {kind} yet: nothing can be exported. {what}")

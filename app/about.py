@@ -6,10 +6,12 @@ import re
 from dataclasses import dataclass
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 
-from PySide6.QtCore import QCoreApplication, Qt
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtWidgets import QLabel, QTextBrowser, QWidget
 
 from contactbench import __version__
+from contactbench.app.dialogs import ShowDialog
+from contactbench.widgets.controls import plain_label
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 _LONGEST = 60
@@ -18,7 +20,7 @@ _BUNDLED = ("vtk",)  # needed by a part, and large enough to be named
 
 
 @dataclass(frozen=True)
-class Part:
+class LicensedPart:
     """A part that is installed: its name, version and licence."""
 
     name: str
@@ -26,7 +28,7 @@ class Part:
     licence: str
 
 
-def parts() -> tuple[Part, ...]:
+def parts() -> tuple[LicensedPart, ...]:
     """Return what contactbench needs and is there, as their own metadata say."""
     try:
         needed = distribution("contactbench").requires or []
@@ -40,7 +42,7 @@ def parts() -> tuple[Part, ...]:
             part = distribution(name)
         except PackageNotFoundError:
             continue
-        found.append(Part(name, part.version, _licence(part)))
+        found.append(LicensedPart(name, part.version, _licence(part)))
     return tuple(found)
 
 
@@ -57,15 +59,13 @@ def _licence(part: Distribution) -> str:
     return given[:_LONGEST] or QCoreApplication.translate("AboutDialog", "see its own files")
 
 
-class AboutDialog(QDialog):
-    """Goes when it is closed."""
+class AboutDialog(ShowDialog):
+    """The version, and the licences of the parts."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        super().__init__("", (620, 520), parent)
         self.setWindowTitle(self.tr("About contactbench"))
-        title = QLabel(self.tr("contactbench {}").format(__version__))
-        title.setProperty("role", "title")
+        title = plain_label(self.tr("contactbench {}").format(__version__), "title")
         words = QLabel(
             self.tr(
                 "Finds where a probe is touched, from one force/torque sensor, and how sure that is. Licensed under"
@@ -80,12 +80,4 @@ class AboutDialog(QDialog):
             for part in parts()
         )
         self.licences.setHtml(f"<table>{rows}</table>")
-        buttons = QDialogButtonBox()
-        buttons.addButton(self.tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
-        buttons.rejected.connect(self.close)
-        layout = QVBoxLayout(self)
-        for widget in (title, words, QLabel(self.tr("Its parts and their licences:"))):
-            layout.addWidget(widget)
-        layout.addWidget(self.licences, 1)
-        layout.addWidget(buttons)
-        self.resize(620, 520)
+        self.fill(title, words, QLabel(self.tr("Its parts and their licences:")), self.licences)

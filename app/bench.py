@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
 
 from contactbench.app.jobs import Jobs
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,22 +35,12 @@ class Weight(StrEnum):
 
 
 @dataclass(frozen=True)
-class Message:
-    """
-    Something to tell.
-
-    Attributes
-    ----------
-    weight : Weight
-    text : str
-        What happened, why it matters, what to do.
-    details : str
-        For who asks, such as a stack trace.
-    """
+class Notice:
+    """Something to tell."""
 
     weight: Weight
-    text: str
-    details: str = ""
+    text: str  # What happened, why it matters, what to do
+    details: str = ""  # For who asks, such as a stack trace
 
 
 class Bench(QObject):
@@ -97,7 +88,13 @@ class Bench(QObject):
 
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
-        self.told.emit(Message(weight, text, details))
+        self.told.emit(Notice(weight, text, details))
+
+    def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
+        """Put into the list why something was refused; what nobody expected is raised, for the hook."""
+        if not isinstance(error, InputError):
+            raise error
+        self.tell(weight, str(error))
 
     def do(
         self,
@@ -125,6 +122,14 @@ class Bench(QObject):
             self.failed.pop(step, None)
         if self.failed != before:
             self.changed.emit()
+
+    @property
+    def connected(self) -> bool:
+        """Whether samples come."""
+        from contactbench.pipeline.devices.stream import State
+
+        health = self.live.health
+        return health is not None and health[0].state is State.STREAMING
 
     @property
     def ending(self) -> bool:

@@ -61,9 +61,7 @@ def view(
 
 def check_screen() -> None:
     """InputError, with the remedy, if no window can be opened: Qt itself would end the process without a word."""
-    missing = [
-        name for name in ("PySide6", "pyvista", "pyvistaqt", "pyqtgraph", "superqt") if not find_spec(name)
-    ]
+    missing = [name for name in ("PySide6", "pyvista", "pyvistaqt", "pyqtgraph") if not find_spec(name)]
     if missing:
         raise InputError(
             f"the window needs {', '.join(missing)}, which is not installed: run pip install 'contactbench[gui]'."

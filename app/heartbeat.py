@@ -15,22 +15,14 @@ _LONG_S = 0.1
 
 @dataclass(frozen=True)
 class Stalls:
-    """
-    How late the beats came.
-
-    Attributes
-    ----------
-    beats : int
-    longest, p99 : float
-        s; 99 of 100 beats were at most `p99` late.
-    worked : float
-        Longest time that the GUI thread itself worked between two beats, s, drawing included. What a stall is longer
-        than that, others had the processors or the interpreter.
-    """
+    """How late the beats came."""
 
     beats: int
+    # longest, p99: s; 99 of 100 beats were at most `p99` late
     longest: float
     p99: float
+    # Longest time that the GUI thread itself worked between two beats, s, drawing included. What a stall
+    # is longer than that, others had the processors or the interpreter
     worked: float
 
 

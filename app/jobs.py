@@ -7,7 +7,6 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
-from superqt.utils import WorkerBase
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,23 +63,17 @@ class Job(QObject):
             self.progressed.emit(share)
 
 
-class _NoSignals:
-    """In place of the worker's own signals: a worker may be freed in its thread, and a QObject may not."""
+class _Work:
+    """What is done in a thread; what it holds may be widgets, and is let go of in the GUI thread, by `forget`."""
 
-
-class _Worker(WorkerBase[Any]):
     def __init__(self, job: Job, work: Callable[..., Any]) -> None:
-        super().__init__(SignalsClass=_NoSignals)  # type: ignore[arg-type]
         self._job = job
         self._do: Callable[..., Any] | None = work
 
     def forget(self) -> None:
-        """Let go of what it held; in the GUI thread, for it may be widgets."""
         self._do = None
 
     def run(self) -> None:
-        # Not the inherited one: it exchanges the warning filters of the whole process, which two workers at once
-        # would leave exchanged, and it drops a RuntimeError.
         do = self._do
         if do is None:
             return
@@ -90,7 +83,7 @@ class _Worker(WorkerBase[Any]):
             del do
             self._job._errored.emit(error)
         else:
-            del do  # what it holds may be widgets: let go of in the GUI thread, by `forget`
+            del do
             self._job._returned.emit(result)
 
 
@@ -130,11 +123,9 @@ class Jobs(QObject):
             Get what it returned or raised, in the GUI thread; without `failed`, the signal tells.
         """
         job = self._job(title, done, failed, stoppable=True)
-        worker = _Worker(job, work)
-        self._running[job] = worker
+        self._running[job] = begun = _Work(job, work)
         self.started.emit(job)
-        # Not the worker itself: a pool that is given one, and does not delete it, keeps it for ever.
-        self._pool.start(worker.run)
+        self._pool.start(begun.run)
         return job
 
     def follow(
@@ -170,9 +161,9 @@ class Jobs(QObject):
         return job
 
     def _over(self, job: Job) -> None:
-        worker = self._running.pop(job, None)
-        if isinstance(worker, _Worker):
-            worker.forget()
+        work = self._running.pop(job, None)
+        if isinstance(work, _Work):
+            work.forget()
         job.finished.emit()
         job.deleteLater()
 

@@ -22,47 +22,26 @@ VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
 
 @dataclass(frozen=True)
-class Opened:
-    """
-    A session that can be worked on.
-
-    Attributes
-    ----------
-    desk : Desk
-    unfinished : tuple of str
-        Recordings in it whose making was cut short.
-    found : tuple of str
-        What its salvage found, in sentences.
-    why_read_only : str
-        "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be.
-    """
+class OpenedSession:
+    """A session that can be worked on."""
 
     desk: Desk
-    unfinished: tuple[str, ...]
-    found: tuple[str, ...] = ()
+    unfinished: tuple[str, ...]  # Recordings in it whose making was cut short
+    found: tuple[str, ...] = ()  # What its salvage found, in sentences
+    # "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be
     why_read_only: str = ""
 
 
 @dataclass(frozen=True)
-class Problem:
-    """
-    Why a session was not opened.
-
-    Attributes
-    ----------
-    sentence : str
-    readable : bool
-        Whether it can be opened read-only nevertheless.
-    damaged : bool
-        Whether a copy of what is whole may be made.
-    """
+class OpeningProblem:
+    """Why a session was not opened."""
 
     sentence: str
-    readable: bool = False
-    damaged: bool = False
+    readable: bool = False  # Whether it can be opened read-only nevertheless
+    damaged: bool = False  # Whether a copy of what is whole may be made
 
 
-def open_session(folder: Path, *, write: bool = True) -> Opened:
+def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
     """
     Open a session, read-only where its folder cannot be written; waits for the disk.
 
@@ -87,13 +66,13 @@ def open_session(folder: Path, *, write: bool = True) -> Opened:
         return open_session(folder, write=False)
     try:
         left = tuple(unfinished(folder)) if write else ()
-        return Opened(Desk(session), left, why_read_only=_why_read_only(session))
+        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session))
     except BaseException:
         session.close()
         raise
 
 
-def new_session(folder: Path) -> Opened:
+def new_session(folder: Path) -> OpenedSession:
     """Make a session in a folder that is new or empty. SessionError, InputError: it cannot be made."""
     from contactbench.pipeline.session import Session, SessionError
     from contactbench.pipeline.workbench.desk import Desk
@@ -104,10 +83,10 @@ def new_session(folder: Path) -> Opened:
         raise SessionError(
             f"{folder.parent}: the folder cannot be made ({error}): choose another place."
         ) from error
-    return Opened(Desk(Session.create(folder)), ())
+    return OpenedSession(Desk(Session.create(folder)), ())
 
 
-def virtual_session(folder: Path) -> Opened:
+def virtual_session(folder: Path) -> OpenedSession:
     """Make, or open, a session whose devices are those of a virtual bench."""
     opened = open_session(folder) if (folder / "journal").exists() else new_session(folder)
 
@@ -135,7 +114,7 @@ def free_folder(parent: Path, name: str) -> Path:
     return candidate
 
 
-def salvaged(folder: Path, elsewhere: Path) -> Opened:
+def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     """
     Salvage a copy beside a damaged session, and open it.
 
@@ -191,14 +170,14 @@ def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
         return ()
 
 
-def problem_with(error: BaseException) -> Problem | None:
+def problem_with(error: BaseException) -> OpeningProblem | None:
     """Return why a session was not opened, in words; None for an error that nobody expected."""
     from contactbench.pipeline.session import JournalError, SessionLockedError
 
     if not isinstance(error, (InputError, OSError)):
         return None
     damaged = isinstance(error, JournalError)
-    return Problem(str(error), damaged or isinstance(error, SessionLockedError), damaged)
+    return OpeningProblem(str(error), damaged or isinstance(error, SessionLockedError), damaged)
 
 
 def holds_session(folder: Path) -> bool:

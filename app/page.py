@@ -15,10 +15,6 @@ class Page(QWidget):
     """
     The controls of one step, on the right of the window.
 
-    Parameters
-    ----------
-    bench : Bench
-
     Attributes
     ----------
     step : Step

@@ -21,47 +21,24 @@ _HOME = "CONTACTBENCH_HOME"  # a folder for settings, logs and sessions, instead
 
 @dataclass(frozen=True)
 class Recent:
-    """
-    A session that was open.
-
-    Attributes
-    ----------
-    folder : str
-    opened : str
-        When, ISO 8601, UTC.
-    page : str
-        The step that was shown.
-    done : str
-        How far it was, for people.
-    """
+    """A session that was open."""
 
     folder: str
-    opened: str = ""
-    page: str = ""
-    done: str = ""
+    opened: str = ""  # When, ISO 8601, UTC
+    page: str = ""  # The step that was shown
+    done: str = ""  # How far it was, for people
 
 
 @dataclass(frozen=True)
 class Remembered:
-    """
-    What is in the file.
+    """What is in the file."""
 
-    Attributes
-    ----------
-    theme : "system", "light" or "dark"
-    language : str
-        Such as "de"; empty: the computer's.
-    geometry, docks : str
-        Of the window, as Qt gives them, in base 64.
-    recent : tuple of Recent
-        Newest first.
-    """
-
-    theme: str = "system"
-    language: str = ""
+    theme: str = "system"  # "system", "light" or "dark"
+    language: str = ""  # Such as "de"; empty: the computer's
+    # geometry, docks: Of the window, as Qt gives them, in base 64
     geometry: str = ""
     docks: str = ""
-    recent: tuple[Recent, ...] = field(default_factory=tuple)
+    recent: tuple[Recent, ...] = field(default_factory=tuple)  # Newest first
 
 
 def own_folder(kind: str) -> Path:

@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.opening import holds_session
+from contactbench.widgets.controls import accent
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -71,7 +71,7 @@ class StartPage(QWidget):
         column.addWidget(words)
         column.addSpacing(8)
         column.addLayout(self._buttons())
-        self.question = Question()
+        self.question = QuestionCard()
         self.question.asked.connect(lambda on: accent(self.virtual_button, not on))
         self.question.asked.connect(
             lambda on: self.virtual_button.setIcon(icon("play", "text" if on else "panel"))
@@ -153,7 +153,7 @@ class StartPage(QWidget):
         self.chosen.emit(Path(item.data(Qt.ItemDataRole.UserRole)))
 
 
-class Question(QFrame):
+class QuestionCard(QFrame):
     """A sentence with what can be done about it; stays where it is until something is chosen."""
 
     asked = Signal(bool)

@@ -11,23 +11,22 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
+from contactbench.app.disk_watch import DamageCheck, DiskWatch
 from contactbench.app.errors import in_words
 from contactbench.app.garbage import Garbage
 from contactbench.app.heartbeat import Heartbeat
 from contactbench.app.jobs import Jobs
+from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import Settings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.turns import Turns
-from contactbench.app.window_damage import DamageCheck
-from contactbench.app.window_disk import DiskWatch
 from contactbench.app.window_docks import Docks, geometry_text, restore_geometry
-from contactbench.app.window_header import Header
+from contactbench.app.window_header import HeaderBar
 from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
 from contactbench.app.window_probe import SessionProbe
 from contactbench.app.window_sessions import Sessions
-from contactbench.app.window_told import Told
 from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.widgets.progress_strip import ProgressStrip
 from contactbench.widgets.theme import is_dark, use_theme
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.errors import Faults, LogFile
     from contactbench.app.jobs import Job
-    from contactbench.app.opening import Opened
+    from contactbench.app.opening import OpenedSession
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
@@ -87,10 +86,10 @@ class MainWindow(QMainWindow):
         # which blinks, stands still, and has crashed.
         QOpenGLWidget(self._middle).hide()
         self.setCentralWidget(self._middle)
-        self.docks, self.header = Docks(self), Header()
+        self.docks, self.header = Docks(self), HeaderBar()
         self.addToolBar(self.header)
         self.steps, self.messages = self.docks.steps, self.docks.messages
-        self._told = Told(self.docks, lambda: None if self._ending else self.bench, self)
+        self._router = MessageRouter(self.docks, lambda: None if self._ending else self.bench, self)
         self.pages, self.live = Pages(self.docks.pages, self), LiveView(self)
         self._probe = SessionProbe(self)
         self.pages.judged.connect(self.steps.show_statuses)
@@ -105,7 +104,7 @@ class MainWindow(QMainWindow):
         self._connect(faults)
         self._turns.failed.connect(self._not_shown)
         self._disk: DiskWatch | None = None
-        self._arriving: Opened | None = None
+        self._arriving: OpenedSession | None = None
         self._tick = QTimer(self, interval=_TICK_MS)
         self._tick.timeout.connect(self._show_live)
         self._slow = QTimer(self, interval=_SLOW_MS)
@@ -132,15 +131,15 @@ class MainWindow(QMainWindow):
         self.sessions.wanted.connect(self._make_room)
         self.sessions.told.connect(self.tell)
         self._watch(self.jobs)
-        self.heartbeat.stalled.connect(self._told.stalled)
+        self.heartbeat.stalled.connect(self._router.stalled)
         if faults is not None:
-            faults.happened.connect(self._told.fault)
+            faults.happened.connect(self._router.fault)
 
     # ---- messages ----------------------------------------------------------------------------------
 
     def tell(self, weight: str, text: str, details: str = "") -> None:
         """Put a message into the list; one that matters makes the list be seen."""
-        self._told.tell(weight, text, details)
+        self._router.tell(weight, text, details)
 
     # ---- work --------------------------------------------------------------------------------------
 
@@ -149,11 +148,11 @@ class MainWindow(QMainWindow):
 
     def _watch(self, jobs: Jobs) -> None:
         jobs.started.connect(self.strip.watch)
-        jobs.failed.connect(self._told.job_failed)
+        jobs.failed.connect(self._router.job_failed)
 
     # ---- a session ---------------------------------------------------------------------------------
 
-    def _show_session(self, opened: Opened, step: Step | None) -> None:
+    def _show_session(self, opened: OpenedSession, step: Step | None) -> None:
         """Make room for a session, and show it: in turns, for all of it at once is a window that hangs."""
         self._arriving = opened
         self.start.set_busy(True)
@@ -179,12 +178,12 @@ class MainWindow(QMainWindow):
         assert self.scene is not None  # noqa: S101 - just made
         self._middle.setCurrentWidget(self.scene)
 
-    def _begin(self, opened: Opened) -> None:
+    def _begin(self, opened: OpenedSession) -> None:
         assert self.scene is not None  # noqa: S101 - just made
         self._arriving = None
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
-        bench.told.connect(self._told.message)
+        bench.told.connect(self._router.message)
         self._disk = DiskWatch(bench)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
@@ -333,7 +332,7 @@ class MainWindow(QMainWindow):
         self.pages.watch()
         if self._disk is not None:
             self._disk.look()
-        if self.live.connected != self._connected:
+        if bench.connected != self._connected:
             self._connected = not self._connected
             self.pages.read_statuses()
 

@@ -20,15 +20,7 @@ _LOW, _CHART_SHARE = 900, 0.6
 
 
 class Docks:
-    """
-    The docks of a window.
-
-    Attributes
-    ----------
-    steps : StepList
-    pages : QStackedWidget
-    messages : MessageList
-    """
+    """The docks of a window."""
 
     def __init__(self, window: QMainWindow) -> None:
         self._window = window

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _ICON_PX = 22
 
 
-class Header(QToolBar):
+class HeaderBar(QToolBar):
     """The session's name, its devices in one line, and a few actions."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from contactbench.app.bench import Weight
-from contactbench.app.window_statuses import is_connected
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -82,11 +81,6 @@ class LiveView(QObject):
             bench.tell(Weight.WARNING, words.format(reason))
 
         bench.jobs.start(self.tr("Opening the devices"), work, None, failed)
-
-    @property
-    def connected(self) -> bool:
-        """Whether samples come."""
-        return self._bench is not None and is_connected(self._bench)
 
     def tick(self) -> None:
         """Show the newest samples in the charts; a fault is told once, and leaves the charts as they are."""

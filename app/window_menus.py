@@ -12,9 +12,7 @@ from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
 from contactbench.app.bench import Weight
-from contactbench.app.help_pages import page_text
-from contactbench.app.help_text import TextDialog
-from contactbench.app.shortcuts import CheatSheet
+from contactbench.app.dialogs import CheatSheet, TextDialog, page_text
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
 from contactbench.pipeline.workbench.steps import Step
@@ -25,7 +23,6 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QMenu, QWidget
 
-    from contactbench.app.about import AboutDialog
     from contactbench.app.motion import MotionWindow
     from contactbench.app.window import MainWindow
 
@@ -33,13 +30,7 @@ _KEY = QKeySequence.StandardKey
 
 
 class Menus(QObject):
-    """
-    Every menu of a window.
-
-    Attributes
-    ----------
-    undo, redo, help_here : QAction
-    """
+    """Every menu of a window."""
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
@@ -141,11 +132,11 @@ class Menus(QObject):
         step = self._window.pages.step
         name = "start" if step is None else step.value
         title = self.tr("Help") if step is None else self._window.steps.name_of(step)
-        self._open(TextDialog(title, page_text(name), self._window, markdown=True))
+        TextDialog(title, page_text(name), self._window, markdown=True).open()
 
     def show_shortcuts(self) -> None:
         """Show all keys."""
-        self._open(CheatSheet(self._window))
+        CheatSheet(self._window).open()
 
     def show_log(self) -> None:
         """Show the log."""
@@ -158,13 +149,13 @@ class Menus(QObject):
         text = self.tr("No log is kept.") if log is None else f"{log.file}\n\n{log.read()}"
         dialog = TextDialog(self.tr("Log"), f"{head}\n{text}", self._window)
         dialog.view.moveCursor(dialog.view.textCursor().MoveOperation.End)
-        self._open(dialog)
+        dialog.open()
 
     def show_about(self) -> None:
         """Show the version, and the licences of the parts."""
         from contactbench.app.about import AboutDialog
 
-        self._open(AboutDialog(self._window))
+        AboutDialog(self._window).open()
 
     def show_heatmap_viewer(self) -> None:
         """Show the heatmap viewer in a window of its own."""
@@ -269,9 +260,6 @@ class Menus(QObject):
             action.setCheckable(True)
             action.setChecked(value == now)
             group.addAction(action)
-
-    def _open(self, dialog: TextDialog | AboutDialog | CheatSheet) -> None:
-        dialog.open()
 
     def _list_recent(self) -> None:
         self._recent.clear()

@@ -10,10 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from contactbench.app.page import Page
-from contactbench.app.window_statuses import statuses_of
-from contactbench.app.window_wheels import guard_wheels
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
-from contactbench.widgets.finish import finish
+from contactbench.widgets.controls import finish, guard_wheels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.statuses import Facts
+    from contactbench.pipeline.workbench.standings import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
 
@@ -145,7 +143,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from contactbench.pipeline.workbench.statuses import read_facts
+        from contactbench.pipeline.workbench.standings import read_facts
 
         folder, state = bench.desk.folder, bench.desk.state
         if state.count == self._read:
@@ -160,9 +158,16 @@ class Pages(QObject):
         bench.jobs.start(self.tr("Looking at the session"), lambda _p, _c: read_facts(folder, state), came)
 
     def _judge(self) -> None:
-        if self._bench is None:
+        bench = self._bench
+        if bench is None:
             return
-        self.statuses = statuses_of(self._bench, self._facts)
+
+        from contactbench.pipeline.workbench.standings import statuses
+
+        desk = bench.desk
+        self.statuses = statuses(
+            desk.state, desk.stale, bench.running, bench.connected, bench.failed, self._facts
+        )
         self.judged.emit(self.statuses)
         if self.step is not None:
             self._tell_state(self.step)

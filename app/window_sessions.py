@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QFileDialog
 
 from contactbench.app.errors import in_words
 from contactbench.app.opening import (
-    Opened,
-    Problem,
+    OpenedSession,
+    OpeningProblem,
     adopt,
     free_folder,
     holds_session,
@@ -22,8 +22,8 @@ from contactbench.app.opening import (
     salvaged,
     virtual_session,
 )
+from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
-from contactbench.app.window_reading import ReadOnlyView
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _NEEDED = (
     "contactbench.widgets.scene",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
-    "contactbench.pipeline.workbench.statuses",
+    "contactbench.pipeline.workbench.standings",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
@@ -50,7 +50,7 @@ class Sessions(QObject):
 
     Signals
     -------
-    opened : Opened, Step or None
+    opened : OpenedSession, Step or None
         A session, and the page that it should begin with.
     wanted
         Another session is asked for: the one that is open must be closed first, then `proceed` be called.
@@ -68,7 +68,7 @@ class Sessions(QObject):
         window.shown.connect(self._say_read_only)
         self._start, self._jobs, self._settings = start, jobs, settings
         self._next: Callable[[], None] | None = None
-        self._waiting: Opened | None = None
+        self._waiting: OpenedSession | None = None
         start.virtual.connect(self.try_virtual)
         start.new.connect(self.ask_new)
         start.browse.connect(self.ask_open)
@@ -93,7 +93,7 @@ class Sessions(QObject):
     def try_virtual(self, folder: Path | None = None) -> None:
         """Make a session on a virtual bench, or go on with it where there is one."""
 
-        def work(_progress: object, _cancelled: object) -> Opened:
+        def work(_progress: object, _cancelled: object) -> OpenedSession:
             place = folder or free_folder(self._settings.sessions, "virtual bench")
             return virtual_session(place)
 
@@ -163,7 +163,7 @@ class Sessions(QObject):
     def _begin(
         self,
         title: str,
-        work: Callable[[object, object], Opened],
+        work: Callable[[object, object], OpenedSession],
         step: Step | None,
         folder: Path | None = None,
     ) -> None:
@@ -171,7 +171,7 @@ class Sessions(QObject):
         self._start.question.clear()
         self._start.set_busy(True)
 
-        def prepared(progress: object, cancelled: object) -> Opened:
+        def prepared(progress: object, cancelled: object) -> OpenedSession:
             for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
                 import_module(name)
             return work(progress, cancelled)
@@ -183,7 +183,7 @@ class Sessions(QObject):
             lambda error: self._refused(error, folder),
         )
 
-    def _came(self, opened: Opened, step: Step | None) -> None:
+    def _came(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(False)
         self._why_read_only = opened.why_read_only
         for sentence in opened.found:
@@ -223,7 +223,7 @@ class Sessions(QObject):
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
 
-    def _adopt(self, opened: Opened, step: Step | None) -> None:
+    def _adopt(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(True)
 
         def adopted(what: tuple[tuple[str, ...], tuple[str, ...]]) -> None:
@@ -246,7 +246,7 @@ class Sessions(QObject):
             failed,
         )
 
-    def _go_on(self, opened: Opened, step: Step | None) -> None:
+    def _go_on(self, opened: OpenedSession, step: Step | None) -> None:
         self._waiting = None
         self.opened.emit(opened, step)
 
@@ -255,7 +255,7 @@ class Sessions(QObject):
         problem = problem_with(error)
         if problem is None:
             sentence, details, _ = in_words(error)
-            problem = Problem(self.tr("The session could not be opened: {}").format(sentence), False)
+            problem = OpeningProblem(self.tr("The session could not be opened: {}").format(sentence), False)
             self.told.emit("error", problem.sentence, details)
         answers: list[tuple[str, Callable[[], None]]] = [(self.tr("Choose another session"), self.ask_open)]
         if folder is not None:

@@ -84,7 +84,7 @@ _SECTIONS = ("Begin", "At the bench", "Use", "Try")
 
 # Who needs a package that is not there, by the name that is imported: the extra that brings it.
 _EXTRAS = {
-    **dict.fromkeys(("PySide6", "pyvista", "pyvistaqt", "pyqtgraph", "superqt", "vtkmodules"), "gui"),
+    **dict.fromkeys(("PySide6", "pyvista", "pyvistaqt", "pyqtgraph", "vtkmodules"), "gui"),
     **dict.fromkeys(("imageio", "imageio_ffmpeg"), "video"),
     "mujoco": "sim",
     "weasyprint": "pdf",

@@ -6,7 +6,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
@@ -14,20 +14,18 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QGridLayout,
     QLabel,
-    QPushButton,
-    QSizePolicy,
-    QVBoxLayout,
     QWidget,
 )
 
 from contactbench.widgets.alignment_points import PointTable
-from contactbench.widgets.alignment_stack import HeightStack
+from contactbench.widgets.controls import HeightStack, column, named, push_button, sentence_label
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy as np
     from numpy.typing import NDArray
+    from PySide6.QtWidgets import QLayout
 
 
 class Way(IntEnum):
@@ -73,20 +71,15 @@ class AlignmentPanel(QWidget):
             ]
         )
         self.way.setAccessibleName(self.tr("How the place of the mesh is given"))
-        self.stack = HeightStack()
-        for page in (
+        self.stack = HeightStack(
             self._numbers_page(),
             self._points_page(),
             self._flange_page(),
             self._touches_page(),
             self._shape_page(),
             self._file_page(),
-        ):
-            self.stack.add(page)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.way)
-        layout.addWidget(self.stack)
+        )
+        column(self, self.way, self.stack, space=6)
         self.way.currentIndexChanged.connect(self._show_way)
 
     @property
@@ -122,123 +115,84 @@ class AlignmentPanel(QWidget):
     # ---- the ways ----------------------------------------------------------------------------
 
     def _numbers_page(self) -> QWidget:
-        page = QWidget()
-        grid = QGridLayout(page)
+        grid = QGridLayout()
         grid.setContentsMargins(0, 0, 0, 0)
-        self.numbers = tuple(self._spin(1e4, " mm", 2) for _ in range(3)) + tuple(
-            self._spin(360.0, "°", 2) for _ in range(3)
-        )
-        grid.addWidget(
-            _said(self.tr("Where the mesh's origin lies, and how the mesh is turned:")), 0, 0, 1, 4
-        )
+        along = self.tr("The mesh's origin along {} of the sensor, in mm")
         turned = self.tr("Turned about the fixed axis {} of the sensor, in degrees; x first, then y, then z")
-        for row, axis in enumerate("xyz"):
-            for column, (words, spin) in enumerate(
-                (
-                    (self.tr("The mesh's origin along {} of the sensor, in mm"), self.numbers[row]),
-                    (turned, self.numbers[row + 3]),
-                )
-            ):
-                label = QLabel(axis if column == 0 else self.tr("about {}").format(axis))
-                label.setBuddy(spin)
-                spin.setToolTip(words.format(axis))
-                spin.setAccessibleName(words.format(axis))
-                grid.addWidget(label, row + 1, 2 * column)
-                grid.addWidget(spin, row + 1, 2 * column + 1)
-        self.place_numbers = self._button(self.tr("Place it so"), self._give_numbers)
-        grid.addWidget(self.place_numbers, 4, 0, 1, 4)
+        self.numbers = (
+            *(self._number(1e4, " mm", 2, along.format(axis)) for axis in "xyz"),
+            *(self._number(360.0, "°", 2, turned.format(axis)) for axis in "xyz"),
+        )
+        for place, (spin, axis) in enumerate(zip(self.numbers, 2 * "xyz", strict=True)):
+            part, line = divmod(place, 3)
+            label = QLabel(self.tr("about {}").format(axis) if part else axis)
+            label.setBuddy(spin)
+            grid.addWidget(label, line, 2 * part)
+            grid.addWidget(spin, line, 2 * part + 1)
         grid.setColumnStretch(1, 1)
         grid.setColumnStretch(3, 1)
-        return page
+        words = self.tr("Where the mesh's origin lies, and how the mesh is turned:")
+        self.place_numbers = push_button(self.tr("Place it so"), self._give_numbers)
+        return _page(sentence_label(words), grid, self.place_numbers)
 
     def _points_page(self) -> QWidget:
-        page, layout = _column()
-        layout.addWidget(
-            _said(
-                self.tr(
-                    "Click a place on the mesh, then type where it lies in the sensor frame. Three places, far from"
-                    " one another; a fourth shows a wrong one."
-                )
-            )
+        words = self.tr(
+            "Click a place on the mesh, then type where it lies in the sensor frame. Three places, far from"
+            " one another; a fourth shows a wrong one."
         )
         self.points = PointTable()
-        layout.addWidget(self.points)
-        self.place_points = self._button(
+        self.place_points = push_button(
             self.tr("Place it by these points"), lambda: self.points_given.emit(self.points.pairs())
         )
         self.place_points.setEnabled(False)
         self.points.changed.connect(lambda: self.place_points.setEnabled(self.points.complete))
-        layout.addWidget(self.place_points)
-        return page
+        return _page(sentence_label(words), self.points, self.place_points)
 
     def _flange_page(self) -> QWidget:
-        page, layout = _column()
-        self.flange_words = _said("")
-        layout.addWidget(self.flange_words)
-        form = QFormLayout()
-        self.clock = self._spin(360.0, "°", 2)
-        self.clock.setToolTip(self.tr("Angle of the second place from +x of the sensor about +z, degrees"))
-        form.addRow(self.tr("Second place at"), self.clock)
-        self.height_mm = self._spin(1e3, " mm", 3)
-        self.height_mm.setToolTip(self.tr("Height of the mounting plane above the sensor's origin, mm"))
-        form.addRow(self.tr("Height of the face"), self.height_mm)
-        layout.addLayout(form)
-        self.place_flange = self._button(self.tr("Put this face on the sensor"), self._give_flange)
-        layout.addWidget(self.place_flange)
-        self.forget = QPushButton(self.tr("Pick again"))
-        self.forget.clicked.connect(self._forget_flange)
-        layout.addWidget(self.forget)
+        self.flange_words, rows = sentence_label(), QFormLayout()
+        angle = self.tr("Angle of the second place from +x of the sensor about +z, degrees")
+        height = self.tr("Height of the mounting plane above the sensor's origin, mm")
+        self.clock = self._number(360.0, "°", 2, angle)
+        self.height_mm = self._number(1e3, " mm", 3, height)
+        rows.addRow(self.tr("Second place at"), self.clock)
+        rows.addRow(self.tr("Height of the face"), self.height_mm)
+        self.place_flange = push_button(self.tr("Put this face on the sensor"), self._give_flange)
+        self.forget = push_button(self.tr("Pick again"), self._forget_flange)
+        page = _page(self.flange_words, rows, self.place_flange, self.forget)
         self._show_flange()
         return page
 
     def _touches_page(self) -> QWidget:
-        page, layout = _column()
-        layout.addWidget(
-            _said(
-                self.tr(
-                    "Touch marked points of the probe, and choose the table of them: px, py, pz in the mesh, mm, and"
-                    " fx to mz in the sensor frame. The place above is where the search begins."
-                )
-            )
+        words = self.tr(
+            "Touch marked points of the probe, and choose the table of them: px, py, pz in the mesh, mm, and"
+            " fx to mz in the sensor frame. The place above is where the search begins."
         )
-        layout.addWidget(
-            self._button(
-                self.tr("Choose the touches..."),
-                lambda: self._ask(self.tr("Touches"), self.tr("Tables (*.csv)"), self.touches_given),
-            )
+        title, kinds = self.tr("Touches"), self.tr("Tables (*.csv)")
+        choose = push_button(
+            self.tr("Choose the touches..."), lambda: self._ask(title, kinds, self.touches_given)
         )
-        return page
+        return _page(sentence_label(words), choose)
 
     def _shape_page(self) -> QWidget:
-        page, layout = _column()
-        layout.addWidget(
-            _said(
-                self.tr(
-                    "The longest axis along z, the middle one along x. A guess that is good to begin with: look at it,"
-                    " and correct it by numbers or touches."
-                )
-            )
+        words = self.tr(
+            "The longest axis along z, the middle one along x. A guess that is good to begin with: look at it,"
+            " and correct it by numbers or touches."
         )
-        form = QFormLayout()
-        self.lowest = self._spin(1e3, " mm", 3)
-        self.lowest.setToolTip(self.tr("Height of the probe's lowest point above the sensor's origin, mm"))
-        form.addRow(self.tr("Lowest point at"), self.lowest)
-        layout.addLayout(form)
-        layout.addWidget(
-            self._button(self.tr("Place it by its shape"), lambda: self.shape_given.emit(self.lowest.value()))
+        name = self.tr("Height of the probe's lowest point above the sensor's origin, mm")
+        self.lowest, rows = self._number(1e3, " mm", 3, name), QFormLayout()
+        rows.addRow(self.tr("Lowest point at"), self.lowest)
+        place = push_button(
+            self.tr("Place it by its shape"), lambda: self.shape_given.emit(self.lowest.value())
         )
-        return page
+        return _page(sentence_label(words), rows, place)
 
     def _file_page(self) -> QWidget:
-        page, layout = _column()
-        layout.addWidget(_said(self.tr("An alignment that contactbench wrote before.")))
-        layout.addWidget(
-            self._button(
-                self.tr("Choose the alignment..."),
-                lambda: self._ask(self.tr("Alignment"), self.tr("Alignments (*.json)"), self.file_given),
-            )
+        words = self.tr("An alignment that contactbench wrote before.")
+        title, kinds = self.tr("Alignment"), self.tr("Alignments (*.json)")
+        choose = push_button(
+            self.tr("Choose the alignment..."), lambda: self._ask(title, kinds, self.file_given)
         )
-        return page
+        return _page(sentence_label(words), choose)
 
     # ---- what is asked for -----------------------------------------------------------------------
 
@@ -270,32 +224,12 @@ class AlignmentPanel(QWidget):
         if name:
             signal.emit(Path(name))  # type: ignore[attr-defined]
 
-    def _button(self, words: str, action: object) -> QPushButton:
-        button = QPushButton(words)
-        button.setMinimumHeight(36)
-        button.clicked.connect(lambda _checked=False: action())  # type: ignore[operator]
-        return button
-
-    def _spin(self, largest: float, unit: str, decimals: int) -> QDoubleSpinBox:
-        spin = QDoubleSpinBox()
-        spin.setRange(-largest, largest)
-        spin.setDecimals(decimals)
-        spin.setSuffix(unit)
-        spin.setMinimumWidth(70)
-        spin.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        spin.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        spin.setKeyboardTracking(False)
-        return spin
+    def _number(self, largest: float, unit: str, decimals: int, name: str) -> QDoubleSpinBox:
+        field = QDoubleSpinBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit)
+        return named(field, name, least=70)
 
 
-def _said(words: str) -> QLabel:
-    label = QLabel(words)
-    label.setWordWrap(True)
-    return label
-
-
-def _column() -> tuple[QWidget, QVBoxLayout]:
+def _page(*parts: QWidget | QLayout) -> QWidget:
     page = QWidget()
-    layout = QVBoxLayout(page)
-    layout.setContentsMargins(0, 0, 0, 0)
-    return page, layout
+    column(page, *parts, space=6)
+    return page

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
@@ -14,6 +13,8 @@ from contactbench.widgets.phrases import said
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.workbench.standings import CheckItem
+
 _ICONS = {
     "done": ("done", "good"),
     "stale": ("stale", "stale"),
@@ -24,33 +25,10 @@ _ICONS = {
 _ICON = 22
 
 
-@dataclass(frozen=True)
-class ShownCheck:
-    """
-    A line.
-
-    Attributes
-    ----------
-    name : str
-    state : {"done", "stale", "missing", "failed", "left out"}
-    sentence : str
-    target : object
-        What `wanted` hands on.
-    holds : bool
-        Nothing has to be done about it.
-    """
-
-    name: str
-    state: str
-    sentence: str
-    target: object
-    holds: bool
-
-
 class Checklist(QFrame):
     """Shows lines; each can be gone to."""
 
-    wanted = Signal(object)  # target of the line
+    wanted = Signal(object)  # Step of the line
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -59,9 +37,9 @@ class Checklist(QFrame):
         self._grid.setHorizontalSpacing(8)
         self._grid.setVerticalSpacing(8)
         self._grid.setColumnStretch(1, 1)
-        self._shown: tuple[ShownCheck, ...] = ()
+        self._shown: tuple[CheckItem, ...] = ()
 
-    def show_items(self, items: Sequence[ShownCheck]) -> None:
+    def show_items(self, items: Sequence[CheckItem]) -> None:
         """Show other lines."""
         if tuple(items) == self._shown:
             return
@@ -74,12 +52,13 @@ class Checklist(QFrame):
         for row, each in enumerate(self._shown):
             self._line(row, each)
 
-    def _line(self, row: int, item: ShownCheck) -> None:
+    def _line(self, row: int, item: CheckItem) -> None:
         sign = Sign(_ICON)
         sign.show_icon(icon(*_ICONS[item.state]))
         sign.setAccessibleName(self.word(item.state))
         self._grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
-        words = QLabel(f"<b>{item.name}</b> · {self.word(item.state)}<br>{_plain(said(item.sentence))}")
+        name = self.name_of(item)
+        words = QLabel(f"<b>{name}</b> · {self.word(item.state)}<br>{_plain(said(item.sentence))}")
         words.setTextFormat(Qt.TextFormat.RichText)
         words.setWordWrap(True)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
@@ -87,9 +66,22 @@ class Checklist(QFrame):
         if not item.holds:
             go = QPushButton(self.tr("Go there"))
             go.setMinimumHeight(36)
-            go.setAccessibleName(self.tr("Go to {name}").format(name=item.name))
-            go.clicked.connect(lambda _=False, target=item.target: self.wanted.emit(target))
+            go.setAccessibleName(self.tr("Go to {name}").format(name=name))
+            go.clicked.connect(lambda _=False, step=item.step: self.wanted.emit(step))
             self._grid.addWidget(go, row, 2, Qt.AlignmentFlag.AlignTop)
+
+    def name_of(self, item: CheckItem) -> str:
+        """Return what a line is called."""
+        return {
+            "Sensor": self.tr("Sensor"),
+            "Calibration": self.tr("Calibration"),
+            "Probe": self.tr("Probe"),
+            "Regions": self.tr("Regions"),
+            "Verification": self.tr("Verification"),
+            "Known weight": self.tr("Known weight"),
+            "Known touch": self.tr("Known touch"),
+            "Report": self.tr("Report"),
+        }.get(item.name, item.name)
 
     def word(self, state: str) -> str:
         """Return a state in a word."""

@@ -13,7 +13,7 @@ from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.live_trial import Trial
+    from contactbench.pipeline.workbench.live_trial import ConnectionTrial
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _ICON_PX = 24
@@ -45,7 +45,7 @@ class DeviceTrial(QFrame):
         box.addWidget(self._findings)
         self.show_trial(None)
 
-    def show_trial(self, trial: Trial | None) -> None:
+    def show_trial(self, trial: ConnectionTrial | None) -> None:
         """Show what was measured; None: nothing is open."""
         name, colour, words = self._standing(trial)
         self._icon.show_icon(icon(name, colour))
@@ -64,7 +64,7 @@ class DeviceTrial(QFrame):
         """All that is said, as text."""
         return "\n".join(label.text() for label in (self._state, self._rate, self._facts, self._findings))
 
-    def _standing(self, trial: Trial | None) -> tuple[str, str, str]:
+    def _standing(self, trial: ConnectionTrial | None) -> tuple[str, str, str]:
         if trial is None:
             return "ready", "muted", self.tr("Not connected")
         if trial.state is State.STREAMING:
@@ -77,7 +77,7 @@ class DeviceTrial(QFrame):
             State.LOST: ("failed", "bad", self.tr("Lost")),
         }.get(trial.state, ("stop", "muted", self.tr("Ended")))
 
-    def _counted(self, trial: Trial) -> str:
+    def _counted(self, trial: ConnectionTrial) -> str:
         gaps = self.tr("no gaps")
         if trial.gaps:
             gaps = self.tr("gaps in 5 s: {count}, the longest {longest:.0f} ms").format(
@@ -123,12 +123,14 @@ class DeviceChannels(QWidget):
             self._cells.append(cells)
         self.show_trial(None)
 
-    def show_trial(self, trial: Trial | None) -> None:
+    def show_trial(self, trial: ConnectionTrial | None) -> None:
         """Show what was measured; None: nothing is open."""
         for index, cells in enumerate(self._cells):
             self._show_channel(index, cells, trial)
 
-    def _show_channel(self, index: int, cells: tuple[QLabel, QLabel, QLabel], trial: Trial | None) -> None:
+    def _show_channel(
+        self, index: int, cells: tuple[QLabel, QLabel, QLabel], trial: ConnectionTrial | None
+    ) -> None:
         unit, digits = ("N", 3) if index < 3 else ("N·m", 4)
         noise = np.nan if trial is None else trial.noise[index]
         largest = np.nan if trial is None else trial.largest[index]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
@@ -21,6 +21,8 @@ from contactbench.widgets.icons import icon
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.workbench.verify_touches import MarkerRow
+
 _ICONS = {
     "open": ("ready", "muted"),
     "next": ("play", "accent"),
@@ -31,42 +33,15 @@ _ICONS = {
 _NAME, _PLACE, _TOUCHES, _ERROR, _STATE = range(5)
 
 
-@dataclass(frozen=True)
-class ShownMarker:
-    """
-    A row.
-
-    Attributes
-    ----------
-    name : str
-    point_mm : (3,) tuple
-        S.
-    touches, wanted : int
-        Accepted, of so many.
-    mean_mm, max_mm : float or None
-        Errors.
-    state : {"open", "next", "done", "failed", "skipped"}
-    """
-
-    name: str
-    point_mm: tuple[float, float, float]
-    touches: int = 0
-    wanted: int = 1
-    mean_mm: float | None = None
-    max_mm: float | None = None
-    state: str = "open"
-
-
 class MarkerTable(QTableWidget):
     """Shows markers; what is typed or deleted is only asked for."""
 
-    selected = Signal(object)  # name, or None
     rename_wanted = Signal(str, str)  # from, to
     remove_wanted = Signal(list)  # names
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, 5, parent)
-        self._rows: tuple[ShownMarker, ...] = ()
+        self._rows: tuple[MarkerRow, ...] = ()
         titles = (
             self.tr("Marker"),
             self.tr("x  y  z"),
@@ -99,7 +74,6 @@ class MarkerTable(QTableWidget):
         self.setTabKeyNavigation(False)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
         self.itemChanged.connect(self._typed)
-        self.itemSelectionChanged.connect(lambda: self.selected.emit(self.current_name))
 
     @property
     def current_name(self) -> str | None:
@@ -120,9 +94,13 @@ class MarkerTable(QTableWidget):
                 self.selectRow(row)
                 return
 
-    def show_rows(self, rows: Sequence[ShownMarker]) -> None:
-        """Show markers; those that stayed the same are not touched."""
-        before, self._rows = self._rows, tuple(rows)
+    def show_rows(self, rows: Sequence[MarkerRow], next_one: int | None = None) -> None:
+        """Show markers, and which of them is next; those that stayed the same are not touched."""
+        before = self._rows
+        self._rows = tuple(
+            replace(row, state="next") if place == next_one and row.state == "open" else row
+            for place, row in enumerate(rows)
+        )
         if before == self._rows:
             return
         with QSignalBlocker(self):
@@ -133,7 +111,7 @@ class MarkerTable(QTableWidget):
                 if row >= len(before) or before[row] != each:
                     self._fill(row, each)
 
-    def _fill(self, row: int, marker: ShownMarker) -> None:
+    def _fill(self, row: int, marker: MarkerRow) -> None:
         x, y, z = marker.point_mm
         error = ""
         if marker.mean_mm is not None and marker.max_mm is not None:

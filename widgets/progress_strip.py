@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
-from contactbench.widgets.progress import show_value
+from contactbench.widgets.controls import show_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -19,7 +19,7 @@ _LOOK_MS = 100
 _STEPS = 1000
 
 
-class Work(Protocol):
+class ShownWork(Protocol):
     """One piece of work; see `contactbench.app.jobs.Job`, which this package does not know."""
 
     title: str
@@ -47,7 +47,7 @@ class ProgressStrip(QWidget):
     def __init__(self, running: Callable[[], Sequence[Any]], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._running = running
-        self._shown: Work | None = None
+        self._shown: ShownWork | None = None
         self._title = QLabel()
         self._bar = QProgressBar()
         self._bar.setFixedWidth(140)
@@ -83,7 +83,7 @@ class ProgressStrip(QWidget):
         elif not running:
             self._timer.stop()
 
-    def _show(self, work: Work, more: int) -> None:
+    def _show(self, work: ShownWork, more: int) -> None:
         others = self.tr(" (and {} more)").format(more) if more else ""
         self._title.setText(work.title + others)
         self._stop.setEnabled(not work.cancelled())

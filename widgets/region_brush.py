@@ -23,10 +23,6 @@ class RegionBrush(QObject):
     Between `take` and `release` it holds the tool. Shift, held when a stroke begins, erases with the brush and
     paints with the eraser.
 
-    Parameters
-    ----------
-    scene : Scene
-
     Attributes
     ----------
     radius : float

@@ -2,33 +2,238 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QItemSelectionModel, QModelIndex, QSize, Qt, Signal
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QItemSelectionModel,
+    QMimeData,
+    QModelIndex,
+    QPersistentModelIndex,
+    QSize,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
+    QColorDialog,
     QHBoxLayout,
     QHeaderView,
-    QPushButton,
+    QMenu,
     QToolButton,
     QTreeView,
-    QVBoxLayout,
     QWidget,
 )
 
+from contactbench.pipeline.mesh.regions import PALETTE
+from contactbench.widgets.controls import add_key, column, push_button, row
 from contactbench.widgets.icons import icon
-from contactbench.widgets.region_list_colour import ColourMenu
-from contactbench.widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY, RegionRows
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Sequence
 
     from contactbench.pipeline.workbench.regions import RegionRow
 
+    Index = QModelIndex | QPersistentModelIndex
+
+PRIORITY, NAME, AREA, FACETS = range(4)
+_MIME = "application/x-contactbench-region"
+_SWATCH, _HIGH = 20, 32  # px
 _SHORTEST, _TALLEST = 4, 8  # rows that the list is high
 _NARROWEST_PX = 56  # of a column: four digits and a point
+
+
+def swatch(colour: str, dark: bool, crossed: bool = False) -> QIcon:
+    """Return a patch of a colour with a border that shows on any ground; crossed out like the facets in the scene."""
+    image = QPixmap(QSize(2 * _SWATCH, 2 * _SWATCH))
+    image.setDevicePixelRatio(2)
+    image.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(image)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(QPen(QColor(colours(dark).muted), 1))
+    painter.setBrush(QColor(colour))
+    painter.drawRoundedRect(1, 1, _SWATCH - 2, _SWATCH - 2, 4, 4)
+    if crossed:
+        painter.setPen(QPen(QColor("#2b2f33"), 1.5))
+        low, high = 4, _SWATCH - 4
+        painter.drawLine(low, low, high, high)
+        painter.drawLine(low, high, high, low)
+    painter.end()
+    icon = QIcon()
+    # A chosen row must not tint the colour that the patch is there to show.
+    for mode in (QIcon.Mode.Normal, QIcon.Mode.Selected, QIcon.Mode.Active):
+        icon.addPixmap(image, mode)
+    return icon
+
+
+class RegionRows(QAbstractTableModel):
+    """What `RegionListWidget` shows; edits are asked for by signals, never made here."""
+
+    renamed = Signal(int, str)  # rank, name
+    moved = Signal(int, int)  # rank, new rank
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: tuple[RegionRow, ...] = ()
+
+    def show_rows(self, rows: tuple[RegionRow, ...]) -> None:
+        """Show other rows; where their number stays, a view keeps what is chosen or being edited in it."""
+        if rows == self.rows:
+            return
+        if len(rows) != len(self.rows):
+            self.beginResetModel()
+            self.rows = rows
+            self.endResetModel()
+            return
+        self.rows = rows
+        self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, FACETS))
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
+        """Qt's."""
+        return 0 if parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
+        """Qt's."""
+        return 0 if parent.isValid() else 4
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        """Qt's."""
+        if orientation is not Qt.Orientation.Horizontal:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return (self.tr("Priority"), self.tr("Name"), self.tr("cm²"), self.tr("Facets"))[section]
+        if role == Qt.ItemDataRole.TextAlignmentRole and section >= AREA:
+            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        return None
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """Qt's."""
+        row, column = self.rows[index.row()], index.column()
+        if role == Qt.ItemDataRole.DisplayRole:
+            name = self.tr("✕ {0} (untouchable)").format(row.name) if row.untouchable else row.name
+            return (str(index.row() + 1), name, f"{1e4 * row.area:.2f}", f"{row.facets:,}")[column]
+        if role == Qt.ItemDataRole.EditRole and column == NAME:
+            return row.name
+        if role == Qt.ItemDataRole.DecorationRole and column == PRIORITY:
+            return swatch(row.colour, is_dark(), row.untouchable)
+        if role == Qt.ItemDataRole.TextAlignmentRole and column >= AREA:
+            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        if role == Qt.ItemDataRole.SizeHintRole:
+            return QSize(_SWATCH, _HIGH)
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return self._tip(index.row(), column)
+        if role == Qt.ItemDataRole.AccessibleTextRole:
+            words = (
+                self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
+                if row.untouchable
+                else self.tr("{0}, priority {1}, {2:.2f} cm²")
+            )
+            return words.format(row.name, index.row() + 1, 1e4 * row.area)
+        return None
+
+    def _tip(self, row: int, column: int) -> str:
+        if column == PRIORITY:
+            return self.tr("Priority {0}, colour {1}. Click to choose another colour.").format(
+                row + 1, self.rows[row].colour
+            )
+        if column == NAME:
+            return self.tr("Double-click to rename; drag, or Alt+Up and Alt+Down, to change the priority.")
+        return self.tr("Area: {0:.1f} mm²; facets: {1:,}.").format(
+            1e6 * self.rows[row].area, self.rows[row].facets
+        )
+
+    def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
+        """Ask for another name."""
+        if role != Qt.ItemDataRole.EditRole or index.column() != NAME:
+            return False
+        if str(value) != self.rows[index.row()].name:
+            self.renamed.emit(index.row() + 1, str(value))
+        return True
+
+    def flags(self, index: Index) -> Qt.ItemFlag:
+        """Qt's."""
+        flag = Qt.ItemFlag
+        if not index.isValid():
+            return flag.ItemIsDropEnabled
+        usual = flag.ItemIsEnabled | flag.ItemIsSelectable | flag.ItemIsDragEnabled
+        return usual | flag.ItemIsEditable if index.column() == NAME else usual
+
+    # ---- dragging ----------------------------------------------------------------------------
+
+    def supportedDropActions(self) -> Qt.DropAction:
+        """Qt's."""
+        return Qt.DropAction.MoveAction
+
+    def mimeTypes(self) -> list[str]:
+        """Qt's."""
+        return [_MIME]
+
+    def mimeData(self, indexes: Sequence[QModelIndex]) -> QMimeData:
+        """Qt's."""
+        data = QMimeData()
+        data.setData(_MIME, str(indexes[0].row() + 1).encode())
+        return data
+
+    def dropMimeData(
+        self, data: QMimeData, _action: Qt.DropAction, row: int, _column: int, parent: Index
+    ) -> bool:
+        """Ask for another order; False in any case, or the view would remove the row that was dragged."""
+        if data.hasFormat(_MIME):
+            rank = int(bytes(data.data(_MIME).data()))
+            before = row if row >= 0 else (parent.row() if parent.isValid() else len(self.rows))
+            to = before + 1 if before < rank else before
+            if to != rank:
+                self.moved.emit(rank, to)
+        return False
+
+
+class ColourMenu(QMenu):
+    """
+    A menu of colours.
+
+    Parameters
+    ----------
+    present : str
+        The colour that there is, ``#rrggbb``.
+    taken : collection of str
+        Colours of other regions: they are said to be in use.
+    """
+
+    chosen = Signal(str)  # #rrggbb
+
+    def __init__(self, present: str, taken: Collection[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._present = present
+        for colour, name in zip(PALETTE, self._names(), strict=True):
+            text = self.tr("{0} (in use)").format(name) if colour in taken else name
+            action = self.addAction(swatch(colour, is_dark()), text)
+            action.setCheckable(True)
+            action.setChecked(colour == present)
+            action.triggered.connect(lambda _=False, colour=colour: self.chosen.emit(colour))
+        self.addSeparator()
+        self.addAction(self.tr("Another colour...")).triggered.connect(self._ask)
+
+    def _names(self) -> tuple[str, ...]:
+        return (
+            self.tr("Orange"),
+            self.tr("Sky blue"),
+            self.tr("Green"),
+            self.tr("Yellow"),
+            self.tr("Blue"),
+            self.tr("Red-orange"),
+            self.tr("Pink"),
+        )
+
+    def _ask(self) -> None:
+        parent = self.parentWidget()
+        colour = QColorDialog.getColor(QColor(self._present), parent, self.tr("Colour of the region"))
+        if colour.isValid():
+            self.chosen.emit(colour.name())
 
 
 class RegionListWidget(QWidget):
@@ -50,12 +255,7 @@ class RegionListWidget(QWidget):
         super().__init__(parent)
         self.rows = RegionRows()
         self.view = self._make_view()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(6)
-        layout.addWidget(self.view)
-        layout.addLayout(self._make_buttons())
-        layout.addWidget(self._make_mark())
+        column(self, self.view, self._make_buttons(), self._make_mark(), space=6)
         self.rows.renamed.connect(self.renamed)
         self.rows.moved.connect(self.moved)
         self.show_rows(())
@@ -86,12 +286,6 @@ class RegionListWidget(QWidget):
         flag = QItemSelectionModel.SelectionFlag
         self.view.selectionModel().setCurrentIndex(index, flag.ClearAndSelect | flag.Rows)
 
-    def edit_name(self) -> None:
-        """Let the name of the chosen region be typed."""
-        if self.rank:
-            self.view.setFocus()
-            self.view.edit(self.rows.index(self.rank - 1, NAME))
-
     # ---- its parts ---------------------------------------------------------------------------
 
     def _make_view(self) -> QTreeView:
@@ -112,40 +306,28 @@ class RegionListWidget(QWidget):
         header.setStretchLastSection(False)
         header.setSectionsMovable(False)
         header.setMinimumSectionSize(_NARROWEST_PX)
-        for column in (PRIORITY, AREA, FACETS):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        for place in (PRIORITY, AREA, FACETS):
+            header.setSectionResizeMode(place, QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Stretch)
         view.clicked.connect(self._clicked)
         view.selectionModel().currentRowChanged.connect(self._chosen)
         return view
 
     def _make_buttons(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(4)
-        self.add_button = QPushButton(self.tr("Add"))
-        self.add_button.setToolTip(self.tr("Add a region with the last priority"))
-        self.add_button.setMinimumHeight(36)
-        self.add_button.clicked.connect(self.add_asked)
-        row.addWidget(self.add_button, 1)
-        self.colour_button = self._tool(self.tr("Colour"), self.tr("Choose the colour"), self._ask_colour)
-        self.up_button = self._tool("", self.tr("Raise the priority (Alt+Up)"), lambda: self._move(-1))
-        self.down_button = self._tool("", self.tr("Lower the priority (Alt+Down)"), lambda: self._move(1))
+        self.add_button = push_button(
+            self.tr("Add"), self.add_asked.emit, "add", tip=self.tr("Add a region with the last priority")
+        )
+        self.colour_button = self._tool("", self.tr("Choose the colour"), self._ask_colour)
+        self.colour_button.setText(self.tr("Colour"))
+        self.up_button = self._tool("up", self.tr("Raise the priority (Alt+Up)"), lambda: self._move(-1))
+        self.down_button = self._tool("down", self.tr("Lower the priority (Alt+Down)"), lambda: self._move(1))
         self.remove_button = self._tool(
-            "", self.tr("Remove the region; its facets belong to none then"), self._remove
+            "remove", self.tr("Remove the region; its facets belong to none then"), self._remove
         )
-        for button in (self.colour_button, self.up_button, self.down_button, self.remove_button):
-            row.addWidget(button)
-        self._icons = (
-            (self.add_button, "add"),
-            (self.up_button, "up"),
-            (self.down_button, "down"),
-            (self.remove_button, "remove"),
-        )
-        for each, name in self._icons:
-            each.setIcon(icon(name))
-        self._act(self.tr("Raise the region's priority"), "Alt+Up", lambda: self._move(-1))
-        self._act(self.tr("Lower the region's priority"), "Alt+Down", lambda: self._move(1))
-        return row
+        add_key(self, self.tr("Raise the region's priority"), "Alt+Up", lambda: self._move(-1))
+        add_key(self, self.tr("Lower the region's priority"), "Alt+Down", lambda: self._move(1))
+        tools = (self.colour_button, self.up_button, self.down_button, self.remove_button)
+        return row((self.add_button, 1), *tools, space=4)
 
     def _make_mark(self) -> QCheckBox:
         self.untouchable = QCheckBox(self.tr("Untouchable"))
@@ -159,21 +341,16 @@ class RegionListWidget(QWidget):
         self.untouchable.clicked.connect(self._mark)
         return self.untouchable
 
-    def _tool(self, text: str, tip: str, action: Callable[[], None]) -> QToolButton:
+    def _tool(self, picture: str, tip: str, action: Callable[[], None]) -> QToolButton:
         button = QToolButton()
-        button.setText(text)
+        if picture:
+            button.setIcon(icon(picture))
         button.setToolTip(tip)
         button.setAccessibleName(tip)
         button.setMinimumSize(36, 36)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.clicked.connect(lambda _=False: action())
         return button
-
-    def _act(self, text: str, keys: str, action: Callable[[], None]) -> None:
-        made = QAction(text, self)
-        made.setShortcut(QKeySequence(keys))
-        made.triggered.connect(lambda _=False: action())
-        self.addAction(made)
 
     # ---- what is done to it ------------------------------------------------------------------
 

@@ -38,26 +38,15 @@ def _none() -> NDArray[np.float64]:
 
 
 @dataclass(frozen=True, eq=False)
-class History:
-    """
-    What the charts show.
+class ChartHistory:
+    """What the charts show."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s, on any clock, ascending.
-    raw, compensated : (n, 6)
-        N and N·m; NaN where there is none.
-    contact_times : (k,)
-        s, on the same clock.
-    contacts : (k, 3)
-        S, m; NaN where nothing touches.
-    """
-
-    times: NDArray[np.float64]
+    times: NDArray[np.float64]  # (n,): s, on any clock, ascending
+    # raw, compensated: (n, 6): N and N·m; NaN where there is none
     raw: NDArray[np.float64]
     compensated: NDArray[np.float64]
-    contact_times: NDArray[np.float64] = field(default_factory=_none)
+    contact_times: NDArray[np.float64] = field(default_factory=_none)  # (k,): s, on the same clock
+    # (k, 3): S, m; NaN where nothing touches
     contacts: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
 
 
@@ -71,8 +60,8 @@ class StripChart(QWidget):
     def __init__(self, live: Live | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._live = live
-        self._held: History | None = None  # what is looked at while time goes on
-        self._shown: History | None = None
+        self._held: ChartHistory | None = None  # what is looked at while time goes on
+        self._shown: ChartHistory | None = None
         self._view: tuple[float, float] | None = None  # s before the newest, while held
         self._chosen_panes = self._chosen_kind = False
         self.panes = (
@@ -166,7 +155,7 @@ class StripChart(QWidget):
         self._chosen_kind = False
         self.back_to_live()
         if live is None:
-            self._draw(History(_none(), np.empty((0, 6)), np.empty((0, 6))))
+            self._draw(ChartHistory(_none(), np.empty((0, 6)), np.empty((0, 6))))
 
     def tick(self) -> None:
         """Show the newest of what is followed."""
@@ -176,7 +165,7 @@ class StripChart(QWidget):
             return  # nothing new: what was last measured stays in view
         self.refresh(self._history(self._span()))
 
-    def refresh(self, history: History) -> None:
+    def refresh(self, history: ChartHistory) -> None:
         """Show another history, unless the picture is held."""
         if not self.held:
             self._draw(history)
@@ -187,17 +176,17 @@ class StripChart(QWidget):
         self._show_held()
         self.tick()
 
-    def _history(self, seconds: float) -> History:
+    def _history(self, seconds: float) -> ChartHistory:
         live = self._live
         assert live is not None  # noqa: S101 - asked by its callers
         live.reading()  # that is what finds contacts
         times, raw, compensated = live.history(seconds)
-        return History(times, raw, compensated, *live.contacts(seconds))
+        return ChartHistory(times, raw, compensated, *live.contacts(seconds))
 
     def _span(self) -> float:
         return float(self.span.currentData())
 
-    def _draw(self, history: History) -> None:
+    def _draw(self, history: ChartHistory) -> None:
         self._shown = history
         compensated = bool(len(history.times)) and bool(np.isfinite(history.compensated[-1]).all())
         if not self._chosen_kind:  # what is more useful, until somebody chooses

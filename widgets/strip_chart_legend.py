@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 _POINT_SIZE, _TIGHT_SIZE = 10, 9
 
 
-class Entry(NamedTuple):
+class LegendEntry(NamedTuple):
     """One line's name and value; the sign looks like its stroke."""
 
     sign: str
@@ -36,11 +36,11 @@ class Legend(QWidget):
         self._strong = QFont(self.font())
         self._strong.setBold(True)
         self._size(_POINT_SIZE)
-        self._entries: tuple[Entry, ...] = ()
+        self._entries: tuple[LegendEntry, ...] = ()
         self._tight = False
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
 
-    def show_entries(self, entries: Sequence[Entry], tight: bool) -> None:
+    def show_entries(self, entries: Sequence[LegendEntry], tight: bool) -> None:
         """Show entries; `tight`: with little room between them."""
         if tight != self._tight:
             self._size(_TIGHT_SIZE if tight else _POINT_SIZE)

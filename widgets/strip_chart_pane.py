@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout,
 
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
-from contactbench.widgets.strip_chart_legend import Entry, Legend
+from contactbench.widgets.strip_chart_legend import Legend, LegendEntry
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -31,39 +31,18 @@ _NARROW_PX = 280
 
 @dataclass(frozen=True)
 class Curves:
-    """
-    What a pane shows.
-
-    Attributes
-    ----------
-    title : str
-    names : tuple of str
-        Of the lines.
-    unit : str
-    digits : int
-        Behind the point.
-    least : float
-        The smallest span of the axis, in the unit.
-    first_colour : int
-        Of the theme's series.
-    """
+    """What a pane shows."""
 
     title: str
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # Of the lines
     unit: str
-    digits: int
-    least: float
-    first_colour: int = 0
+    digits: int  # Behind the point
+    least: float  # The smallest span of the axis, in the unit
+    first_colour: int = 0  # Of the theme's series
 
 
 class Pane(QWidget):
-    """
-    Lines over time. Times are shown as seconds before the newest one.
-
-    Parameters
-    ----------
-    curves : Curves
-    """
+    """Lines over time. Times are shown as seconds before the newest one."""
 
     pointed = Signal(object)  # s after (before: negative) the newest sample, or None
     taken = Signal()  # the mouse zoomed or moved the time
@@ -190,7 +169,7 @@ class Pane(QWidget):
 
     def _write(self) -> None:
         entries = [
-            Entry(*parts)
+            LegendEntry(*parts)
             for parts in zip(_SIGNS, self.curves.names, self._colours(), self._numbers(), strict=False)
         ]
         self._legend.show_entries(entries, tight=self.width() < _NARROW_PX)

@@ -13,44 +13,29 @@ from PySide6.QtGui import QColor, QGuiApplication, QPalette
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from PySide6.QtWidgets import QWidget
-
 _PICTURES = Path(__file__).parent / "pictures"  # a style sheet takes pictures from files only
 OKABE_ITO = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
 
 @dataclass(frozen=True)
 class Colours:
-    """
-    Colours of a theme, each as `#rrggbb`.
+    """Colours of a theme, each as `#rrggbb`."""
 
-    Attributes
-    ----------
-    text, muted : str
-        What is written, and what is written beside it; both at least 4.5:1 on `panel` and `background`.
-    panel, background : str
-        Of controls, and of what lies behind them.
-    line : str
-        Borders and grids.
-    accent : str
-        The one thing to press; `panel` is written on it.
-    good, warning, bad, stale : str
-        States, for text and icons; never without a word or an icon.
-    series : tuple of str
-        Six categories, Okabe and Ito: Fx, Fy, Fz, Mx, My, Mz.
-    """
-
+    # text, muted: What is written, and what is written beside it; both at least 4.5:1 on `panel` and
+    # `background`
     text: str
     muted: str
+    # panel, background: Of controls, and of what lies behind them
     panel: str
     background: str
-    line: str
-    accent: str
+    line: str  # Borders and grids
+    accent: str  # The one thing to press; `panel` is written on it
+    # good, warning, bad, stale: States, for text and icons; never without a word or an icon
     good: str
     warning: str
     bad: str
     stale: str
-    series: tuple[str, str, str, str, str, str]
+    series: tuple[str, str, str, str, str, str]  # Six categories, Okabe and Ito: Fx, Fy, Fz, Mx, My, Mz
 
 
 _LIGHT = Colours(
@@ -154,14 +139,6 @@ def use_theme(choice: str = "system") -> None:
         dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
     application.setPalette(palette(dark))
     application.setStyleSheet(style_sheet(dark))  # type: ignore[attr-defined]
-
-
-def accent(button: QWidget, on: bool = True) -> None:
-    """Make a button the accented one of its state, or a plain one again."""
-    if bool(button.property("primary")) != on:
-        button.setProperty("primary", on)
-        button.style().unpolish(button)
-        button.style().polish(button)
 
 
 def follow_system(choice: Callable[[], str]) -> None:

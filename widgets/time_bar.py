@@ -29,7 +29,6 @@ class TimeBar(QWidget):
     """
 
     changed = Signal()  # what is looked at
-    played = Signal(bool)  # it plays, or no longer
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -135,14 +134,12 @@ class TimeBar(QWidget):
         self._before = time.monotonic()
         self._timer.start()
         self._told()
-        self.played.emit(True)
 
     def stop(self) -> None:
         """Pause."""
         if self.playing():
             self._timer.stop()
             self._show()
-            self.played.emit(False)
 
     def show_all(self) -> None:
         """Stop, and look at the whole window."""

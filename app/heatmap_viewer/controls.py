@@ -4,30 +4,39 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QComboBox,
     QDoubleSpinBox,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
     QSlider,
-    QVBoxLayout,
     QWidget,
 )
 
-from contactbench.app.heatmap_viewer.reading import ReadingBox
-from contactbench.widgets.finish import finish
-from contactbench.widgets.icons import icon
+from contactbench.app.heatmap_viewer.reading_options import ReadingBox
+from contactbench.widgets.controls import (
+    HIGH,
+    PanelScroll,
+    accent,
+    choice,
+    column,
+    finish,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+    set_role,
+    show_value,
+)
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.range_slider import RangeSlider
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -37,7 +46,7 @@ _LEAST_MM, _MOST_MM = 0.5, 20.0
 _PATIENCE = 200  # ms without a change before the bells are made again
 
 
-class Controls(QWidget):
+class HeatmapControls(QWidget):
     """The panel on the right of the viewer."""
 
     changed = Signal()  # the quantity, what it adds up to, or the range of force
@@ -49,19 +58,53 @@ class Controls(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.quantity, self.per = QComboBox(self), QComboBox(self)
-        self.bandwidth, self.fine = QDoubleSpinBox(self), QSlider(Qt.Orientation.Horizontal, self)
-        self.force, self.force_words = RangeSlider(self), QLabel(self)
-        self.by_confidence = QCheckBox(self.tr("Weigh by confidence"), self)
-        self.compare = QCheckBox(self.tr("Compare two side by side"), self)
-        self.message = QLabel(self)
-        self.bar, self.stop = QProgressBar(self), QPushButton(self.tr("Cancel"), self)
-        self.reading = ReadingBox(self)
+        self.quantity = choice(
+            (
+                (self.tr("Contact density"), "density"),
+                (self.tr("Mean force"), "force"),
+                (self.tr("Peak force"), "peak"),
+                (self.tr("Mean error"), "error"),
+                (self.tr("Uncertainty (1 sigma)"), "uncertainty"),
+            ),
+            self.tr("Quantity"),
+            tip=self.tr("What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm."),
+        )
+        self.per = choice(
+            (
+                (self.tr("number of contacts"), "contacts"),
+                (self.tr("seconds of contact"), "seconds"),
+                (self.tr("contacts per second"), "rate"),
+            ),
+            self.tr("What a density adds up to"),
+            tip=self.tr("What the density adds up to over the whole surface."),
+        )
+        self.bandwidth = QDoubleSpinBox(
+            decimals=1, minimum=_LEAST_MM, maximum=_MOST_MM, singleStep=0.5, suffix=" mm", value=2.0
+        )
+        self.bandwidth.setMinimumSize(112, HIGH)
+        self.fine = QSlider(Qt.Orientation.Horizontal)
+        self.fine.setRange(round(10 * _LEAST_MM), round(10 * _MOST_MM))
+        self.fine.setValue(20)
+        for each in (self.bandwidth, self.fine):
+            each.setAccessibleName(self.tr("Bandwidth in mm"))
+            each.setToolTip(
+                self.tr(
+                    "Standard deviation of the Gaussian by which each contact is spread along the surface, mm."
+                )
+            )
+        self.force, self.force_words = RangeSlider(), QLabel()
+        self.force.setAccessibleName(self.tr("Range of force in N"))
+        self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
+        self.by_confidence = QCheckBox(self.tr("Weigh by confidence"))
+        self.by_confidence.setToolTip(self.tr("Let each contact count as much as its place is sure."))
+        self.compare = QCheckBox(self.tr("Compare two side by side"))
+        self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
+        for box in (self.by_confidence, self.compare):
+            box.setMinimumHeight(HIGH)
+        self.message, self.reading = sentence_label(), ReadingBox()
+        self.bar, self.stop = QProgressBar(), QPushButton(self.tr("Cancel"))
         self._confidences = False
-        self._saving: list[QPushButton] = []
-        self._opening: list[QPushButton] = []
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
-        self._fill()
         self._lay_out()
         self._connect()
         finish(self)
@@ -69,146 +112,65 @@ class Controls(QWidget):
         self.show_force()
         self.show_work(None)
 
-    # ---- making ------------------------------------------------------------------------------------
-
-    def _fill(self) -> None:
-        for text, name in (
-            (self.tr("Contact density"), "density"),
-            (self.tr("Mean force"), "force"),
-            (self.tr("Peak force"), "peak"),
-            (self.tr("Mean error"), "error"),
-            (self.tr("Uncertainty (1 sigma)"), "uncertainty"),
-        ):
-            self.quantity.addItem(text, name)
-        self.quantity.setToolTip(
-            self.tr("What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm.")
-        )
-        for text, name in (
-            (self.tr("number of contacts"), "contacts"),
-            (self.tr("seconds of contact"), "seconds"),
-            (self.tr("contacts per second"), "rate"),
-        ):
-            self.per.addItem(text, name)
-        self.per.setToolTip(self.tr("What the density adds up to over the whole surface."))
-        self.bandwidth.setRange(_LEAST_MM, _MOST_MM)
-        self.bandwidth.setDecimals(1)
-        self.bandwidth.setSingleStep(0.5)
-        self.bandwidth.setSuffix(" mm")
-        self.bandwidth.setValue(2.0)
-        self.bandwidth.setMinimumSize(112, 36)
-        self.fine.setRange(round(10 * _LEAST_MM), round(10 * _MOST_MM))
-        self.fine.setValue(20)
-        tip = self.tr(
-            "Standard deviation of the Gaussian by which each contact is spread along the surface, mm."
-        )
-        for each, name in (
-            (self.quantity, self.tr("Quantity")),
-            (self.per, self.tr("What a density adds up to")),
-            (self.bandwidth, self.tr("Bandwidth in mm")),
-            (self.fine, self.tr("Bandwidth in mm")),
-            (self.force, self.tr("Range of force in N")),
-        ):
-            each.setAccessibleName(name)
-        self.bandwidth.setToolTip(tip)
-        self.fine.setToolTip(tip)
-        self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
-        self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
-        self.by_confidence.setToolTip(self.tr("Let each contact count as much as its place is sure."))
-        self.by_confidence.setMinimumHeight(36)
-        self.compare.setMinimumHeight(36)
-        self.message.setWordWrap(True)
-        self.message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-
     def _lay_out(self) -> None:
-        column = QVBoxLayout()
-        column.setContentsMargins(12, 10, 12, 8)
-        column.setSpacing(8)
-        column.addWidget(_titled(self.tr("Heatmap")))
-        column.addLayout(
-            self._buttons(
-                (
-                    (
-                        self.tr("Open files"),
-                        "folder",
-                        self.tr("Recordings with their calibration and probe, contacts, verifications."),
-                        lambda: self.asked_open.emit(False),
-                    ),
-                    (
-                        self.tr("Open session"),
-                        "folder",
-                        self.tr("The newest recording and verification of a session."),
-                        lambda: self.asked_open.emit(True),
-                    ),
-                )
-            )
-        )
-        form = QFormLayout()
-        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        form.setSpacing(4)
-        form.addRow(self.tr("Quantity"), self.quantity)
-        form.addRow(self.tr("Adds up to"), self.per)
-        wide = QHBoxLayout()
-        wide.addWidget(self.fine, 1)
-        wide.addWidget(self.bandwidth)
-        form.addRow(self.tr("Bandwidth"), wide)
-        form.addRow(self.tr("Force"), self.force)
-        self._per_label = form.labelForField(self.per)
-        column.addLayout(form)
-        column.addWidget(self.force_words)
-        column.addWidget(self.by_confidence)
-        column.addWidget(self.compare)
-        column.addWidget(_titled(self.tr("Save")))
-        column.addLayout(
-            self._buttons(
-                (
-                    (
-                        self.tr("Picture"),
-                        "camera",
-                        self.tr("What is shown, from two sides, as .png."),
-                        lambda: self.asked_save.emit("picture"),
-                    ),
-                    (
-                        self.tr("Film"),
-                        "play",
-                        self.tr("The time window, played at the chosen speed, as .mp4 or .gif."),
-                        lambda: self.asked_save.emit("film"),
-                    ),
-                    (
-                        self.tr("Mesh"),
-                        "export",
-                        self.tr("The values at the vertices, as .ply or .glb (glTF)."),
-                        lambda: self.asked_save.emit("mesh"),
-                    ),
-                ),
-                saving=True,
-            )
-        )
-        column.addWidget(self.message)
-        column.addWidget(self.reading)
-        column.addStretch(1)
-        work = QHBoxLayout()
-        work.addWidget(self.bar, 1)
-        work.addWidget(self.stop)
-        column.addLayout(work)
-        inside = QWidget(self)
-        inside.setLayout(column)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(Scrolled(inside))
+        self._opening = [
+            self._button(
+                self.tr("Open files"),
+                "folder",
+                self.tr("Recordings with their calibration and probe, contacts, verifications."),
+                lambda: self.asked_open.emit(False),
+            ),
+            self._button(
+                self.tr("Open session"),
+                "folder",
+                self.tr("The newest recording and verification of a session."),
+                lambda: self.asked_open.emit(True),
+            ),
+        ]
+        self._saving = [
+            self._button(
+                self.tr("Picture"),
+                "camera",
+                self.tr("What is shown, from two sides, as .png."),
+                lambda: self.asked_save.emit("picture"),
+            ),
+            self._button(
+                self.tr("Film"),
+                "play",
+                self.tr("The time window, played at the chosen speed, as .mp4 or .gif."),
+                lambda: self.asked_save.emit("film"),
+            ),
+            self._button(
+                self.tr("Mesh"),
+                "export",
+                self.tr("The values at the vertices, as .ply or .glb (glTF)."),
+                lambda: self.asked_save.emit("mesh"),
+            ),
+        ]
+        rows = QFormLayout()
+        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        rows.setSpacing(4)
+        rows.addRow(self.tr("Quantity"), self.quantity)
+        rows.addRow(self.tr("Adds up to"), self.per)
+        rows.addRow(self.tr("Bandwidth"), row((self.fine, 1), self.bandwidth))
+        rows.addRow(self.tr("Force"), self.force)
+        self._per_label = rows.labelForField(self.per)
+        inside = QWidget()
+        layout = column(
+            inside, plain_label(self.tr("Heatmap"), "title"), row(*((each, 1) for each in self._opening)),
+            rows, self.force_words, self.by_confidence, self.compare, plain_label(self.tr("Save"), "title"),
+            row(*((each, 1) for each in self._saving)), self.message, self.reading,
+            margins=(12, 10, 12, 8),
+        )  # fmt: skip
+        layout.addStretch(1)
+        layout.addLayout(row((self.bar, 1), self.stop))
+        column(self, PanelScroll(inside))
         self.setFixedWidth(348)
 
-    def _buttons(self, wanted: tuple[tuple[str, str, str, object], ...], saving: bool = False) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        for text, name, tip, action in wanted:
-            button = QPushButton(icon(name), text, self)
-            button.setToolTip(tip)
-            button.setMinimumHeight(36)
-            button.setStyleSheet("padding: 4px 6px;")
-            button.clicked.connect(action)
-            row.addWidget(button, 1)
-            (self._saving if saving else self._opening).append(button)
-        return row
+    def _button(self, text: str, picture: str, tip: str, does: Callable[[], object]) -> QPushButton:
+        button = push_button(text, does, picture, tip=tip)
+        button.setStyleSheet("padding: 4px 6px;")
+        return button
 
     def _connect(self) -> None:
         self.quantity.currentIndexChanged.connect(lambda _index: self._quantity_changed())
@@ -291,9 +253,8 @@ class Controls(QWidget):
         self.changed.emit()
 
     def _bandwidth_changed(self, value: float) -> None:
-        self.fine.blockSignals(True)
-        self.fine.setValue(round(10 * value))
-        self.fine.blockSignals(False)
+        with QSignalBlocker(self.fine):
+            self.fine.setValue(round(10 * value))
         self._patience.start()
 
     # ---- what goes on ------------------------------------------------------------------------------
@@ -303,10 +264,7 @@ class Controls(QWidget):
         for each in (self.quantity, self.per, self.bandwidth, self.fine, self.compare, *self._saving):
             each.setEnabled(ready)
         # one accented button: before anything is open that one, later the one that plays
-        first = self._opening[0]
-        first.setProperty("primary", "false" if ready else "true")
-        first.setIcon(icon("folder", "text" if ready else "panel"))
-        _dressed(first)
+        accent(self._opening[0], not ready, "folder")
         if not ready:
             self.set_confidences(False)
             self.force.setEnabled(False)
@@ -314,8 +272,7 @@ class Controls(QWidget):
 
     def say(self, text: str, bad: bool = False) -> None:
         """Show a sentence."""
-        self.message.setProperty("role", "bad" if bad else "")
-        _dressed(self.message)
+        set_role(self.message, "bad" if bad else "")
         self.message.setText(said(text))
 
     def show_work(self, title: str | None, share: float = 0.0) -> None:
@@ -327,15 +284,3 @@ class Controls(QWidget):
             show_value(self.bar, round(1000 * share))
             self.bar.setFormat(self.tr("{title}: {percent}").format(title=title, percent="%p %"))
             self.bar.setAccessibleName(title)
-
-
-def _dressed(widget: QWidget) -> None:
-    """Have the style sheet look at a widget's properties again."""
-    widget.style().unpolish(widget)
-    widget.style().polish(widget)
-
-
-def _titled(text: str) -> QLabel:
-    label = QLabel(text)
-    label.setProperty("role", "title")
-    return label

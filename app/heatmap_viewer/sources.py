@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.app.heatmap_viewer.how import HowRead
+from contactbench.app.heatmap_viewer.reading_options import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.contact import Gates
@@ -41,46 +41,26 @@ _USUAL = HowRead()
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
-    """
-    Contacts on a probe.
+class HeatmapSource:
+    """Contacts on a probe."""
 
-    Attributes
-    ----------
-    name : str
-        For people.
-    probe : ProbeFile
-    contacts : Contacts
-        In order of time.
-    notes : tuple of str
-        Sentences.
-    origin : Files or None
-        What it was read from, with what it was read with: to be read again in another way.
-    """
-
-    name: str
+    name: str  # For people
     probe: ProbeFile
-    contacts: Contacts
-    notes: tuple[str, ...] = ()
-    origin: Files | None = None
+    contacts: Contacts  # In order of time
+    notes: tuple[str, ...] = ()  # Sentences
+    # What it was read from, with what it was read with: to be read again in another way
+    origin: HeatmapFiles | None = None
 
 
 @dataclass(frozen=True)
-class Files:
-    """
-    Files by what they are.
-
-    Attributes
-    ----------
-    sessions, recordings, tables, verifications : tuple of Path
-    probe, calibration, wrenches, markers : Path or None
-        What the others are shown with; the newest that was given.
-    """
+class HeatmapFiles:
+    """Files by what they are."""
 
     sessions: tuple[Path, ...] = ()
     recordings: tuple[Path, ...] = ()
     tables: tuple[Path, ...] = ()
     verifications: tuple[Path, ...] = ()
+    # probe, calibration, wrenches, markers: What the others are shown with; the newest that was given
     probe: Path | None = None
     calibration: Path | None = None
     wrenches: Path | None = None
@@ -91,7 +71,7 @@ class Files:
         """All that holds contacts."""
         return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
 
-    def only(self, path: Path) -> Files:
+    def only(self, path: Path) -> HeatmapFiles:
         """Return one of those that hold contacts, with what it is shown with."""
 
         def those(paths: tuple[Path, ...]) -> tuple[Path, ...]:
@@ -107,32 +87,23 @@ class Files:
 
 
 @dataclass(frozen=True, eq=False)
-class Opened:
-    """
-    What came of files.
+class OpenedFiles:
+    """What came of files."""
 
-    Attributes
-    ----------
-    sources : tuple of Source
-    problems : tuple of str
-        What could not be opened, in sentences.
-    files : Files
-        To be given again with the next ones, so that a probe may come after its recording.
-    """
-
-    sources: tuple[Source, ...]
-    problems: tuple[str, ...]
-    files: Files = field(default_factory=Files)
+    sources: tuple[HeatmapSource, ...]
+    problems: tuple[str, ...]  # What could not be opened, in sentences
+    # To be given again with the next ones, so that a probe may come after its recording
+    files: HeatmapFiles = field(default_factory=HeatmapFiles)
 
 
-def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
+def sorted_files(paths: Iterable[Path], before: HeatmapFiles | None = None) -> HeatmapFiles:
     """
     Return files by what they are.
 
     Parameters
     ----------
     paths : iterable of Path
-    before : Files, optional
+    before : HeatmapFiles, optional
         What was given before: its probe, calibration, wrenches and markers still hold.
 
     Raises
@@ -143,12 +114,12 @@ def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
     found: dict[str, list[Path]] = {}
     for path in paths:
         found.setdefault(_kind(path), []).append(path)
-    old = before or Files()
+    old = before or HeatmapFiles()
 
     def one(kind: str, known: Path | None) -> Path | None:
         return found[kind][-1] if kind in found else known
 
-    return Files(
+    return HeatmapFiles(
         sessions=tuple(found.get("session", ())),
         recordings=tuple(found.get("recording", ())),
         tables=tuple(found.get("table", ())),
@@ -161,7 +132,7 @@ def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
 
 
 def _kind(path: Path) -> str:
-    """Return which field of `Files` a path belongs to."""
+    """Return which field of `HeatmapFiles` a path belongs to."""
     if path.is_dir():
         return "session"
     suffix = path.suffix.lower()
@@ -199,17 +170,17 @@ def _kind_of_json(path: Path) -> str:
 
 
 def open_files(
-    files: Files,
+    files: HeatmapFiles,
     how: HowRead = _USUAL,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Opened:
+) -> OpenedFiles:
     """
     Read all contacts, each with its probe; one that cannot be read is a problem of its own.
 
     Parameters
     ----------
-    files : Files
+    files : HeatmapFiles
     how : HowRead
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
@@ -219,7 +190,7 @@ def open_files(
     Cancelled
         `cancelled` answered True.
     """
-    sources: list[Source] = []
+    sources: list[HeatmapSource] = []
     problems: list[str] = []
     count = max(len(files.contacts), 1)
 
@@ -241,22 +212,22 @@ def open_files(
         except InputError as error:
             problems.append(str(error))
         told(1, 1)
-    return Opened(tuple(sources), tuple(problems), files)
+    return OpenedFiles(tuple(sources), tuple(problems), files)
 
 
 def read_again(
-    sources: Iterable[Source],
+    sources: Iterable[HeatmapSource],
     how: HowRead,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Opened:
+) -> OpenedFiles:
     """Read those that come from recordings once more, in another way; as `open_files`."""
     origins = {
         source.origin.contacts: source.origin
         for source in sources
         if source.origin is not None and (source.origin.recordings or source.origin.sessions)
     }
-    found: list[Source] = []
+    found: list[HeatmapSource] = []
     problems: list[str] = []
     for number, origin in enumerate(origins.values()):
 
@@ -267,12 +238,12 @@ def read_again(
         opened = open_files(origin, how, told, cancelled)
         found += opened.sources
         problems += opened.problems
-    return Opened(tuple(found), tuple(problems))
+    return OpenedFiles(tuple(found), tuple(problems))
 
 
 def _of_file(
-    path: Path, files: Files, how: HowRead, told: Callable[[int, int], None], name: str = ""
-) -> Source:
+    path: Path, files: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], name: str = ""
+) -> HeatmapSource:
     if files.probe is None:
         raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
     probe = load_probe_file(files.probe)
@@ -294,11 +265,11 @@ def _of_file(
         raise HeatmapError(f"{path.name}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
         contacts = _with_errors(contacts, files.markers)
-    return Source(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
+    return HeatmapSource(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
 def _of_recording(
-    path: Path, files: Files, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
+    path: Path, files: HeatmapFiles, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
 ) -> Contacts:
     if files.calibration is None:
         raise HeatmapError(
@@ -324,10 +295,10 @@ def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
 
 
 def _of_session(
-    folder: Path, given: Files, how: HowRead, told: Callable[[int, int], None], problems: list[str]
-) -> list[Source]:
+    folder: Path, given: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], problems: list[str]
+) -> list[HeatmapSource]:
     """Return the newest recording of a session, and the touches of its verification."""
-    found: list[Source] = []
+    found: list[HeatmapSource] = []
     reasons: list[str] = []
     with Session.open(folder, write=False) as session:
         how = replace(how, mount=how.mount or mount_of(session.state))

@@ -11,10 +11,10 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from contactbench.app.heatmap_viewer.cameras import OneCamera
-from contactbench.app.heatmap_viewer.controls import Controls
-from contactbench.app.heatmap_viewer.saving import Saving
+from contactbench.app.heatmap_viewer.controls import HeatmapControls
+from contactbench.app.heatmap_viewer.export import HeatmapExport
 from contactbench.app.heatmap_viewer.side import Side
-from contactbench.app.heatmap_viewer.work import Work
+from contactbench.app.heatmap_viewer.work import ViewerWork
 from contactbench.app.jobs import Jobs
 from contactbench.widgets.time_bar import TimeBar
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
-    from contactbench.app.heatmap_viewer.how import HowRead
-    from contactbench.app.heatmap_viewer.sources import Files, Opened, Source
+    from contactbench.app.heatmap_viewer.reading_options import HowRead
+    from contactbench.app.heatmap_viewer.sources import HeatmapFiles, HeatmapSource, OpenedFiles
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.widgets.scene import Pick
@@ -47,28 +47,28 @@ class HeatmapViewer(QWidget):
 
     Attributes
     ----------
-    controls : Controls
+    controls : HeatmapControls
     time : TimeBar
     sides : list of Side
         One, and a second once two were compared.
-    sources : list of Source
+    sources : list of HeatmapSource
     """
 
     def __init__(self, jobs: Jobs | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.jobs = jobs or Jobs(self)
-        self.controls, self.time = Controls(self), TimeBar(self)
+        self.controls, self.time = HeatmapControls(self), TimeBar(self)
         self.sides = [Side(self)]
-        self.sources: list[Source] = []
-        self._files: Files | None = None
+        self.sources: list[HeatmapSource] = []
+        self._files: HeatmapFiles | None = None
         self._shown = [0, 0]
-        self._wanted: dict[int, tuple[Source, float]] = {}
+        self._wanted: dict[int, tuple[HeatmapSource, float]] = {}
         self._making: set[int] = set()
         self._playbacks: dict[tuple[int, float], Playback] = {}
-        self.work = Work(self.jobs, self.controls)
+        self.work = ViewerWork(self.jobs, self.controls)
         self._closed = False
         self._camera = OneCamera(self)
-        self._saving = Saving(self)
+        self._saving = HeatmapExport(self)
         self._redraw = QTimer(self, interval=_REDRAW, singleShot=True)
         self._lay_out()
         self._connect()
@@ -159,7 +159,7 @@ class HeatmapViewer(QWidget):
         """Open files and folders of sessions, beside what is open; what is missing is said."""
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
-        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
             from contactbench.app.heatmap_viewer.sources import open_files, sorted_files
 
             found = sorted_files(given, before)
@@ -169,7 +169,7 @@ class HeatmapViewer(QWidget):
 
         self.work.start(self.tr("Opening"), work, self._opened)
 
-    def _opened(self, opened: Opened) -> None:
+    def _opened(self, opened: OpenedFiles) -> None:
         from contactbench.pipeline.heatmap.heatmap import default_bandwidth
 
         known = {source.name for source in self.sources}
@@ -199,12 +199,12 @@ class HeatmapViewer(QWidget):
         if not before:
             return
 
-        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> OpenedFiles:
             from contactbench.app.heatmap_viewer.sources import read_again
 
             return read_again(before, how, progress, cancelled)
 
-        def came(opened: Opened) -> None:
+        def came(opened: OpenedFiles) -> None:
             fresh = {source.name: source for source in opened.sources}
             self.sources = [fresh.get(source.name, source) for source in self.sources]
             said = [*opened.problems, *(note for source in opened.sources for note in source.notes)]
@@ -217,7 +217,7 @@ class HeatmapViewer(QWidget):
         names = [source.name for source in self.sources]
         for number, side in enumerate(self.sides):
             side.set_sources(names, self._shown[number])
-        seen = [self.sources[self._shown[number]] for number in range(self._visible())]
+        seen = [self.sources[self._shown[number]] for number in range(self.visible())]
         duration = max(max(s.contacts.duration, float(s.contacts.moments[-1])) for s in seen)
         if duration != self.time.slider.limits()[1]:
             self.time.set_duration(duration)
@@ -232,7 +232,8 @@ class HeatmapViewer(QWidget):
         self._shown[number] = source
         self._sources_changed()
 
-    def _visible(self) -> int:
+    def visible(self) -> int:
+        """Return how many heatmaps are seen."""
         return 2 if self.controls.compare.isChecked() and len(self.sides) > 1 else 1
 
     def _compare(self, two: bool) -> None:
@@ -269,7 +270,7 @@ class HeatmapViewer(QWidget):
         """Have every side's contacts spread by the bandwidth that is wanted now."""
         if not self.sources or self._closed:
             return
-        for number in range(self._visible()):
+        for number in range(self.visible()):
             source = self.sources[self._shown[number]]
             self._wanted[number] = (source, self.controls.bandwidth_m())
             self._make(number)
@@ -317,32 +318,26 @@ class HeatmapViewer(QWidget):
 
     def selection(self) -> Selection:
         """Return what is seen now."""
-        start, end = self.time.chosen()
-        return self.controls.selection(
-            None if start is None else round(start, 3), None if end is None else round(end, 3)
-        )
+        return self._selection(*self.time.chosen())
 
     def played_selection(self) -> Selection:
         """Return all that is played."""
-        start, end = self.time.played_range()
-        return self.controls.selection(
-            None if start is None else round(start, 3), None if end is None else round(end, 3)
-        )
+        return self._selection(*self.time.played_range())
 
-    def source(self, number: int) -> Source:
+    def _selection(self, *ends: float | None) -> Selection:
+        start, end = (None if each is None else round(each, 3) for each in ends)
+        return self.controls.selection(start, end)
+
+    def source(self, number: int) -> HeatmapSource:
         """Return what a side shows."""
         return self.sources[self._shown[number]]
-
-    def visible_sides(self) -> int:
-        """Return how many heatmaps are seen."""
-        return self._visible()
 
     def _show(self) -> None:
         if self._closed:
             return
         playing = self.time.slider.playhead() is not None
         window = self.time.seconds() if playing else None
-        sides, whole = self.sides[: self._visible()], self.played_selection()
+        sides, whole = self.sides[: self.visible()], self.played_selection()
         top = max((side.top(whole, window) for side in sides), default=0.0)
         selection = self.selection()
         for side in sides:

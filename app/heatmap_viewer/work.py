@@ -9,22 +9,22 @@ from PySide6.QtCore import QObject
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.heatmap_viewer.controls import Controls
+    from contactbench.app.heatmap_viewer.controls import HeatmapControls
     from contactbench.app.jobs import Job, Jobs
 
 
-class Work(QObject):
+class ViewerWork(QObject):
     """
     Starts jobs, and shows the newest of them.
 
     Parameters
     ----------
     jobs : Jobs
-    controls : Controls
+    controls : HeatmapControls
         The panel.
     """
 
-    def __init__(self, jobs: Jobs, controls: Controls) -> None:
+    def __init__(self, jobs: Jobs, controls: HeatmapControls) -> None:
         super().__init__(controls)
         self._jobs, self._controls = jobs, controls
         self._running: list[Job] = []

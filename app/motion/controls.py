@@ -4,35 +4,34 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDoubleSpinBox,
-    QFormLayout,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QFrame, QHBoxLayout, QVBoxLayout, QWidget
 
-from contactbench.widgets.icons import icon
+from contactbench.widgets.controls import (
+    PanelScroll,
+    accent,
+    choice,
+    column,
+    named,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+    set_role,
+)
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.workbench.motion import Change, MotionChoice
+    from contactbench.pipeline.workbench.motion import MotionChange, MotionChoice
 
 _WIDTH_PX, _BUTTON_PX, _LINES_PX = 348, 40, 40
 _PERIODS_S = (20.0, 10.0, 5.0, 2.0)
 _SHOWN = 6  # changes
 
 
-class Controls(QWidget):
+class MotionControls(QWidget):
     """The panel on the right of the window."""
 
     asked_bundle = Signal(bool)  # True: that of the session
@@ -41,133 +40,84 @@ class Controls(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.robot, self.motion, self.period = QComboBox(self), QComboBox(self), QComboBox(self)
-        self.size_of, self.variant = QDoubleSpinBox(self), QComboBox(self)
-        self.bundle, self.message, self.happened = QLabel(self), QLabel(self), QLabel(self)
-        self.state, self.does = QLabel(self), QLabel(self)
-        self.force, self.angle = QLabel(self), QLabel(self)
-        self.of_session = QPushButton(icon("folder"), self.tr("This session"), self)
-        self.other = QPushButton(icon("folder"), self.tr("Open bundle"), self)
-        self.start = QPushButton(icon("play", "panel"), self.tr("Start"), self)
-        self.stop = QPushButton(icon("stop"), self.tr("Stop"), self)
-        self._fill()
-        self._dress()
+        self.robot = choice(
+            ((self.tr("Elfin3 arm"), "virtual://arm"), (self.tr("stiff mount"), "virtual://platform")),
+            self.tr("Robot"),
+            tip=self.tr("Both are simulated: nothing real moves."),
+        )
+        self.motion = choice(
+            (
+                (self.tr("tilts along the face"), "in-plane"),
+                (self.tr("tilts across the face"), "out-of-plane"),
+                (self.tr("goes up and down"), "vertical"),
+                (self.tr("rests"), "none"),
+            ),
+            self.tr("The phantom"),
+            tip=self.tr("How the soft phantom moves under the probe."),
+        )
+        self.period = choice(
+            [(self.tr("{seconds:g} s").format(seconds=each), each) for each in _PERIODS_S],
+            self.tr("There and back in"),
+            tip=self.tr("Period T of the phantom's motion."),
+        )
+        self.period.setCurrentIndex(_PERIODS_S.index(10.0))
+        self.variant = choice(
+            (
+                (self.tr("as in the bundle"), None),
+                (self.tr("aware"), "aware"),
+                (self.tr("plain"), "plain"),
+            ),
+            self.tr("Control"),
+            tip=self.tr("Aware: how the phantom moves is estimated and led. Plain: force and place alone."),
+        )
+        self.size_of = QDoubleSpinBox(decimals=0, minimum=0.0, maximum=20.0, value=10.0)
+        tip = self.tr("Amplitude of the phantom's motion, to either side.")
+        named(self.size_of, self.tr("How far"), tip=tip)
+        self.bundle, self.message = sentence_label(role="muted"), sentence_label()
+        self.message.setMinimumHeight(_LINES_PX)  # the panel must not jump
+        self.state, self.does = plain_label("", "title"), sentence_label()
+        self.force, self.angle = plain_label("", "number"), plain_label("", "number")
+        self.happened = sentence_label(role="muted")
+        self.state.setAccessibleName(self.tr("What the controller does"))
+        self.force.setAccessibleName(self.tr("Force"))
+        self.angle.setAccessibleName(self.tr("Angle to the phantom"))
+        tip = self.tr("What would be exported of the open session now.")
+        self.of_session = push_button(self.tr("This session"), None, "folder", tip=tip)
+        tip = self.tr("A folder or zip file that was exported.")
+        self.other = push_button(self.tr("Open bundle"), None, "folder", tip=tip)
+        for button in (self.of_session, self.other):
+            button.setStyleSheet("padding: 4px 6px;")
+        self.start = push_button(self.tr("Start"), None, "play", high=_BUTTON_PX, primary=True)
+        tip = self.tr("The probe goes back and stands still (Esc).")
+        self.stop = push_button(self.tr("Stop"), None, "stop", tip=tip, high=_BUTTON_PX)
         self._lay_out()
         self._connect()
         self.show_state(None)
 
-    # ---- making ------------------------------------------------------------------------------------
-
-    def _fill(self) -> None:
-        for box, name, tip, choices in (
-            (
-                self.robot,
-                self.tr("Robot"),
-                self.tr("Both are simulated: nothing real moves."),
-                (
-                    (self.tr("Elfin3 arm"), "virtual://arm"),
-                    (self.tr("stiff mount"), "virtual://platform"),
-                ),
-            ),
-            (
-                self.motion,
-                self.tr("The phantom"),
-                self.tr("How the soft phantom moves under the probe."),
-                (
-                    (self.tr("tilts along the face"), "in-plane"),
-                    (self.tr("tilts across the face"), "out-of-plane"),
-                    (self.tr("goes up and down"), "vertical"),
-                    (self.tr("rests"), "none"),
-                ),
-            ),
-            (
-                self.period,
-                self.tr("There and back in"),
-                self.tr("Period T of the phantom's motion."),
-                tuple((self.tr("{seconds:g} s").format(seconds=each), each) for each in _PERIODS_S),
-            ),
-            (
-                self.variant,
-                self.tr("Control"),
-                self.tr("Aware: how the phantom moves is estimated and led. Plain: force and place alone."),
-                (
-                    (self.tr("as in the bundle"), None),
-                    (self.tr("aware"), "aware"),
-                    (self.tr("plain"), "plain"),
-                ),
-            ),
-        ):
-            box.setAccessibleName(name)
-            box.setToolTip(tip)
-            for text, value in choices:
-                box.addItem(text, value)
-        self.period.setCurrentIndex(_PERIODS_S.index(10.0))
-        self.size_of.setRange(0.0, 20.0)
-        self.size_of.setDecimals(0)
-        self.size_of.setValue(10.0)
-        self.size_of.setAccessibleName(self.tr("How far"))
-        self.size_of.setToolTip(self.tr("Amplitude of the phantom's motion, to either side."))
-
-    def _dress(self) -> None:
-        for label, role in (
-            (self.bundle, "muted"), (self.state, "title"), (self.force, "number"), (self.angle, "number"),
-            (self.happened, "muted"),
-        ):  # fmt: skip
-            label.setProperty("role", role)
-        for label in (self.bundle, self.message, self.happened, self.does):
-            label.setWordWrap(True)
-        self.message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.state.setAccessibleName(self.tr("What the controller does"))
-        self.force.setAccessibleName(self.tr("Force"))
-        self.angle.setAccessibleName(self.tr("Angle to the phantom"))
-        self.message.setMinimumHeight(_LINES_PX)  # the panel must not jump
-        for button in (self.of_session, self.other):
-            button.setMinimumHeight(36)
-            button.setStyleSheet("padding: 4px 6px;")
-        for button in (self.start, self.stop):
-            button.setMinimumHeight(_BUTTON_PX)
-        self.of_session.setToolTip(self.tr("What would be exported of the open session now."))
-        self.other.setToolTip(self.tr("A folder or zip file that was exported."))
-        self.stop.setToolTip(self.tr("The probe goes back and stands still (Esc)."))
-
     def _lay_out(self) -> None:
-        column = QVBoxLayout()
-        column.setContentsMargins(12, 10, 12, 8)
-        column.setSpacing(8)
-        title = QLabel(self.tr("Motion control"), self)
-        title.setProperty("role", "title")
-        column.addWidget(title)
-        column.addLayout(_row(self.of_session, self.other))
-        column.addWidget(self.bundle)
-        form = QFormLayout()
-        form.setSpacing(4)
+        rows = QFormLayout()
+        rows.setSpacing(4)
         for box in (self.robot, self.motion, self.size_of, self.period, self.variant):
-            form.addRow(box.accessibleName(), box)
-        column.addLayout(form)
-        column.addLayout(_row(self.start, self.stop))
-        column.addWidget(self.message)
-        column.addWidget(self._card())
-        column.addWidget(self.happened)
-        column.addStretch(1)
-        inside = QWidget(self)
-        inside.setLayout(column)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(Scrolled(inside, self))
+            rows.addRow(box.accessibleName(), box)
+        inside = QWidget()
+        column(
+            inside, plain_label(self.tr("Motion control"), "title"), _even(self.of_session, self.other),
+            self.bundle, rows, _even(self.start, self.stop), self.message, self._card(), self.happened,
+            margins=(12, 10, 12, 8),
+        ).addStretch(1)  # fmt: skip
+        column(self, PanelScroll(inside))
         self.setFixedWidth(_WIDTH_PX)
 
     def _card(self) -> QFrame:
-        card = QFrame(self)
+        card = QFrame()
         card.setProperty("role", "card")
-        column = QVBoxLayout(card)
-        column.setSpacing(2)
-        column.addWidget(self.state)
-        column.addWidget(self.does)
-        column.addLayout(_row(self.force, self.angle))
-        captions = QLabel(self.tr("force"), card), QLabel(self.tr("angle to the phantom"), card)
-        for caption in captions:
-            caption.setProperty("role", "muted")
-        column.addLayout(_row(*captions))
+        layout = QVBoxLayout(card)
+        layout.setSpacing(2)
+        layout.addWidget(self.state)
+        layout.addWidget(self.does)
+        layout.addLayout(_even(self.force, self.angle))
+        captions = (self.tr("force"), self.tr("angle to the phantom"))
+        layout.addLayout(_even(*(plain_label(each, "muted") for each in captions)))
         return card
 
     def _connect(self) -> None:
@@ -205,10 +155,8 @@ class Controls(QWidget):
         self._show_size()
         self.start.setEnabled(ready and not running)
         self.stop.setEnabled(running)
-        accent(self.start, not running)
-        accent(self.stop, running)
-        self.start.setIcon(icon("play", "text" if running else "panel"))
-        self.stop.setIcon(icon("stop", "panel" if running else "text"))
+        accent(self.start, not running, "play")
+        accent(self.stop, running, "stop")
 
     # ---- what is shown -----------------------------------------------------------------------------
 
@@ -217,9 +165,7 @@ class Controls(QWidget):
         text = said(text)
         if text == self.message.text():
             return
-        self.message.setProperty("role", "bad" if bad else "")
-        self.message.style().unpolish(self.message)
-        self.message.style().polish(self.message)
+        set_role(self.message, "bad" if bad else "")
         self.message.setText(text)
 
     def show_state(self, state: str | None) -> None:
@@ -233,7 +179,7 @@ class Controls(QWidget):
         self.force.setText("–" if force is None else self.tr("{:z.1f} N").format(force))
         self.angle.setText("–" if angles is None else self.tr("{:.1f}°").format(max(map(abs, angles))))
 
-    def show_changes(self, changes: Sequence[Change]) -> None:
+    def show_changes(self, changes: Sequence[MotionChange]) -> None:
         """Show the newest changes of state, newest first."""
         names = {key: name for key, (name, _) in self._words().items()}
         lines = [
@@ -255,9 +201,5 @@ class Controls(QWidget):
         }
 
 
-def _row(*widgets: QWidget) -> QHBoxLayout:
-    row = QHBoxLayout()
-    row.setSpacing(6)
-    for each in widgets:
-        row.addWidget(each, 1)
-    return row
+def _even(*widgets: QWidget) -> QHBoxLayout:
+    return row(*((each, 1) for each in widgets))

@@ -25,14 +25,7 @@ _MIDDLE, _NEARER = 0.45, 0.75  # of the probe's size, of the whole view
 
 
 class Picture(QWidget):
-    """
-    Phantom, probe, contact and force in the world, and force and angle over time.
-
-    Attributes
-    ----------
-    scene : Scene
-    force, angle : Pane
-    """
+    """Phantom, probe, contact and force in the world, and force and angle over time."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

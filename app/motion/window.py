@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
 from contactbench.app.errors import in_words
 from contactbench.app.jobs import Jobs
-from contactbench.app.motion.controls import Controls
+from contactbench.app.motion.controls import MotionControls
 from contactbench.app.motion.picture import Picture
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class MotionWindow(QWidget):
 
     Attributes
     ----------
-    controls : Controls
+    controls : MotionControls
     picture : Picture
     run : MotionRun or None
         What runs, or has run.
@@ -54,7 +54,7 @@ class MotionWindow(QWidget):
         super().__init__(parent)
         self._bench = bench
         self.jobs = Jobs(self)
-        self.controls, self.picture = Controls(self), Picture(self)
+        self.controls, self.picture = MotionControls(self), Picture(self)
         self.run: MotionRun | None = None
         self._bundle: Path | None = None
         self._unturned = False

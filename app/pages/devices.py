@@ -6,16 +6,7 @@ import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtWidgets import (
-    QFormLayout,
-    QGroupBox,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFormLayout, QGroupBox, QLineEdit, QVBoxLayout, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
@@ -26,13 +17,13 @@ from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import PanelScroll, column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.live_trial import Trial
+    from contactbench.pipeline.workbench.live_trial import ConnectionTrial
     from contactbench.pipeline.workbench.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
@@ -61,8 +52,7 @@ class DevicesPage(Page):
     # ---- what is there -----------------------------------------------------------------------------
 
     def _build(self) -> None:
-        self._status = QLabel()
-        self._status.setWordWrap(True)
+        self._status, self._note = sentence_label(), sentence_label(role="muted")
         self.sensor, self.poses = SensorSource(), PoseSource()
         self.serial = QLineEdit()
         self.serial.setPlaceholderText(self.tr("on the sensor's label"))
@@ -75,48 +65,26 @@ class DevicesPage(Page):
                     "How the sensor is turned on the flange, about the flange's fixed axes x, then y, then z"
                 )
             )
-        self.try_button = QPushButton(self.tr("Test connection"))
-        self.use_button = QPushButton(self.tr("Use these devices"))
-        self.use_button.setProperty("primary", True)
-        for button in (self.try_button, self.use_button):
-            button.setMinimumHeight(_HIGH)
-        self._note = QLabel()
-        self._note.setWordWrap(True)
-        self._note.setProperty("role", "muted")
+        self.try_button = push_button(self.tr("Test connection"), self.test, high=_HIGH)
+        self.use_button = push_button(self.tr("Use these devices"), self.use, high=_HIGH, primary=True)
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
-        self._lay_out()
+        mounting = QGroupBox(self.tr("Mounting"))
+        rows = QFormLayout(mounting)
+        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        rows.addRow(self.tr("Sensor on the flange"), row(*self.mount))
+        rows.addRow(self.tr("Serial number"), self.serial)
+        measured, inside = QGroupBox(self.tr("Measured")), QWidget()
+        QVBoxLayout(measured).addWidget(self.channels)
+        column(
+            inside, plain_label(self.tr("Devices"), "title"), self._status, self.trial, self.sensor, self.poses,
+            mounting, measured, margins=(0, 0, 4, 0), space=6,
+        ).addStretch(1)  # fmt: skip
+        column(
+            self, PanelScroll(inside), self._note, row(self.try_button, self.use_button),
+            margins=(8, 8, 8, 8), space=6,
+        ).setStretch(0, 1)  # fmt: skip
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
-        self.try_button.clicked.connect(self.test)
-        self.use_button.clicked.connect(self.use)
-
-    def _lay_out(self) -> None:
-        title = QLabel(self.tr("Devices"))
-        title.setProperty("role", "title")
-        mount = QHBoxLayout()
-        for spin in self.mount:
-            mount.addWidget(spin)
-        group = QGroupBox(self.tr("Mounting"))
-        form = QFormLayout(group)
-        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        form.addRow(self.tr("Sensor on the flange"), mount)
-        form.addRow(self.tr("Serial number"), self.serial)
-        inside = QWidget()
-        box = QVBoxLayout(inside)
-        box.setContentsMargins(0, 0, 4, 0)
-        measured = QGroupBox(self.tr("Measured"))
-        QVBoxLayout(measured).addWidget(self.channels)
-        for widget in (title, self._status, self.trial, self.sensor, self.poses, group, measured):
-            box.addWidget(widget)
-        box.addStretch(1)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(8, 8, 8, 8)
-        outer.addWidget(Scrolled(inside), 1)
-        outer.addWidget(self._note)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.try_button)
-        buttons.addWidget(self.use_button)
-        outer.addLayout(buttons)
 
     # ---- what is chosen ----------------------------------------------------------------------------
 
@@ -271,7 +239,7 @@ class DevicesPage(Page):
             self._ports_at = now
             self._ports = self._worker.submit(list_ports)
 
-    def _tell_changes(self, trial: Trial | None) -> None:
+    def _tell_changes(self, trial: ConnectionTrial | None) -> None:
         """Put into the message list that a device went away or came back."""
         state = None if trial is None else trial.state
         if trial is None or state is self._told:

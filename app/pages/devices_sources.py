@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QFileDialog,
     QGroupBox,
-    QHBoxLayout,
-    QLabel,
     QLineEdit,
     QPushButton,
     QSizePolicy,
@@ -23,6 +21,7 @@ from PySide6.QtWidgets import (
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
+from contactbench.widgets.controls import HIGH, row, sentence_label
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -32,7 +31,6 @@ if TYPE_CHECKING:
 
 _PORT, _VIRTUAL, _REPLAY, _ADDRESS = "port", "virtual", "replay", "address"
 _SAME, _STILL, _FILE, _NONE = "same", "still", "file", "none"
-_HIGH = 36
 
 
 class FileField(QWidget):
@@ -47,10 +45,9 @@ class FileField(QWidget):
         self.edit.setPlaceholderText(title)
         self.edit.setAccessibleName(title)
         self.button = QPushButton(self.tr("Choose…"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.edit, 1)
-        row.addWidget(self.button)
+        both = row((self.edit, 1), self.button)
+        both.setContentsMargins(0, 0, 0, 0)
+        self.setLayout(both)
         self.edit.textChanged.connect(self.changed)
         self.button.clicked.connect(self._choose)
 
@@ -66,7 +63,7 @@ class FileField(QWidget):
             self.edit.setText(name)
 
 
-class Source(QGroupBox):
+class DeviceChoice(QGroupBox):
     """
     A choice of kinds, what each needs beneath it, and what is wrong with it.
 
@@ -81,13 +78,11 @@ class Source(QGroupBox):
     def __init__(self, title: str, parent: QWidget | None = None) -> None:
         super().__init__(title, parent)
         self.kind = QComboBox()
-        self.kind.setMinimumHeight(_HIGH)
+        self.kind.setMinimumHeight(HIGH)
         self.kind.setAccessibleName(title)
         self.kind.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self._fields: list[QWidget] = []
-        self._problem = QLabel()
-        self._problem.setWordWrap(True)
-        self._problem.setProperty("role", "bad")
+        self._problem = sentence_label(role="bad")
         self._problem.setVisible(False)
         self._box = QVBoxLayout(self)
         self._box.addWidget(self.kind)
@@ -117,7 +112,7 @@ class Source(QGroupBox):
         return self._problem.text() if self._problem.isVisibleTo(self) else ""
 
 
-class SensorSource(Source):
+class SensorSource(DeviceChoice):
     """Which force/torque sensor."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -164,14 +159,13 @@ class SensorSource(Source):
         there = [(self.kind.itemText(i), self.kind.itemData(i)) for i in range(self.kind.count())]
         if wanted == there:
             return
-        self.kind.blockSignals(True)
-        self.kind.clear()
-        for name, data in wanted:
-            self.kind.addItem(name, data)
         paths = [data[1] if isinstance(data, tuple) else data for _, data in wanted]
         key = chosen[1] if isinstance(chosen, tuple) else chosen
-        self.kind.setCurrentIndex(paths.index(key) if key in paths else paths.index(_VIRTUAL))
-        self.kind.blockSignals(False)
+        with QSignalBlocker(self.kind):
+            self.kind.clear()
+            for name, data in wanted:
+                self.kind.addItem(name, data)
+            self.kind.setCurrentIndex(paths.index(key) if key in paths else paths.index(_VIRTUAL))
         self._show_fields()
 
     def _port_name(self, port: SerialPort) -> str:
@@ -232,7 +226,7 @@ class SensorSource(Source):
             self.kind.setCurrentIndex(self.kind.findData(_ADDRESS))
 
 
-class PoseSource(Source):
+class PoseSource(DeviceChoice):
     """What tells the sensor's orientation."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -243,16 +237,13 @@ class PoseSource(Source):
         self.address.setPlaceholderText("ur+tcp://192.168.0.10")
         self.address.setAccessibleName(self.tr("Address of the robot"))
         self.file = FileField(self.tr("File of poses"), self.tr("Poses (*.csv);;All files (*)"))
-        self._hint = QLabel()
-        self._hint.setWordWrap(True)
-        self._hint.setProperty("role", "muted")
+        self._hint = sentence_label(role="muted")
         self.angles = [angle_field(axis) for axis in "xyz"]
-        still = QWidget()
-        row = QHBoxLayout(still)
-        row.setContentsMargins(0, 0, 0, 0)
         for spin in self.angles:
             spin.setAccessibleName(self.tr("Turn of the flange about {axis}").format(axis=spin.prefix()))
-            row.addWidget(spin)
+        still, angles = QWidget(), row(*self.angles)
+        angles.setContentsMargins(0, 0, 0, 0)
+        still.setLayout(angles)
         self._still = self._add(still)
         for widget in (self.address, self.file, self._hint):
             self._add(widget)
@@ -328,12 +319,8 @@ class PoseSource(Source):
 
 def angle_field(axis: str) -> QDoubleSpinBox:
     """Return a field for an angle about an axis, degrees."""
-    spin = QDoubleSpinBox()
-    spin.setRange(-360.0, 360.0)
-    spin.setDecimals(1)
-    spin.setSingleStep(90.0)
-    spin.setPrefix(f"{axis} ")
-    spin.setSuffix("°")
-    spin.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # three beside each other
-    spin.setMinimumHeight(_HIGH)
-    return spin
+    field = QDoubleSpinBox(decimals=1, minimum=-360.0, maximum=360.0, singleStep=90.0, suffix="°")
+    field.setPrefix(f"{axis} ")
+    field.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # three beside each other
+    field.setMinimumHeight(HIGH)
+    return field

@@ -12,9 +12,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
     QGroupBox,
-    QHBoxLayout,
     QLabel,
-    QPushButton,
     QSizePolicy,
     QVBoxLayout,
     QWidget,
@@ -23,22 +21,30 @@ from PySide6.QtWidgets import (
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.export_settings import ExportSettingsPanel
-from contactbench.app.pages.verify_undo import ChangeSettings
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.export import Exported, ExportView, export, survey
+from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, export, survey
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.checklist import Checklist, ShownCheck
+from contactbench.widgets.checklist import Checklist
+from contactbench.widgets.controls import (
+    HIGH,
+    PanelScroll,
+    column,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+)
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.export import Preview
+    from contactbench.pipeline.workbench.export import ExportPreview
     from contactbench.pipeline.workbench.steps import StepStatus
 
-_TALL, _ICON = 36, 30
+_ICON = 30
 
 
 class ExportPage(Page):
@@ -56,7 +62,7 @@ class ExportPage(Page):
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         self.view: ExportView | None = None
-        self.exported: Exported | None = None
+        self.exported: ExportedBundle | None = None
         self._read_at, self._busy, self._shown = -1, False, False
         self._looking = self._closed = False
         self._build()
@@ -65,91 +71,45 @@ class ExportPage(Page):
     # ---- how it looks ----------------------------------------------------------------------------
 
     def _build(self) -> None:
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        inside = QWidget()
-        column = QVBoxLayout(inside)
-        column.setContentsMargins(10, 8, 10, 8)
-        column.setSpacing(8)
-        outer.addWidget(Scrolled(inside))
-        title = QLabel(self.tr("Export"))
-        title.setProperty("role", "title")
-        column.addWidget(title)
-        column.addLayout(self._standing())
+        self.sign, self.standing = Sign(_ICON), self._label()
         self.checklist = Checklist()
         self.checklist.wanted.connect(self.bench.go_to)
-        column.addWidget(self.checklist)
-        column.addLayout(self._buttons())
-        self.result = self._label()
-        self.result.hide()
-        column.addWidget(self.result)
-        column.addLayout(self._after())
-        column.addWidget(self._boxed(self.tr("What will be in it"), self._preview_labels()))
-        self.settings = ExportSettingsPanel()
-        self.settings.changed.connect(self._set)
-        self.settings.failed.connect(partial(self.bench.tell, Weight.WARNING))
-        column.addWidget(self._boxed(self.tr("Settings"), [self.settings]))
-        column.addStretch(1)
-
-    def _standing(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        self.sign, self.standing = Sign(_ICON), self._label()
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(self.standing, 1)
-        return row
-
-    def _buttons(self) -> QVBoxLayout:
-        column = QVBoxLayout()
         self.unverified = QCheckBox(self.tr("Write it although it is not verified"))
         self.unverified.setToolTip(
             self.tr("For trials only: the bundle says that nobody has shown that it is right")
         )
-        self.unverified.setMinimumHeight(_TALL)
+        self.unverified.setMinimumHeight(HIGH)
         self.unverified.toggled.connect(lambda _: self._allow())
-        column.addWidget(self.unverified)
-        row = QHBoxLayout()
-        self.zip = QPushButton(icon("export", "panel"), self.tr("Export a file…"))
-        self.zip.setProperty("primary", True)
-        self.zip.setToolTip(self.tr("One zip file, which a robot's runtime loads as it is"))
-        self.folder = QPushButton(icon("folder"), self.tr("Export a folder…"))
-        for button, choose in ((self.zip, self._choose_file), (self.folder, self._choose_folder)):
-            button.setMinimumHeight(_TALL)
-            button.clicked.connect(lambda _=False, choose=choose: choose())
-            row.addWidget(button, 1)
-        column.addLayout(row)
-        return column
-
-    def _after(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        self.report = QPushButton(icon("info"), self.tr("Open the report"))
-        self.report.clicked.connect(lambda _=False: self._open(self._report_file()))
-        self.show_folder = QPushButton(icon("folder"), self.tr("Show where it is"))
-        self.show_folder.clicked.connect(lambda _=False: self._open(self._place()))
+        tip = self.tr("One zip file, which a robot's runtime loads as it is")
+        self.zip = push_button(self.tr("Export a file…"), self._choose_file, "export", tip=tip, primary=True)
+        self.folder = push_button(self.tr("Export a folder…"), self._choose_folder, "folder")
+        self.result = self._label()
+        self.result.hide()
+        self.report = push_button(self.tr("Open the report"), lambda: self._open(self._report_file()), "info")
+        self.show_folder = push_button(
+            self.tr("Show where it is"), lambda: self._open(self._place()), "folder"
+        )
         for button in (self.report, self.show_folder):
-            button.setMinimumHeight(_TALL)
             button.hide()
-            row.addWidget(button, 1)
-        return row
+        self.figures, self.files, self.changes = self._label(), self._label("muted"), self._label()
+        self.settings = ExportSettingsPanel()
+        self.settings.changed.connect(self._set)
+        self.settings.failed.connect(partial(self.bench.tell, Weight.WARNING))
+        standing = row(space=8)
+        standing.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        standing.addWidget(self.standing, 1)
+        inside = QWidget()
+        column(
+            inside, plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
+            row((self.zip, 1), (self.folder, 1)), self.result, row((self.report, 1), (self.show_folder, 1)),
+            _boxed(self.tr("What will be in it"), self.figures, self.files, self.changes),
+            _boxed(self.tr("Settings"), self.settings), margins=(10, 8, 10, 8),
+        ).addStretch(1)  # fmt: skip
+        column(self, PanelScroll(inside))
 
-    def _preview_labels(self) -> list[QWidget]:
-        self.figures, self.files, self.changes = self._label(), self._label(), self._label()
-        self.files.setProperty("role", "muted")
-        return [self.figures, self.files, self.changes]
-
-    def _boxed(self, title: str, widgets: list[QWidget]) -> QGroupBox:
-        box = QGroupBox(title)
-        column = QVBoxLayout(box)
-        for each in widgets:
-            column.addWidget(each)
-        return box
-
-    def _label(self) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
+    def _label(self, role: str = "") -> QLabel:
+        label = sentence_label(role=role)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         return label
 
     # ---- shown -----------------------------------------------------------------------------------
@@ -200,12 +160,7 @@ class ExportPage(Page):
         return setting.value if setting is not None and isinstance(setting.value, str) else ""
 
     def _show(self, view: ExportView) -> None:
-        self.checklist.show_items(
-            [
-                ShownCheck(self._name(item.name), item.state.value, item.sentence, item.step, item.holds)
-                for item in view.items
-            ]
-        )
+        self.checklist.show_items(view.items)
         preview = view.preview
         if preview is None:
             problem = self._problem(view)
@@ -226,7 +181,7 @@ class ExportPage(Page):
             " step 5, or fill in Readings under Settings, as the sensor is set."
         )
 
-    def _show_preview(self, preview: Preview) -> None:
+    def _show_preview(self, preview: ExportPreview) -> None:
         self.figures.setText(
             "\n".join(f"{self._figure(what)}: {said(value)}" for what, value in preview.figures)
         )
@@ -269,18 +224,6 @@ class ExportPage(Page):
             "Made by": self.tr("Made by"),
         }.get(what, what)
 
-    def _name(self, name: str) -> str:
-        return {
-            "Sensor": self.tr("Sensor"),
-            "Calibration": self.tr("Calibration"),
-            "Probe": self.tr("Probe"),
-            "Regions": self.tr("Regions"),
-            "Verification": self.tr("Verification"),
-            "Known weight": self.tr("Known weight"),
-            "Known touch": self.tr("Known touch"),
-            "Report": self.tr("Report"),
-        }.get(name, name)
-
     def _stand(self, name: str, colour: str, words: str) -> None:
         self.sign.show_icon(icon(name, colour))
         self.standing.setText(words)
@@ -313,10 +256,8 @@ class ExportPage(Page):
         plain, usual = before.model_dump(mode="json"), ExportOptions().model_dump(mode="json")
         if all(plain[name] == (usual[name] if value is None else value) for name, value in values.items()):
             return
-        stored = {name: settings[f"config.{name}"].value for name in values if f"config.{name}" in settings}
-        was = {f"config.{name}": stored.get(name) for name in values}
         now = {f"config.{name}": value for name, value in values.items()}
-        self.bench.undo.push(ChangeSettings(self.bench, was, now, text))
+        self.bench.undo.push(SetParameters(self.bench, now, text))
 
     # ---- writing ---------------------------------------------------------------------------------
 
@@ -347,7 +288,7 @@ class ExportPage(Page):
         self._allow()
         self.result.hide()
 
-        def done(found: Exported) -> None:
+        def done(found: ExportedBundle) -> None:
             self._busy, self.exported = False, found
             if self._closed:
                 return
@@ -368,13 +309,10 @@ class ExportPage(Page):
         )
 
     def _said(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if self._closed:
-            return
-        self.result.setText(said(str(error)))
-        self.result.show()
-        self.bench.tell(Weight.ERROR, str(error))
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
+            self.result.setText(said(str(error)))
+            self.result.show()
 
     def _place(self) -> Path | None:
         place = self._setting("export.place")
@@ -388,6 +326,14 @@ class ExportPage(Page):
         if place is not None:
             target = place.parent if place.suffix.lower() == ".zip" else place
             QDesktopServices.openUrl(QUrl.fromLocalFile(str(target)))
+
+
+def _boxed(title: str, *widgets: QWidget) -> QGroupBox:
+    box = QGroupBox(title)
+    layout = QVBoxLayout(box)
+    for each in widgets:
+        layout.addWidget(each)
+    return box
 
 
 def _size(count: int) -> str:

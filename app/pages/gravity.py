@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
-from contactbench.app.pages.gravity_changes import GravityChanges
-from contactbench.app.pages.gravity_choices import GravityChoices
-from contactbench.app.pages.gravity_panel import GravityPanel, big_button
+from contactbench.app.pages.gravity_panel import GravityPanel
 from contactbench.app.pages.gravity_run import GravityRun, Phase
 from contactbench.app.pages.gravity_weight import WeightPanel
 from contactbench.pipeline.calibration import Level
@@ -22,20 +20,22 @@ from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.widgets.icons import icon
+from contactbench.widgets.controls import accent, column, push_button, row, show_quietly
 from contactbench.widgets.phrases import said
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
-    from PySide6.QtWidgets import QPushButton
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.workbench.gravity import GravityView
-    from contactbench.pipeline.workbench.gravity_fit import Finding
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding
     from contactbench.pipeline.workbench.gravity_poses import PoseRow
     from contactbench.pipeline.workbench.steps import StepStatus
+
+    Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does
 
 _BUMP_N = [6.0, 0.0, 0.0]
 
@@ -48,20 +48,14 @@ class GravityPage(Page):
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         self.run = GravityRun(bench, self)
-        self.changes, self.choices = GravityChanges(self.run), GravityChoices(self.run)
         self.panel, self.weight = GravityPanel(), WeightPanel(bench)
         self.panel.add_check(self.weight)
-        self.primary, self.second = big_button(""), big_button("")
+        self.primary, self.second = push_button("", high=38), push_button("", high=38)
         self._shown, self._heard = -1, -1
         self._locked = self._entered = False
-        row = QHBoxLayout()
-        row.setContentsMargins(10, 4, 10, 10)
-        row.addWidget(self.second)
-        row.addWidget(self.primary, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.addWidget(self.panel, 1)
-        box.addLayout(row)
+        buttons = row(self.second, (self.primary, 1))
+        buttons.setContentsMargins(10, 4, 10, 10)
+        column(self, self.panel, buttons, space=6).setStretch(0, 1)
         self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         self.space.setContext(Qt.ShortcutContext.WindowShortcut)
         self.space.setWhatsThis(self.tr("Take this pose (gravity)"))
@@ -179,7 +173,7 @@ class GravityPage(Page):
         run, panel = self.run, self.panel
         outcome = None if run.busy else run.outcome
         check = run.check
-        virtual = self._bench() is not None
+        virtual = self.bench.live.bench is not None
         panel.next.hide()
         panel.away.setVisible(check is not None)
         panel.turn.setVisible(check is not None and virtual)
@@ -224,7 +218,7 @@ class GravityPage(Page):
         panel.coverage.show_poses(view.rows, None if proposal is None else proposal.R_WS, *self._limits())
         panel.figures.show_figures(view.count, view.expected, view.errors, running=True)
         panel.findings.show_findings(view.solved.findings)
-        panel.show_next(proposal, virtual=self._bench() is not None, running=True)
+        panel.show_next(proposal, virtual=self.bench.live.bench is not None, running=True)
         self.bench.scene.show_ghost(None if proposal is None or not self._entered else proposal.R_WS)
         fitted = view.solved.calibration
         panel.verdict.setVisible(fitted is not None)
@@ -254,9 +248,9 @@ class GravityPage(Page):
 
     def _show_buttons(self) -> None:
         run = self.run
-        first, second = self.choices.now()
-        self.primary.setText(first.text)
-        self.second.setText("" if second is None else second.text)
+        first, second = self._choices()
+        self.primary.setText(first[0])
+        self.second.setText("" if second is None else second[0])
         self.second.setVisible(second is not None)
         waits = run.busy or run.phase is Phase.CHECKING or self.weight.busy  # for the machine, or for a pose
         self.primary.setEnabled(not waits and not self._locked)
@@ -276,9 +270,40 @@ class GravityPage(Page):
             self.primary.setText(self.tr("Go to Devices"))
             self.primary.setEnabled(True)
             good = True
-        for button, accented in ((self.primary, good), (self.panel.turn, not good)):
-            self._accent(button, accented)
-        self.panel.turn.setIcon(icon("play", "text" if good else "panel"))
+        accent(self.primary, good)
+        accent(self.panel.turn, not good, "play")
+
+    def _choices(self) -> tuple[Choice, Choice | None]:
+        """Return what the primary button does now, and the other if there is one."""
+        run = self.run
+        stop = (self.tr("Stop"), run.stop)
+        match run.phase:
+            case Phase.STARTING:
+                return (self.tr("Beginning..."), lambda: None), None
+            case Phase.CAPTURING:
+                return (self.tr("Finish"), run.finish), stop
+            case Phase.FINISHING:
+                return (self.tr("Computing..."), lambda: None), None
+            case Phase.CHECKING:
+                return (self.tr("Waiting for a still pose..."), lambda: None), stop
+            case _:
+                return self._idle_choices()
+
+    def _idle_choices(self) -> tuple[Choice, Choice | None]:
+        run, outcome = self.run, self.run.outcome
+        anew = (self.tr("Start anew"), lambda: run.start(""))
+        if left := run.left_behind:
+            return (self.tr("Go on with {recording}").format(recording=left), lambda: run.start(left)), anew
+        if outcome is None:
+            return (self.tr("Start"), lambda: run.start("")), None
+        add = (self.tr("Add poses"), lambda: run.start(outcome.recording)) if outcome.changeable else anew
+        if outcome.calibration.verdict.level is Level.REFUSE:
+            return add, anew if outcome.changeable else None
+        check = (self.tr("Check one more pose"), run.begin_check)
+        if run.checked is not None and run.checked.passed:
+            go_on = (self.tr("Go on: Probe"), lambda: self.bench.go_to.emit(Step.PROBE))
+            return go_on, add if outcome.calibration.verdict.level is Level.USABLE else check
+        return check, add
 
     def _enough(self) -> bool:
         return self.run.work is not None and self.run.work.view().solved.enough
@@ -287,12 +312,6 @@ class GravityPage(Page):
         """Whether there is a finding whose remedy is the thing to do now."""
         outcome = self.run.outcome
         return outcome is not None and any(finding.settings for finding in outcome.findings)
-
-    def _accent(self, button: QPushButton, accented: bool) -> None:
-        if button.property("primary") != accented:
-            button.setProperty("primary", accented)
-            button.style().unpolish(button)
-            button.style().polish(button)
 
     def _show_selection(self) -> None:
         rows = self.panel.table.selected() if not self.run.busy else ()
@@ -309,9 +328,7 @@ class GravityPage(Page):
         return self._max_tilt(), DOWN_W if settings is None else settings.down_W
 
     def _show_tilt(self) -> None:
-        self.panel.tilt.blockSignals(True)
-        self.panel.tilt.setValue(round(self._max_tilt()))
-        self.panel.tilt.blockSignals(False)
+        show_quietly(self.panel.tilt, round(self._max_tilt()))
         settings = self.bench.desk.state.settings
         for box, key, usual in (
             (self.panel.down, DOWN, DOWN_W),
@@ -326,10 +343,10 @@ class GravityPage(Page):
         if self._locked and not self.run.busy:
             self.bench.go_to.emit(Step.DEVICES)
             return
-        choice = self.choices.now()[number]
+        choice = self._choices()[number]
         if choice is not None and not self.run.busy:
             self._heard = -1
-            choice.do()
+            choice[1]()
 
     def _take(self) -> None:
         words = self.run.take()
@@ -338,36 +355,32 @@ class GravityPage(Page):
 
     def _leave_out(self, rows: tuple[PoseRow, ...], *, left_out: bool) -> None:
         if rows and not self.run.busy:
-            self.changes.leave_out(rows, left_out)
+            self.run.leave_out(rows, left_out)
 
-    def _confirm(self, finding: Finding) -> None:
+    def _confirm(self, finding: GravityFinding) -> None:
         if not self.run.busy:
-            self.changes.confirm(finding)
+            self.run.confirm(finding)
 
     def _set_tilt(self, degrees: int) -> None:
-        self.changes.set_parameters(
+        self.run.set_parameters(
             self.tr("set the largest tilt to {degrees}°").format(degrees=degrees), ((TILT, float(degrees)),)
         )
 
     def _set_down(self, index: int) -> None:
         down = self.panel.down.itemData(index)
-        self.changes.set_parameters(self.tr("say where down is"), ((DOWN, list(down)),))
+        self.run.set_parameters(self.tr("say where down is"), ((DOWN, list(down)),))
 
     def _set_orientation_noise(self, index: int) -> None:
         degrees = self.panel.orientation_noise.itemData(index)
-        self.changes.set_parameters(
+        self.run.set_parameters(
             self.tr("say how well orientations are known"), ((ORIENTATION_NOISE, degrees),)
         )
 
     # ---- on the virtual bench ----------------------------------------------------------------------
 
-    def _bench(self) -> VirtualBench | None:
-        pair = self.bench.live.pair
-        return None if pair is None else pair.bench
-
     def _turn(self) -> None:
         """Have the virtual wrist turn to the pose that is proposed."""
-        bench = self._bench()
+        bench = self.bench.live.bench
         R_WS = None
         if self.run.check is not None:
             R_WS = self.run.check.proposal
@@ -378,6 +391,6 @@ class GravityPage(Page):
             bench.turn_to(R_WS)
 
     def _bump(self) -> None:
-        bench = self._bench()
+        bench = self.bench.live.bench
         if bench is not None:
             bench.bump(_BUMP_N)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -22,11 +22,20 @@ from contactbench.pipeline.calibration import Limits
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.wording import plain
 from contactbench.widgets.capture_state import CaptureState
+from contactbench.widgets.controls import (
+    PanelScroll,
+    choice,
+    column,
+    named,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+    show_quietly,
+)
 from contactbench.widgets.coverage import Coverage
-from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
 from contactbench.widgets.residual_table import ResidualTable
-from contactbench.widgets.scrolled import Scrolled
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
 if TYPE_CHECKING:
@@ -34,44 +43,21 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.workbench.gravity_fit import Finding, Proposal
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Proposal
 
 _UNDETERMINED = 0.05  # m: beyond, a number says nothing
 _HIGH, _THREE_LINES = 38, 54  # px
 _THERE = 8.0  # degrees: near enough, what a pose tells hardly changes
 
 
-def big_button(text: str, name: str = "") -> QPushButton:
-    """Return a button that a glove can press."""
-    button = QPushButton(text)
-    button.setMinimumHeight(_HIGH)
-    if name:
-        button.setIcon(icon(name))
-    return button
-
-
-def wrapped(role: str = "") -> QLabel:
-    """Return a label for sentences."""
-    label = QLabel()
-    label.setWordWrap(True)
-    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    if role:
-        label.setProperty("role", role)
-    return label
-
-
-class Figures(QWidget):
+class GravityFigures(QWidget):
     """How many poses, and the contact error with its curve."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.count, self.before, self.error = QLabel(), QLabel(), QLabel()
-        self.count.setProperty("role", "title")
-        self.before.setProperty("role", "muted")
-        self.error.setProperty("role", "number")
+        self.count, self.before, self.error = (plain_label("", each) for each in ("title", "muted", "number"))
         self.curve = Shrinking()
-        caption = QLabel(self.tr("contact error from the calibration (1 sigma)"))
-        caption.setProperty("role", "muted")
+        caption = plain_label(self.tr("contact error from the calibration (1 sigma)"), "muted")
         caption.setToolTip(
             self.tr(
                 "How far a contact point may be off because of the calibration alone, in mm: the worst case over the"
@@ -86,12 +72,7 @@ class Figures(QWidget):
         numbers.addWidget(self.before, 0, Qt.AlignmentFlag.AlignBottom)
         numbers.addWidget(self.error, 0, Qt.AlignmentFlag.AlignBottom)
         numbers.addWidget(self.curve, 1)
-        box = QVBoxLayout(self)
-        box.setContentsMargins(0, 0, 0, 0)
-        box.setSpacing(2)
-        box.addWidget(self.count)
-        box.addWidget(caption)
-        box.addLayout(numbers)
+        column(self, self.count, caption, numbers, space=2)
 
     def show_figures(self, count: int, expected: int, errors: Sequence[float], *, running: bool) -> None:
         """Show the numbers."""
@@ -114,7 +95,7 @@ class Figures(QWidget):
         self.curve.show_values(known, Limits().good_error)
 
 
-class Findings(QWidget):
+class FindingCards(QWidget):
     """Sentences, each with a button that does what mends it."""
 
     confirmed = Signal(object)  # Finding
@@ -126,7 +107,7 @@ class Findings(QWidget):
         self._shown: tuple[tuple[str, str], ...] = ()
         self.buttons: list[QPushButton] = []
 
-    def show_findings(self, findings: Sequence[Finding]) -> None:
+    def show_findings(self, findings: Sequence[GravityFinding]) -> None:
         """Show these, and no others."""
         shown = tuple((finding.sentence, finding.remedy) for finding in findings)
         if shown == self._shown:
@@ -138,7 +119,7 @@ class Findings(QWidget):
         for finding in findings:
             self._box.addWidget(self._card(finding))
 
-    def _card(self, finding: Finding) -> QWidget:
+    def _card(self, finding: GravityFinding) -> QWidget:
         card = QFrame()
         card.setProperty("role", "card")
         box = QVBoxLayout(card)
@@ -147,21 +128,18 @@ class Findings(QWidget):
         words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Found"))
         box.addWidget(words)
         if finding.remedy:
-            button = big_button(self.tr("Do that"), "check")
             remedy = said(finding.remedy)
-            button.setToolTip(remedy)
+            button = push_button(self.tr("Do that"), None, "check", tip=remedy, high=_HIGH)
             button.setAccessibleName(remedy)
             button.setProperty("primary", bool(finding.settings))
             button.clicked.connect(lambda: self.confirmed.emit(finding))
-            what = wrapped("muted")
-            what.setText(f"{remedy}.")
-            box.addWidget(what)
+            box.addWidget(sentence_label(f"{remedy}.", "muted"))
             box.addWidget(button)
             self.buttons.append(button)
         return card
 
 
-class GravityPanel(Scrolled):
+class GravityPanel(PanelScroll):
     """All that the page shows, above its buttons."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -173,27 +151,25 @@ class GravityPanel(Scrolled):
         self._make()
 
     def _make(self) -> None:
-        title = QLabel(self.tr("Gravity"))
-        title.setProperty("role", "title")
-        self.intro = wrapped()
-        self.intro.setText(
+        title = plain_label(self.tr("Gravity"), "title")
+        self.intro = sentence_label(
             self.tr(
                 "Hold the tool still in about six different tilts, touching nothing. From them follow its weight and"
                 " the sensor's zero, which are then taken off every reading."
             )
         )
         self.state = CaptureState()
-        self.sentence = wrapped("muted")
+        self.sentence = sentence_label(role="muted")
         self.sentence.setMinimumHeight(_THREE_LINES)  # what comes and goes does not move the rest
         self.automatic = QCheckBox(self.tr("Take each still pose by itself"))
         self.automatic.setChecked(True)
         self.automatic.setToolTip(
             self.tr("Off: press SPACE, or the foot switch, in each pose that shall count.")
         )
-        self.figures = Figures()
+        self.figures = GravityFigures()
         self.verdict = VerdictBox()
         self.checked = VerdictBox()
-        self.findings = Findings()
+        self.findings = FindingCards()
         self.problem = VerdictBox()
         self.coverage = Coverage()
         self.table = ResidualTable()
@@ -210,49 +186,44 @@ class GravityPanel(Scrolled):
             self._box.addWidget(widget)
 
     def _make_next(self) -> None:
-        self.next = wrapped()
-        self.away = wrapped("muted")
-        self.turn = big_button(self.tr("Turn it there for me"), "play")
-        self.bump = big_button(self.tr("Bump it"))
-        self.bump.setToolTip(self.tr("Push the virtual tool for a moment, to see what that does"))
-        row = QHBoxLayout()
-        row.addWidget(self.turn, 1)
-        row.addWidget(self.bump)
+        self.next = sentence_label()
+        self.away = sentence_label(role="muted")
+        self.turn = push_button(self.tr("Turn it there for me"), None, "play", high=_HIGH)
+        tip = self.tr("Push the virtual tool for a moment, to see what that does")
+        self.bump = push_button(self.tr("Bump it"), tip=tip, high=_HIGH)
         self._add(self.next, self.away)
-        self._box.addLayout(row)
+        self._box.addLayout(row((self.turn, 1), self.bump))
 
     def _make_table_buttons(self) -> None:
-        self.out = big_button(self.tr("Leave out"), "remove")
-        self.back = big_button(self.tr("Take back"), "check")
-        self.out.setToolTip(self.tr("The selected poses do not count (Delete)"))
-        self.back.setToolTip(self.tr("The selected poses count again (Return)"))
-        self.out.clicked.connect(lambda: self.table.leave_out.emit(self.table.selected()))
-        self.back.clicked.connect(lambda: self.table.take_back.emit(self.table.selected()))
-        row = QHBoxLayout()
-        row.addWidget(self.out)
-        row.addWidget(self.back)
-        self._box.addLayout(row)
+        table = self.table
+        self.out = push_button(
+            self.tr("Leave out"),
+            lambda: table.leave_out.emit(table.selected()),
+            "remove",
+            tip=self.tr("The selected poses do not count (Delete)"),
+            high=_HIGH,
+        )
+        self.back = push_button(
+            self.tr("Take back"),
+            lambda: table.take_back.emit(table.selected()),
+            "check",
+            tip=self.tr("The selected poses count again (Return)"),
+            high=_HIGH,
+        )
+        self._box.addLayout(row(self.out, self.back))
 
     def _make_tilt(self) -> None:
-        self.tilt = QSpinBox()
-        self.tilt.setRange(20, 180)
-        self.tilt.setSingleStep(10)
-        self.tilt.setSuffix("°")
-        self.tilt.setMinimumHeight(_HIGH)
-        self.tilt.setKeyboardTracking(False)
-        self.tilt.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        label = QLabel(self.tr("The tool can tilt by up to"))
-        label.setBuddy(self.tilt)
-        self.tilt.setAccessibleName(label.text())
-        self.tilt.setToolTip(
-            self.tr(
-                "Largest angle between the sensor's z axis and straight down, degrees; poses beyond are not proposed."
-            )
+        words = self.tr("The tool can tilt by up to")
+        self.tilt = QSpinBox(minimum=20, maximum=180, singleStep=10, suffix="°")
+        tip = self.tr(
+            "Largest angle between the sensor's z axis and straight down, degrees; poses beyond are not proposed."
         )
-        row = QHBoxLayout()
-        row.addWidget(label, 1)
-        row.addWidget(self.tilt)
-        self._box.addLayout(row)
+        self._add_line(words, named(self.tilt, words, tip=tip))
+
+    def _add_line(self, words: str, field: QWidget) -> None:
+        label = QLabel(words)
+        label.setBuddy(field)
+        self._box.addLayout(row((label, 1), field))
 
     def _make_bench(self) -> None:
         """Make the questions of where down is, and of what gives the orientations."""
@@ -290,31 +261,19 @@ class GravityPanel(Scrolled):
         )
 
     def _choice(self, words: str, choices: Sequence[tuple[str, Any]], tip: str) -> QComboBox:
-        box = QComboBox()
-        for text, value in choices:
-            box.addItem(text, value)
-        box.setMinimumHeight(_HIGH)
-        box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        box.setToolTip(tip)
-        label = QLabel(words)
-        label.setBuddy(box)
-        box.setAccessibleName(words)
-        row = QHBoxLayout()
-        row.addWidget(label, 1)
-        row.addWidget(box)
-        self._box.addLayout(row)
+        box = choice(choices, words, tip=tip)
+        self._add_line(words, box)
         return box
 
     def show_setting(self, box: QComboBox, value: Any) -> None:
         """Show a setting; one that is not among the choices gets an entry of its own."""
-        box.blockSignals(True)
         known = [box.itemData(index) for index in range(box.count())]
         value = tuple(value) if isinstance(value, list) else value
         if value not in known:
-            box.addItem(str(value), value)
             known.append(value)
-        box.setCurrentIndex(known.index(value))
-        box.blockSignals(False)
+            with QSignalBlocker(box):
+                box.addItem(str(value), value)
+        show_quietly(box, known.index(value))
 
     def add_check(self, widget: QWidget) -> None:
         """Put a further check of the calibration below its verdicts."""

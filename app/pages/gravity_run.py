@@ -1,21 +1,31 @@
-"""A gravity calibration from start to result: what the page's buttons do."""
+"""A gravity calibration from start to result, and what is changed of it: what the page's buttons do."""
 
 from __future__ import annotations
 
 import re
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from contactbench.app.bench import Weight
+from contactbench.app.undo import Exchange
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench import gravity_results as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
-from contactbench.pipeline.workbench.gravity_fit import gravity_settings
+from contactbench.pipeline.workbench.gravity_fit import (
+    DOWN,
+    INVERSE,
+    MOUNT,
+    ORIENTATION_NOISE,
+    TILT,
+    gravity_settings,
+)
+from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.tape import SessionTape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -23,11 +33,20 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
-    from contactbench.pipeline.workbench.gravity_fit import Finding, GravitySettings
-    from contactbench.pipeline.workbench.gravity_results import Outcome
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings
+    from contactbench.pipeline.workbench.gravity_poses import PoseRow
+    from contactbench.pipeline.workbench.gravity_results import GravityOutcome
 
 
 _DIGITS = re.compile(r"\d+")
+_BEFORE: dict[str, Any] = {  # where nothing was set
+    MOUNT: [0.0, 0.0, 0.0],
+    INVERSE: False,
+    TILT: 180.0,
+    DOWN: [0.0, 0.0, -1.0],
+    ORIENTATION_NOISE: None,
+}
 
 
 class Phase(StrEnum):
@@ -51,7 +70,7 @@ class GravityRun(QObject):
         While captures are made.
     check : GravityCheck or None
         While the held-out pose is waited for.
-    outcome : Outcome or None
+    outcome : GravityOutcome or None
         What the session has.
     checked : StillVerification or None
         Of the outcome.
@@ -60,7 +79,6 @@ class GravityRun(QObject):
     """
 
     changed = Signal()
-    finished = Signal()  # captures were ended, and the session has what came of them
 
     def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -68,11 +86,11 @@ class GravityRun(QObject):
         self.phase = Phase.IDLE
         self.work: GravityWork | None = None
         self.check: GravityCheck | None = None
-        self.outcome: Outcome | None = None
+        self.outcome: GravityOutcome | None = None
         self.checked: StillVerification | None = None
         self.problem = ""
         self.automatic = True
-        self._tape: Tape | None = None
+        self._tape: SessionTape | None = None
         self._earlier: str | None = None
         self._compared: tuple[PoseSample, ...] = ()
         self._end_following: Callable[[], None] = lambda: None
@@ -102,7 +120,7 @@ class GravityRun(QObject):
         self.bench.jobs.start(
             self.tr("Reading the calibration"),
             lambda _progress, _cancelled: results.outcome_of(folder, state),
-            self.have,
+            self.set_outcome,
             self.fail,
         )
 
@@ -111,7 +129,7 @@ class GravityRun(QObject):
         found = [each for each in self.bench.desk.state.results if each.action.kind == "calibration"]
         return max((each.number for each in found), default=0), sum(len(each.marks) for each in found)
 
-    def have(self, outcome: Outcome | None) -> None:
+    def set_outcome(self, outcome: GravityOutcome | None) -> None:
         """Take what the session has now."""
         if self._closed:
             return
@@ -141,22 +159,24 @@ class GravityRun(QObject):
         settings = self.settings()
         if self.phase is not Phase.IDLE or settings is None or self._waits(earlier) or not self._ready():
             return
-        self.be(Phase.STARTING)
+        self.set_phase(Phase.STARTING)
         desk, live = self.bench.desk, self.bench.live
         name = results.next_name(desk.state, desk.folder)
 
-        def begin(_progress: object, _cancelled: object) -> tuple[Tape, tuple[str, tuple[PoseSample, ...]]]:
+        def begin(
+            _progress: object, _cancelled: object
+        ) -> tuple[SessionTape, tuple[str, tuple[PoseSample, ...]]]:
             before: tuple[str, tuple[PoseSample, ...]] = ("", ())
             if earlier:
                 before = desk.do(lambda session: results.take_up(session, earlier)).result()
-            return Tape.start(desk, live, name).result(), before
+            return SessionTape.start(desk, live, name).result(), before
 
-        def begun(made: tuple[Tape, tuple[str, tuple[PoseSample, ...]]]) -> None:
+        def begun(made: tuple[SessionTape, tuple[str, tuple[PoseSample, ...]]]) -> None:
             tape, (part, poses) = made
             self._tape, self._earlier = tape, part or None
             self.work = GravityWork(settings, live_R_ES=live.R_ES, earlier=poses, automatic=self.automatic)
             self._end_following = live.follow(self.work.feed)
-            self.be(Phase.CAPTURING)
+            self.set_phase(Phase.CAPTURING)
 
         self.bench.jobs.start(self.tr("Beginning to record"), begin, begun, self.idle_again)
 
@@ -205,10 +225,10 @@ class GravityRun(QObject):
         if self.phase is not Phase.CAPTURING or work is None or tape is None:
             return
         self._end_following()
-        self.be(Phase.FINISHING)
+        self.set_phase(Phase.FINISHING)
         desk = self.bench.desk
 
-        def compute(_progress: object, _cancelled: object) -> tuple[Outcome, str]:
+        def compute(_progress: object, _cancelled: object) -> tuple[GravityOutcome, str]:
             tape.keep().result()
             work.finish()
             work.wait()
@@ -216,17 +236,17 @@ class GravityRun(QObject):
             made = desk.do(lambda session: results.finish(session, tape.name, left, earlier)).result()
             return made, results.difference(work.view().solved.calibration, made)
 
-        def done(made: tuple[Outcome, str]) -> None:
+        def done(made: tuple[GravityOutcome, str]) -> None:
             outcome, differs = made
             self._end_work()
-            self.be(Phase.IDLE)
-            self.have(outcome)
+            self.set_phase(Phase.IDLE)
+            self.set_outcome(outcome)
             verdict = outcome.calibration.verdict
             weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
             self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
             if differs:
                 self.bench.tell(Weight.INFO, differs)
-            self.finished.emit()
+            self.reopen()
 
         self.bench.jobs.start(self.tr("Computing the calibration"), compute, done, self.idle_again)
 
@@ -236,7 +256,7 @@ class GravityRun(QObject):
         if self.phase not in {Phase.CAPTURING, Phase.CHECKING} or tape is None:
             return
         self._end_following()
-        self.be(Phase.FINISHING)
+        self.set_phase(Phase.FINISHING)
         self.bench.jobs.start(
             self.tr("Keeping the recording"),
             lambda _progress, _cancelled: tape.keep().result(),
@@ -254,7 +274,7 @@ class GravityRun(QObject):
     def idle_again(self, error: BaseException | None) -> None:
         """Be done, well or not."""
         self._end_work()
-        self.be(Phase.IDLE)
+        self.set_phase(Phase.IDLE)
         if error is not None:
             self.fail(error)
         self.reload()
@@ -266,21 +286,21 @@ class GravityRun(QObject):
         settings, outcome = self.settings(), self.outcome
         if self.phase is not Phase.IDLE or settings is None or outcome is None or not self._ready():
             return
-        self.be(Phase.STARTING)
+        self.set_phase(Phase.STARTING)
         desk, live = self.bench.desk, self.bench.live
         name = results.next_name(desk.state, desk.folder, check=True)
 
-        def begun(tape: Tape) -> None:
+        def begun(tape: SessionTape) -> None:
             self._tape = tape
             self.check = GravityCheck(
                 outcome.calibration, settings, live_R_ES=live.R_ES, before=self._compared
             )
             self._end_following = live.follow(self.check.feed)
-            self.be(Phase.CHECKING)
+            self.set_phase(Phase.CHECKING)
 
         self.bench.jobs.start(
             self.tr("Beginning to record"),
-            lambda _progress, _cancelled: Tape.start(desk, live, name).result(),
+            lambda _progress, _cancelled: SessionTape.start(desk, live, name).result(),
             begun,
             self.idle_again,
         )
@@ -294,9 +314,9 @@ class GravityRun(QObject):
         if self.work is not None:
             self._tell_found(self.work.solved.findings)
         if self.phase is Phase.CHECKING and self.check is not None and self.check.found is not None:
-            self._have_checked(self.check.found)
+            self._set_checked(self.check.found)
 
-    def _tell_found(self, found: Sequence[Finding]) -> None:
+    def _tell_found(self, found: Sequence[GravityFinding]) -> None:
         """Tell of poses and conventions that are wrong: once in a run, and not by how many poses there are."""
         for finding in found:
             if finding.key not in self._found:
@@ -312,10 +332,10 @@ class GravityRun(QObject):
             self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
         self._said = said
 
-    def _have_checked(self, found: StillVerification) -> None:
+    def _set_checked(self, found: StillVerification) -> None:
         self._end_following()
         tape = self._tape
-        self.be(Phase.FINISHING)
+        self.set_phase(Phase.FINISHING)
         level, compared = found.verdict.level, self.check.poses if self.check is not None else ()
         words = (
             f"The calibration was checked in a pose that it had not seen"
@@ -344,6 +364,105 @@ class GravityRun(QObject):
 
         self.bench.jobs.start(self.tr("Keeping the check"), keep, done, self.idle_again)
 
+    # ---- poses left out ----------------------------------------------------------------------------
+
+    def leave_out(self, rows: Sequence[PoseRow], left_out: bool) -> None:
+        """Leave poses out or take them back; can be undone."""
+        moments = [row.time for row in rows if row.changeable]
+        if not moments:
+            return
+        names = ", ".join(row.name for row in rows)
+        text = self.tr("leave out {poses}") if left_out else self.tr("take back {poses}")
+        before, after = ((moments, each) for each in (not left_out, left_out))
+        self.bench.undo.push(Exchange(text.format(poses=names), before, after, self._put_left_out))
+
+    def _put_left_out(self, wanted: tuple[Sequence[float], bool]) -> None:
+        moments, left_out = wanted
+        if self.busy:
+            self.bench.tell(
+                Weight.WARNING,
+                self.tr(
+                    "The calibration is being computed, so no pose was changed. Do it again in a moment."
+                ),
+            )
+            return
+        if self.work is not None:
+            self.work.set_left_out(moments, left_out)
+        elif self.phase is Phase.IDLE and self.outcome is not None and self.outcome.changeable:
+            before = set(self.outcome.leave_out)
+            after = before | set(moments) if left_out else before - set(moments)
+            self._recompute(lambda session: results.change(session, sorted(after)))
+        self.changed.emit()
+
+    def _recompute(self, action: Callable[[Session], GravityOutcome]) -> None:
+        self.set_phase(Phase.FINISHING)
+
+        def done(outcome: GravityOutcome) -> None:
+            self.set_phase(Phase.IDLE)
+            self.set_outcome(outcome)
+
+        self.bench.do(self.tr("Computing the calibration"), action, done, self.idle_again)
+
+    # ---- findings ----------------------------------------------------------------------------------
+
+    def confirm(self, finding: GravityFinding) -> None:
+        """Do what mends a finding; can be undone."""
+        if finding.leave_out:
+            rows = self.work.view().rows if self.work is not None else self._rows()
+            self.leave_out(self._at(rows, finding.leave_out), True)
+        if finding.settings:
+            self.set_parameters(finding.remedy, finding.settings)
+
+    def _at(self, rows: Sequence[PoseRow], indices: Sequence[int]) -> list[PoseRow]:
+        """Return the rows of those poses that a calibration was given, in its order."""
+        counted = [row for row in rows if row.state is not PoseState.LEFT_OUT and row.R_WS is not None]
+        return [counted[index] for index in indices if index < len(counted)]
+
+    def _rows(self) -> tuple[PoseRow, ...]:
+        return () if self.outcome is None else self.outcome.rows
+
+    def set_parameters(self, text: str, new: Sequence[tuple[str, Any]]) -> None:
+        """Set parameters of the session, and compute anew; can be undone."""
+        known = self.bench.desk.state.settings
+        old = [(key, known[key].value if key in known else _BEFORE[key]) for key, _ in new]
+        self.bench.undo.push(Exchange(text, old, new, self._put_parameters))
+
+    def _put_parameters(self, values: Sequence[tuple[str, Any]]) -> None:
+        again = self.phase is Phase.IDLE and self.outcome is not None and self.outcome.changeable
+        leave_out = () if self.outcome is None else self.outcome.leave_out
+
+        def put(session: Session) -> GravityOutcome | None:
+            for key, value in values:
+                session.set_parameter(key, value)
+            computed = again and any(key != TILT for key, _ in values)
+            return results.change(session, leave_out) if computed else None
+
+        def done(outcome: GravityOutcome | None) -> None:
+            settings = self.settings()
+            if self.work is not None and settings is not None:
+                self.work.apply(settings)
+            if outcome is not None:
+                self.set_outcome(outcome)
+            if self.work is None:
+                self.reopen()
+            self.changed.emit()
+
+        self.bench.do(self.tr("Setting the parameters"), put, done, self.fail)
+
+    def reopen(self) -> None:
+        """Open the devices with the mount that the session has now, if they have another."""
+        settings, live, pair = self.settings(), self.bench.live, self.bench.live.pair
+        if settings is None or pair is None or np.allclose(live.R_ES, settings.R_ES):
+            return
+        sensor = str(pair.sensor.address)
+        poses = None if pair.poses is None else str(pair.poses.address)
+        self.bench.jobs.start(
+            self.tr("Opening the devices with the new mount"),
+            lambda _progress, _cancelled: live.open(sensor, poses, settings.R_ES),
+            None,
+            self.fail,
+        )
+
     # ---- of all ------------------------------------------------------------------------------------
 
     @property
@@ -360,7 +479,7 @@ class GravityRun(QObject):
         if running and tape is not None:
             tape.keep()  # in the desk's order: it is done before the session is closed
 
-    def be(self, phase: Phase) -> None:
+    def set_phase(self, phase: Phase) -> None:
         """Go over to a phase."""
         if self._closed:
             return

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QLineEdit, QWidget
 
-from contactbench.app.pages.known_check import TALL, KnownCheckPanel
+from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.verification.known import WEIGHT
 from contactbench.pipeline.workbench.known_checks import StillReading
+from contactbench.widgets.controls import accent, named, push_button, sentence_label
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,20 +30,18 @@ class WeightPanel(KnownCheckPanel):
         super().__init__(bench, "", parent)
         self.setTitle(self.tr("Known weight"))
         self.unloaded = ""
-        intro = self.label()
-        intro.setText(
+        intro = sentence_label(
             self.tr(
                 "Hang a weight of known mass on the tool. It shows a wrong unit, sign or scale of the sensor, which"
                 " poses cannot show."
             )
         )
-        self.mass = self._number(self.tr("Mass"), 3, 1.0, 0.001, 500.0, " kg")
-        self.sigma = self._number(self.tr("Uncertainty (1 sigma)"), 2, 0.5, 0.0, 10_000.0, " g")
-        self.certificate = QLineEdit()
-        self.certificate.setMaxLength(200)
+        self.mass = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=500.0, value=1.0, suffix=" kg")
+        self.sigma = QDoubleSpinBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
+        self.certificate = QLineEdit(maxLength=200)
         self.certificate.setPlaceholderText(self.tr("Number, if there is one"))
         grid = QGridLayout()
-        for row, (text, field) in enumerate(
+        for line, (text, field) in enumerate(
             (
                 (self.tr("Mass"), self.mass),
                 (self.tr("Uncertainty (1 sigma)"), self.sigma),
@@ -52,26 +50,12 @@ class WeightPanel(KnownCheckPanel):
         ):
             label = QLabel(text)
             label.setBuddy(field)
-            field.setAccessibleName(text)
-            field.setMinimumHeight(TALL)
-            grid.addWidget(label, row, 0)
-            grid.addWidget(field, row, 1)
+            grid.addWidget(label, line, 0)
+            grid.addWidget(named(field, text, tip=""), line, 1)
         grid.setColumnStretch(1, 1)
-        self.first = self.button(self.tr("1. Read without weight"), "play", self._read_unloaded)
-        self.second = self.button(self.tr("2. Read with weight"), "play", self._read_loaded)
-        self.finish(intro, grid, self.first, self.second, self.cancel)
-
-    def _number(
-        self, name: str, places: int, value: float, least: float, most: float, unit: str
-    ) -> QDoubleSpinBox:
-        field = QDoubleSpinBox()
-        field.setDecimals(places)
-        field.setRange(least, most)
-        field.setValue(value)
-        field.setSuffix(unit)
-        field.setAccessibleName(name)
-        field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        return field
+        self.first = push_button(self.tr("1. Read without weight"), self._read_unloaded, "play")
+        self.second = push_button(self.tr("2. Read with weight"), self._read_loaded, "play")
+        self.lay_out(intro, grid, self.first, self.second)
 
     def _read_unloaded(self) -> None:
         self.unloaded = ""
@@ -86,7 +70,7 @@ class WeightPanel(KnownCheckPanel):
         self.take(StillReading(), read)
 
     def _read_loaded(self) -> None:
-        bench, reading = self.virtual, self.bench.live.reading()
+        bench, reading = self.bench.live.bench, self.bench.live.reading()
         if bench is not None and reading is not None and np.isfinite(reading.R_WS).all():
             down = (
                 STANDARD_GRAVITY * self.mass.value() * (reading.R_WS.T @ [0.0, 0.0, -1.0])
@@ -124,4 +108,4 @@ class WeightPanel(KnownCheckPanel):
         self.second.setEnabled(free and bool(self.unloaded))
         for field in (self.mass, self.sigma, self.certificate):
             field.setEnabled(free)
-        self.accent(self.second, on=free and bool(self.unloaded), picture="play")
+        accent(self.second, free and bool(self.unloaded), "play")

@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QGroupBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QGroupBox, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
@@ -25,17 +17,17 @@ from contactbench.pipeline.workbench.known_checks import (
     StillReading,
     known_outcome,
 )
-from contactbench.widgets.icons import icon
+from contactbench.widgets.controls import column, push_button, sentence_label
 from contactbench.widgets.phrases import said
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from contactbench.app.bench import Bench
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from PySide6.QtWidgets import QLayout
 
-TALL = 36  # px
+    from contactbench.app.bench import Bench
+
 _LEVELS = {Outcome.PASSED: GOOD, Outcome.UNDECIDED: USABLE, Outcome.FAILED: REFUSE}
 
 
@@ -60,38 +52,14 @@ class KnownCheckPanel(QGroupBox):
         self._busy = self._closed = False
         self._read_at = -1
         self._then: Callable[[str], None] | None = None
-        self.column = QVBoxLayout(self)
-        self.column.setSpacing(8)
-        self.hint = self.label("muted")
-        self.verdict = VerdictBox()
-        self.cancel = self.button(self.tr("Cancel"), "cross", self.discard)
+        self.hint, self.verdict = sentence_label(role="muted"), VerdictBox()
+        self.cancel = push_button(self.tr("Cancel"), self.discard, "cross")
 
-    def finish(self, *rows: QWidget | QHBoxLayout | QGridLayout) -> None:
-        """Put the parts into the column."""
-        for row in rows:
-            if isinstance(row, QWidget):
-                self.column.addWidget(row)
-            else:
-                self.column.addLayout(row)
-        self.column.addWidget(self.hint)
-        self.column.addWidget(self.verdict)
+    def lay_out(self, *parts: QWidget | QLayout) -> None:
+        """Put the parts of a check above what all of them have."""
+        layout = column(self, *parts, self.cancel, self.hint, self.verdict)
+        layout.setContentsMargins(9, 9, 9, 9)
         self.allow()
-
-    def label(self, role: str = "") -> QLabel:
-        """Return a label for sentences."""
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        if role:
-            label.setProperty("role", role)
-        return label
-
-    def button(self, text: str, picture: str, do: Callable[[], None]) -> QPushButton:
-        """Return a button that a glove can press."""
-        button = QPushButton(icon(picture), text)
-        button.setMinimumHeight(TALL)
-        button.clicked.connect(lambda _=False: do())
-        return button
 
     # ---- what the page calls -----------------------------------------------------------------------
 
@@ -190,11 +158,9 @@ class KnownCheckPanel(QGroupBox):
         self.bench.jobs.start(title, lambda *_: work(), over, wrong)
 
     def _wrong(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if not self._closed:
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
             self.hint.setText(said(str(error)))
-            self.bench.tell(Weight.ERROR, str(error))
 
     # ---- what it shows -----------------------------------------------------------------------------
 
@@ -225,17 +191,3 @@ class KnownCheckPanel(QGroupBox):
         self.cancel.setEnabled(not self._busy)
         self.hint.setVisible(bool(self.hint.text()))
         self.changed.emit()
-
-    @property
-    def virtual(self) -> VirtualBench | None:
-        """The virtual bench, if one is open."""
-        pair = self.bench.live.pair
-        return None if pair is None else pair.bench
-
-    def accent(self, button: QPushButton, on: bool, picture: str) -> None:
-        """Make a button the one to press, or not."""
-        button.setIcon(icon(picture, "panel" if on else "text"))
-        if button.property("primary") != on:
-            button.setProperty("primary", on)
-            button.style().unpolish(button)
-            button.style().polish(button)

@@ -7,23 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QFileDialog, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from contactbench.app.page import Page
-from contactbench.app.pages.probe_housing import bench_address
-from contactbench.app.pages.probe_placing import Placing
+from contactbench.app.pages.probe_place import PlaceSection
 from contactbench.app.pages.probe_sections import (
     FacetsSection,
     MeshSection,
     NextBar,
-    PlaceSection,
     SurfaceSection,
 )
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, key_of
+from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import PanelScroll, accent, column, plain_label
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
-from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
@@ -44,30 +42,22 @@ class ProbePage(Page):
         super().__init__(bench, parent)
         self._here = False
         self.mesh_section, self.surface = MeshSection(), SurfaceSection()
-        self.place, self.facets = PlaceSection(), FacetsSection()
-        self.next_bar = NextBar()
+        self.facets, self.next_bar = FacetsSection(), NextBar()
         self.stages = ProbeStages(bench, self.next_bar, self)
-        self.placing = Placing(self.stages, self.next_bar, self.place)
+        self.place = PlaceSection(self.stages)
         self._lay_out()
         self._connect()
         self.setAcceptDrops(True)
         self._show()
 
     def _lay_out(self) -> None:
-        inside = QWidget()
-        column = QVBoxLayout(inside)
-        column.setContentsMargins(10, 8, 10, 8)
-        title = QLabel(self.tr("Probe"))
-        title.setProperty("role", "title")
-        column.addWidget(title)
-        for section in (self.mesh_section, self.surface, self.place, self.facets):
-            column.addWidget(section)
-        column.addStretch()
-        self.area = Scrolled(inside)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.area, 1)
-        layout.addWidget(self.next_bar)
+        inside, title = QWidget(), plain_label(self.tr("Probe"), "title")
+        column(
+            inside, title, self.mesh_section, self.surface, self.place, self.facets,
+            margins=(10, 8, 10, 8), space=6,
+        ).addStretch()  # fmt: skip
+        self.area = PanelScroll(inside)
+        column(self, self.area, self.next_bar, space=6).setStretch(0, 1)
 
     def _connect(self) -> None:
         stages = self.stages
@@ -188,7 +178,7 @@ class ProbePage(Page):
         self._draw(False)
 
     def _picked(self, pick: Pick) -> None:
-        self.placing.pick(pick.point, pick.face, self.stages.view.shown)
+        self.place.pick(pick.point, pick.face, self.stages.view.shown)
 
     def enter(self) -> None:
         """Show the mesh, and take files and places from the scene."""
@@ -196,7 +186,7 @@ class ProbePage(Page):
             self.bench.scene.dropped.connect(self.stages.take)
             self.bench.scene.picked.connect(self._picked)
         self._here = True
-        self.placing.choose_tool()
+        self.place.choose_tool()
         if self.stages.known != key_of(self.bench.desk.state) and not self.stages.worker.busy:
             self.stages.reload()
         self._draw(True)

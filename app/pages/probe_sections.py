@@ -2,35 +2,45 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDoubleSpinBox,
     QFormLayout,
     QGroupBox,
-    QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
-    QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
 
 from contactbench.pipeline.mesh.units import NAMES
-from contactbench.widgets.alignment_panel import AlignmentPanel
+from contactbench.widgets.controls import (
+    column,
+    form,
+    named,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+    set_role,
+    show_quietly,
+    show_value,
+)
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
     from contactbench.pipeline.workbench.probe import Mesh
 
 _CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `contactbench.pipeline.mesh.shell.Closing` has them
+_HIGH = 38  # px
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
 
@@ -43,17 +53,18 @@ class MeshSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("1  Mesh"))
         layout = QVBoxLayout(self)
-        self.name = wrapped("")
-        self.choose = big(QPushButton(self.tr("Choose a mesh...")))
-        self.choose.setToolTip(self.tr("STL, PLY, OBJ, OFF or 3MF; a file can also be dropped on the window"))
-        self.housing = big(QPushButton(self.tr("Use the virtual bench's housing")))
-        self.question = wrapped("")
+        self.name = sentence_label()
+        self.choose = push_button(
+            self.tr("Choose a mesh..."),
+            tip=self.tr("STL, PLY, OBJ, OFF or 3MF; a file can also be dropped on the window"),
+            high=_HIGH,
+        )
+        self.housing = push_button(self.tr("Use the virtual bench's housing"), high=_HIGH)
+        self.question = sentence_label()
         self.report = MeshReport()
         self._units = QVBoxLayout()
-        layout.addWidget(self.name)
-        layout.addWidget(self.choose)
-        layout.addWidget(self.housing)
-        layout.addWidget(self.question)
+        for each in (self.name, self.choose, self.housing, self.question):
+            layout.addWidget(each)
         layout.addLayout(self._units)
         layout.addWidget(self.report)
         self.unit_buttons: dict[str, QPushButton] = {}
@@ -84,8 +95,8 @@ class MeshSection(QGroupBox):
         self.question.setText(self.tr("How long is the probe? The file does not say in which unit it is."))
         for unit in (guess.units, *guess.alternatives):
             length = mesh.inspection.size_m * _metres(unit) / _metres(guess.units)
-            button = big(QPushButton(self.tr("{:.4g} mm long ({})").format(1e3 * length, NAMES[unit])))
-            button.clicked.connect(lambda _checked=False, unit=unit: self.unit_said.emit(unit))
+            words = self.tr("{:.4g} mm long ({})").format(1e3 * length, NAMES[unit])
+            button = push_button(words, partial(self.unit_said.emit, unit), high=_HIGH)
             self._units.addWidget(button)
             self.unit_buttons[unit] = button
 
@@ -99,9 +110,8 @@ class SurfaceSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("2  Outer surface"))
         layout = QVBoxLayout(self)
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        self.close_by = narrow(QComboBox())
+        rows = form()
+        self.close_by = _narrow(QComboBox())
         self.close_by.addItems(
             [
                 self.tr("as it seems best"),
@@ -112,14 +122,12 @@ class SurfaceSection(QGroupBox):
             ]
         )
         self.close_by.setToolTip(self.tr("How openings are closed, such as the one for the cable"))
-        form.addRow(self.tr("Close openings"), self.close_by)
-        self.alpha = number(0.0, 50.0, " mm", 2)
+        rows.addRow(self.tr("Close openings"), self.close_by)
+        tip = self.tr("Size of the outer surface's facets, mm; 0: a 190th of the probe's length")
+        self.alpha = _number(0.0, 50.0, " mm", 2, self.tr("Facet size"), tip)
         self.alpha.setSpecialValueText(self.tr("by the size"))
-        self.alpha.setToolTip(
-            self.tr("Size of the outer surface's facets, mm; 0: a 190th of the probe's length")
-        )
-        form.addRow(self.tr("Facet size"), self.alpha)
-        layout.addLayout(form)
+        rows.addRow(self.tr("Facet size"), self.alpha)
+        layout.addLayout(rows)
         self.report = MeshReport(1)
         layout.addWidget(self.report)
         self.close_by.activated.connect(lambda _index: self.changed.emit())
@@ -128,26 +136,13 @@ class SurfaceSection(QGroupBox):
     def show_plan(self, close: tuple[str, ...], alpha: float | None) -> None:
         """Show what is chosen."""
         self.close_by.setCurrentIndex(_CLOSINGS.index(close[0]) if close else 0)
-        quietly(self.alpha, alpha or 0.0)
+        show_quietly(self.alpha, alpha or 0.0)
 
     @property
     def closings(self) -> tuple[str, ...]:
         """How openings are closed, as `Plan.close`."""
         chosen = _CLOSINGS[self.close_by.currentIndex()]
         return (chosen,) if chosen else ()
-
-
-class PlaceSection(QGroupBox):
-    """Where the mesh lies in the sensor frame."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setTitle(self.tr("3  Place on the sensor"))
-        layout = QVBoxLayout(self)
-        self.panel = AlignmentPanel()
-        self.report = MeshReport(1)
-        layout.addWidget(self.panel)
-        layout.addWidget(self.report)
 
 
 class FacetsSection(QGroupBox):
@@ -159,9 +154,8 @@ class FacetsSection(QGroupBox):
         super().__init__(parent)
         self.setTitle(self.tr("4  Facets"))
         layout = QVBoxLayout(self)
-        self.number = QLabel("")
-        self.number.setProperty("role", "number")
-        self.meaning = wrapped("")
+        self.number = plain_label("", "number")
+        self.meaning = sentence_label()
         self.chart = TradeoffChart()
         for each in (self.number, self.meaning, self.chart):
             layout.addWidget(each)
@@ -176,9 +170,8 @@ class FacetsSection(QGroupBox):
         self.show_result(None, "")
 
     def _target_form(self) -> QFormLayout:
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        self.target = narrow(QComboBox())
+        rows = form()
+        self.target = _narrow(QComboBox())
         self.target.addItems(
             [
                 self.tr("a number of facets"),
@@ -186,22 +179,21 @@ class FacetsSection(QGroupBox):
                 self.tr("a largest contact error"),
             ]
         )
-        self.value = number(4.0, 2e6, "", 0)
-        self.value.setAccessibleName(self.tr("Number of facets, or mm"))
-        form.addRow(self.tr("Keep to"), self.target)
-        form.addRow(self.tr("Up to"), self.value)
-        self.ratio = number(1.0, 100.0, " : 1", 1)
-        self.ratio.setToolTip(self.tr("Facets per area inside the regions over that outside"))
+        self.value = _number(4.0, 2e6, "", 0, self.tr("Number of facets, or mm"), "")
+        rows.addRow(self.tr("Keep to"), self.target)
+        rows.addRow(self.tr("Up to"), self.value)
+        tip = self.tr("Facets per area inside the regions over that outside")
+        self.ratio = _number(1.0, 100.0, " : 1", 1, self.tr("Finer in regions"), tip)
         self.ratio_label = QLabel(self.tr("Finer in regions"))
-        form.addRow(self.ratio_label, self.ratio)
+        rows.addRow(self.ratio_label, self.ratio)
         self.painted = QCheckBox(self.tr("Put the painted regions on it"))
         self.painted.setChecked(True)
-        form.addRow(self.painted)
+        rows.addRow(self.painted)
         self.target.activated.connect(self._target_changed)
         for spin in (self.value, self.ratio):
             spin.valueChanged.connect(lambda _value: self.changed.emit())
         self.painted.clicked.connect(lambda _checked: self.changed.emit())
-        return form
+        return rows
 
     def _target_changed(self, index: int) -> None:
         self._show_target(index, (2_000.0, 0.1, 0.1)[index])
@@ -209,11 +201,6 @@ class FacetsSection(QGroupBox):
 
     def _show_target(self, index: int, value: float) -> None:
         self.target.setCurrentIndex(index)
-        self.value.blockSignals(True)
-        self.value.setDecimals(0 if index == 0 else 3)
-        self.value.setSuffix("" if index == 0 else " mm")
-        self.value.setRange(*((4.0, 2e6) if index == 0 else (0.001, 50.0)))
-        self.value.setSingleStep((100.0, 0.01, 0.01)[index])
         self.value.setToolTip(
             (
                 self.tr("Number of facets"),
@@ -221,6 +208,11 @@ class FacetsSection(QGroupBox):
                 self.tr("Of 95 % of contacts, mm"),
             )[index]
         )
+        self.value.blockSignals(True)
+        self.value.setDecimals(0 if index == 0 else 3)
+        self.value.setSuffix("" if index == 0 else " mm")
+        self.value.setRange(*((4.0, 2e6) if index == 0 else (0.001, 50.0)))
+        self.value.setSingleStep((100.0, 0.01, 0.01)[index])
         self.value.setValue(value)
         self.value.blockSignals(False)
 
@@ -228,7 +220,7 @@ class FacetsSection(QGroupBox):
         """Show what is chosen; `regions`: whether there are any."""
         name = next(iter(target), "max_contact_error")
         self._show_target(_TARGETS.index(name), target.get(name, 0.1))
-        quietly(self.ratio, ratio)
+        show_quietly(self.ratio, ratio)
         self.painted.setChecked(painted)
         for each in (self.ratio, self.ratio_label, self.painted):
             each.setVisible(regions)
@@ -261,21 +253,12 @@ class NextBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 6, 8, 8)
-        self.words = wrapped("")
-        self.bar = QProgressBar()
+        self.words, self.bar = sentence_label(), QProgressBar()
         self.bar.setRange(0, 1000)
         self.bar.setAccessibleName(self.tr("How far the work is"))
         self.cancel = QPushButton(self.tr("Cancel"))
-        self.next = big(QPushButton(""))
-        self.next.setProperty("primary", True)
-        row = QHBoxLayout()
-        row.addWidget(self.bar, 1)
-        row.addWidget(self.cancel)
-        layout.addWidget(self.words)
-        layout.addLayout(row)
-        layout.addWidget(self.next)
+        self.next = push_button("", high=_HIGH, primary=True)
+        column(self, self.words, row((self.bar, 1), self.cancel), self.next, margins=(8, 6, 8, 8), space=6)
         self.show_idle()
 
     def show_working(self, title: str) -> None:
@@ -298,51 +281,20 @@ class NextBar(QWidget):
     def say(self, words: str, bad: bool = False) -> None:
         """Show a sentence."""
         self.words.setText(said(words))
-        self.words.setProperty("role", "bad" if bad else "")
-        self.words.style().unpolish(self.words)
-        self.words.style().polish(self.words)
+        set_role(self.words, "bad" if bad else "")
         self.words.setVisible(bool(words))
 
 
-def wrapped(words: str) -> QLabel:
-    """Return a label that breaks its lines."""
-    label = QLabel(words)
-    label.setWordWrap(True)
-    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    return label
-
-
-def big(button: QPushButton) -> QPushButton:
-    """Make a button high enough for a glove."""
-    button.setMinimumHeight(38)
-    return button
-
-
-def narrow(choice: QComboBox) -> QComboBox:
+def _narrow(field: QComboBox) -> QComboBox:
     """Let a list of choices be narrower than its longest one."""
-    choice.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    choice.setMinimumContentsLength(6)
-    return choice
+    field.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    field.setMinimumContentsLength(6)
+    return field
 
 
-def number(low: float, high: float, unit: str, decimals: int) -> QDoubleSpinBox:
-    """Return a field for a number that speaks when it is complete."""
-    spin = QDoubleSpinBox()
-    spin.setDecimals(decimals)
-    spin.setRange(low, high)
-    spin.setSuffix(unit)
-    spin.setKeyboardTracking(False)
-    spin.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-    spin.setMinimumWidth(80)
-    spin.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-    return spin
-
-
-def quietly(spin: QDoubleSpinBox, value: float) -> None:
-    """Show a number without asking for anything."""
-    spin.blockSignals(True)
-    spin.setValue(value)
-    spin.blockSignals(False)
+def _number(low: float, high: float, unit: str, decimals: int, name: str, tip: str) -> QDoubleSpinBox:
+    field = QDoubleSpinBox(decimals=decimals, minimum=low, maximum=high, suffix=unit)
+    return named(field, name, least=80, tip=tip)
 
 
 def _metres(unit: str) -> float:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from contactbench.app.bench import Weight
-from contactbench.app.pages.probe_housing import Housing, bench_address, take_housing
-from contactbench.app.pages.probe_undo import UseProbe
 from contactbench.app.pages.probe_view import ProbeView, Shown
-from contactbench.app.pages.probe_work import Worker
-from contactbench.pipeline.workbench.probe import Mesh, Plan, Preview, ProbeWork
+from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
+from contactbench.app.undo import SessionCommand
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork, commit
 from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
 from contactbench.pipeline.workbench.steps import Step
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from contactbench.app.bench import Bench
+    from contactbench.app.jobs import Job
     from contactbench.app.pages.probe_sections import NextBar
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
@@ -31,6 +33,85 @@ if TYPE_CHECKING:
 
 _SETTLE_MS = 350
 TARGETS = ("facets", "max_deviation", "max_contact_error")
+
+
+class ProbeWorker(QObject):
+    """
+    Runs what takes long, one thing at a time; beginning something else stops what ran before.
+
+    Parameters
+    ----------
+    bench : Bench
+    bar : NextBar
+        Shows what runs, how far it is, and stops it.
+    wrong : callable
+        Gets the sentence of what went wrong.
+    ended : callable
+        Called after everything else, however it ended.
+    """
+
+    def __init__(
+        self, bench: Bench, bar: NextBar, wrong: Callable[[str], None], ended: Callable[[], None]
+    ) -> None:
+        super().__init__(bar)
+        self._bench, self._bar, self._wrong, self._ended = bench, bar, wrong, ended
+        self._job: Job | None = None
+        bar.cancel.clicked.connect(self._cancel)
+
+    @property
+    def busy(self) -> bool:
+        """Whether something runs."""
+        return self._job is not None
+
+    def start(self, title: str, work: Callable[..., Any], done: Callable[[Any], None]) -> None:
+        """Begin something, as `Jobs.start`; nobody hears of its end once something else was begun."""
+        self.stop()
+
+        def finish(result: Any) -> None:
+            if self._job is job:
+                self._let_go()
+                self._bar.say("")
+                done(result)
+                self._ended()
+
+        def fail(error: BaseException) -> None:
+            if self._job is job:
+                self._let_go()
+                self._failed(error)
+                self._ended()
+
+        job = self._job = self._bench.jobs.start(title, work, finish, fail)
+        job.progressed.connect(self._bar.show_share)
+        self._bar.show_working(title)
+        self._bench.set_failed(Step.PROBE, "")
+        self._bench.set_running(Step.PROBE, going_on=True)
+
+    def stop(self) -> None:
+        """Stop what runs."""
+        job = self._job
+        if job is not None:
+            self._let_go()
+            job.cancel()
+
+    def _let_go(self) -> None:
+        job, self._job = self._job, None
+        if job is not None:
+            job.progressed.disconnect(self._bar.show_share)
+        self._bar.show_idle()
+        self._bench.set_running(Step.PROBE, going_on=False)
+
+    def _cancel(self) -> None:
+        if self._job is not None:
+            self._bar.say(self.tr("Stopping..."))
+            self._job.cancel()
+
+    def _failed(self, error: BaseException) -> None:
+        if isinstance(error, Cancelled):
+            self._bar.say(self.tr("Stopped. Nothing was changed."))
+            return
+        self._bench.set_failed(Step.PROBE, str(error))
+        words = self.tr("Something unexpected went wrong ({}). What there was is as it was; try again.")
+        self._wrong(str(error) if isinstance(error, InputError) else words.format(error))
 
 
 class ProbeStages(QObject):
@@ -46,12 +127,12 @@ class ProbeStages(QObject):
     Attributes
     ----------
     mesh : Mesh or None
-    plan : Plan
+    plan : ProbePlan
     dense : Dense or None
         The outer surface.
     trade : Trade or None
         What fewer facets cost.
-    preview : Preview or None
+    preview : ProbePreview or None
         The probe as it would be used.
     asked : bool
         Whether a person has to say the mesh's unit.
@@ -71,25 +152,23 @@ class ProbeStages(QObject):
 
     def __init__(self, bench: Bench, bar: NextBar, parent: QObject) -> None:
         super().__init__(parent)
-        self.bench, self._bar = bench, bar
+        self.bench, self.bar = bench, bar
         self.work = ProbeWork(bench.desk)
         self.mesh: Mesh | None = None
-        self.plan = Plan()
+        self.plan = ProbePlan()
         self.dense: Dense | None = None
         self.trade: Trade | None = None
-        self.preview: Preview | None = None
+        self.preview: ProbePreview | None = None
         self.asked = self.in_use = self.using = False
         self.known: object = ()
         self.view = ProbeView(bench.scene, self.tr("deviation, mm"))
-        self.worker = Worker(bench, bar, self.wrong, self.changed.emit)
-        self._settle = QTimer(self)
-        self._settle.setSingleShot(True)
-        self._settle.setInterval(_SETTLE_MS)
+        self.worker = ProbeWorker(bench, bar, self.wrong, self.changed.emit)
+        self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
         self._settle.timeout.connect(self._prepare)
 
     def wrong(self, sentence: str) -> None:
         """Say what went wrong, here and in the list."""
-        self._bar.say(sentence, bad=True)
+        self.bar.say(sentence, bad=True)
         self.bench.tell(Weight.ERROR, sentence)
 
     def close(self) -> None:
@@ -119,16 +198,16 @@ class ProbeStages(QObject):
             )
 
     def _taken(self, mesh: Mesh) -> None:
-        self._begin(mesh, Plan(), asked=mesh.unit_asked)
+        self._begin(mesh, ProbePlan(), asked=mesh.unit_asked)
         if not mesh.unit_asked:
             self.make_surface()
 
     def _housing_taken(self, housing: Housing) -> None:
-        plan = Plan(units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment)
+        plan = ProbePlan(units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment)
         self._begin(housing.mesh, plan, asked=False)
         self.make_surface()
 
-    def _begin(self, mesh: Mesh, plan: Plan, *, asked: bool) -> None:
+    def _begin(self, mesh: Mesh, plan: ProbePlan, *, asked: bool) -> None:
         self.mesh, self.plan, self.asked = mesh, plan, asked
         self._drop(surface=True)
         self.view.used = None
@@ -232,7 +311,7 @@ class ProbeStages(QObject):
         """Choose a number of facets."""
         self.aim(replace(self.plan, facets=facets, max_deviation=None, max_contact_error=None))
 
-    def aim(self, plan: Plan) -> None:
+    def aim(self, plan: ProbePlan) -> None:
         """Choose another target, or another way to it."""
         if plan == self.plan:
             return
@@ -251,7 +330,7 @@ class ProbeStages(QObject):
                 self._prepared,
             )
 
-    def _prepared(self, preview: Preview) -> None:
+    def _prepared(self, preview: ProbePreview) -> None:
         first = self.preview is None
         self.preview = self.view.preview = preview
         self.redraw.emit(False)
@@ -261,19 +340,25 @@ class ProbeStages(QObject):
 
     def use(self) -> None:
         """Put the probe into the session; can be undone."""
-        if self.preview is None:
+        preview = self.preview
+        if preview is None:
             return
         self.using = True
-        words = (self.tr("use the probe"), self.tr("Keeping the probe"), self.tr("Bringing the probe back"))
-        self.bench.undo.push(UseProbe(self.bench, self.preview, words, self._used, self._not_used))
+        self.bench.undo.push(
+            SessionCommand(
+                self.bench,
+                self.tr("use the probe"),
+                lambda session: commit(session, preview),
+                lambda _: self._used(preview),
+                self._not_used,
+                self.reload,
+            )
+        )
         self.changed.emit()
 
-    def _used(self, preview: Preview | None) -> None:
+    def _used(self, preview: ProbePreview) -> None:
         self.using = False
         self.known = key_of(self.bench.desk.state)
-        if preview is None:
-            self.reload()
-            return
         self.in_use = preview is self.preview
         count = len(preview.done.content.probe.faces)
         self.bench.tell(
@@ -302,10 +387,10 @@ class ProbeStages(QObject):
 
         self.worker.start(self.tr("Opening the probe"), work, self._restored)
 
-    def _restored(self, found: tuple[tuple[Mesh, Plan] | None, Shown, Probe | None]) -> None:
+    def _restored(self, found: tuple[tuple[Mesh, ProbePlan] | None, Shown, Probe | None]) -> None:
         known, shown, used = found
         if known is None:
-            self.mesh, self.plan = None, Plan()
+            self.mesh, self.plan = None, ProbePlan()
             self._drop(surface=True)
         else:
             self._begin(*known, asked=False)

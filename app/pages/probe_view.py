@@ -8,28 +8,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.workbench.probe import Preview
+    from contactbench.pipeline.workbench.probe import ProbePreview
     from contactbench.widgets.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """
-    Meshes that can be shown, all in the same place.
+    """Meshes that can be shown, all in the same place."""
 
-    Attributes
-    ----------
-    original : Probe or None
-        As the file has it.
-    dense : Probe or None
-        The outer surface with all its facets.
-    alignment : Alignment or None
-        What took them from the mesh's frame to where they are shown.
-    """
-
-    original: Probe | None = None
-    dense: Probe | None = None
-    alignment: Alignment | None = None
+    original: Probe | None = None  # As the file has it
+    dense: Probe | None = None  # The outer surface with all its facets
+    alignment: Alignment | None = None  # What took them from the mesh's frame to where they are shown
 
 
 class ProbeView:
@@ -46,7 +35,7 @@ class ProbeView:
     def __init__(self, scene: Scene, title: str) -> None:
         self._scene, self._title = scene, title
         self.shown = Shown()
-        self.preview: Preview | None = None
+        self.preview: ProbePreview | None = None
         self.used: Probe | None = None  # the session's
         self.overlay = self.deviation = False
         self._main: Probe | None = None

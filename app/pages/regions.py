@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from PySide6.QtCore import QEvent
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QFileDialog, QVBoxLayout, QWidget
+from PySide6.QtGui import QUndoCommand
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
-from contactbench.app.pages.regions_doing import Doing
-from contactbench.app.pages.regions_files import read_regions, write_regions
-from contactbench.app.pages.regions_keeping import Keeper
-from contactbench.app.pages.regions_panel import Mode, RegionsPanel, View
-from contactbench.app.pages.regions_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
-from contactbench.app.pages.regions_undo import RegionStep
+from contactbench.app.pages.region_autosave import RegionAutosave
+from contactbench.app.pages.region_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
+from contactbench.app.pages.regions_panel import Mode, RegionsPanel, RegionsView
+from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.workbench.regions_session import open_work, standing, surface_key
+from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
+from contactbench.pipeline.workbench.regions import Clear
+from contactbench.pipeline.workbench.regions_session import apply, open_work, standing, surface_key
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import add_key, column
 from contactbench.widgets.region_brush import STEP, RegionBrush
 
 if TYPE_CHECKING:
@@ -30,9 +32,56 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
-    from contactbench.pipeline.workbench.regions import RegionsWork
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.workbench.regions import FoundFacets, RegionsWork, Tool
     from contactbench.pipeline.workbench.steps import StepStatus
     from contactbench.widgets.scene.scene import Pick
+
+    Progress = Callable[[float], None]
+    Stop = Callable[[], bool]
+
+
+class RegionStep(QUndoCommand):
+    """
+    A step that was made already: the model's own history undoes and redoes it, and both go in step.
+
+    Parameters
+    ----------
+    text : str
+        Such as "paint Lens".
+    work : RegionsWork
+        That it was made on.
+    shown : callable
+        A method that brings that to view and returns True, or returns False: something else is worked on by now,
+        and the step cannot be undone any more.
+    """
+
+    # The stack belongs to Qt: what its commands held, Python could never see to be a circle, and never free.
+
+    def __init__(self, text: str, work: RegionsWork, shown: Callable[[RegionsWork], bool]) -> None:
+        super().__init__(text)
+        self._work, self._shown = weakref.ref(work), weakref.WeakMethod(shown)
+        self._new = True
+
+    def undo(self) -> None:
+        """Take it back."""
+        work = self._found()
+        if work is None or not work.undo():
+            self.setObsolete(True)
+
+    def redo(self) -> None:
+        """Do it again; the first time it is done already."""
+        if self._new:
+            self._new = False
+            return
+        work = self._found()
+        if work is None or not work.redo():
+            self.setObsolete(True)
+
+    def _found(self) -> RegionsWork | None:
+        work, shown = self._work(), self._shown()
+        return work if work is not None and shown is not None and shown(work) else None
 
 
 class RegionsPage(Page):
@@ -45,6 +94,8 @@ class RegionsPage(Page):
         What is painted on; None while it is not there yet.
     shown : bool
         Whether the page is.
+    job : Job or None
+        What takes long and is being done, one thing at a time; meanwhile nothing is painted.
     """
 
     step: ClassVar[Step] = Step.REGIONS
@@ -59,12 +110,10 @@ class RegionsPage(Page):
         self._failure = self._unkept = ""
         self._ends: list[Callable[[], None]] = []
         self.brush = RegionBrush(bench.scene, self)
-        self.keeper = Keeper(bench, self)
-        self.panel = RegionsPanel(self)
-        self.doing = Doing(self)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.panel)
+        self.job: Job | None = None
+        self._planned: Tool | None = None
+        self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel()
+        column(self, self.panel)
         self._connect()
         self._add_keys()
         self.show_all()
@@ -87,27 +136,22 @@ class RegionsPage(Page):
         listed.remove_asked.connect(lambda rank: self.edit(lambda model: model.remove(rank)))
         panel.tools.tool_changed.connect(lambda _: self.use_tool())
         panel.tools.radius_changed.connect(self.brush.resize)
-        panel.tools.protect_changed.connect(lambda on: setattr(self.brush, "protect", on))
-        panel.tools.asked.connect(self.doing.use)
-        panel.tools.planned.connect(self.doing.show_plan)
-        panel.shape.asked.connect(self.doing.use)
-        panel.apply_button.clicked.connect(lambda _=False: self.doing.apply())
-        panel.import_button.clicked.connect(lambda _=False: self._ask_import())
-        panel.export_button.clicked.connect(lambda _=False: self._ask_export())
-        panel.go_button.clicked.connect(lambda _=False: bench.go_to.emit(Step.PROBE))
-        panel.next_button.clicked.connect(lambda _=False: bench.go_to.emit(Step.VERIFY))
-        panel.cancel_button.clicked.connect(lambda _=False: self._cancel())
+        panel.tools.protect.toggled.connect(lambda on: setattr(self.brush, "protect", on))
+        panel.tools.asked.connect(self._use)
+        panel.tools.planned.connect(self._show_plan)
+        panel.shape.asked.connect(self._use)
+        panel.apply_button.clicked.connect(self._apply)
+        panel.import_button.clicked.connect(self._ask_import)
+        panel.export_button.clicked.connect(self._ask_export)
+        panel.go_button.clicked.connect(lambda: bench.go_to.emit(Step.PROBE))
+        panel.next_button.clicked.connect(lambda: bench.go_to.emit(Step.VERIFY))
+        panel.cancel_button.clicked.connect(self._cancel)
 
     def _add_keys(self) -> None:
-        for text, key, action in (
-            (self.tr("Smaller brush"), "[", lambda: self.brush.resize(self.brush.radius / STEP)),
-            (self.tr("Larger brush"), "]", lambda: self.brush.resize(self.brush.radius * STEP)),
-            (self.tr("Take the stroke back, or look only"), "Esc", self._escape),
-        ):
-            made = QAction(text, self)
-            made.setShortcut(QKeySequence(key))
-            made.triggered.connect(lambda _=False, action=action: action())
-            self.addAction(made)
+        brush = self.brush
+        add_key(self, self.tr("Smaller brush"), "[", lambda: brush.resize(brush.radius / STEP))
+        add_key(self, self.tr("Larger brush"), "]", lambda: brush.resize(brush.radius * STEP))
+        add_key(self, self.tr("Take the stroke back, or look only"), "Esc", self._escape)
 
     # ---- the page ----------------------------------------------------------------------------
 
@@ -139,7 +183,7 @@ class RegionsPage(Page):
     def close_page(self) -> None:
         """Keep what was painted."""
         self.leave()
-        for job in (self._loading, self.doing.job):
+        for job in (self._loading, self.job):
             if job is not None:
                 job.cancel()
         self._watch(None)
@@ -154,7 +198,7 @@ class RegionsPage(Page):
         """Show what can be done now, and how what was done stands."""
         state, work = self.bench.desk.state, self.work
         self.panel.show_view(
-            View(
+            RegionsView(
                 self._mode(),
                 self._failure
                 or self.tr("There is no probe yet. Regions are painted on it: prepare it first."),
@@ -163,7 +207,7 @@ class RegionsPage(Page):
                 painted=work is not None and bool(work.model.labels.any()),
                 standing=standing(state),
                 dirty=self.keeper.dirty,
-                busy=self.doing.job is not None,
+                busy=self.job is not None,
                 unkept=self._unkept,
             )
         )
@@ -323,7 +367,7 @@ class RegionsPage(Page):
         """Let the scene's left button do what the chosen tool does."""
         tool = self.panel.tools.tool
         self.brush.erase = tool == ERASER
-        if not self.shown or self.work is None or self.doing.job is not None:
+        if not self.shown or self.work is None or self.job is not None:
             return
         if tool in (BRUSH, ERASER):
             self.brush.take(self.work)
@@ -344,23 +388,166 @@ class RegionsPage(Page):
         if self.shown and self.work is not None:
             self.panel.tools.picked(pick)
 
-    # ---- files and the probe -----------------------------------------------------------------
+    # ---- what takes long -------------------------------------------------------------------------
+
+    def _begin(
+        self,
+        title: str,
+        work: Callable[[Progress, Stop], object],
+        done: Callable[..., None],
+        wrong: Callable[[BaseException], None] | None = None,
+    ) -> None:
+        """Do something in a worker, during which nothing is painted; without `wrong`, an error is told."""
+        if self.job is not None:
+            return
+
+        def over() -> None:
+            self.job = None
+            self.bench.set_running(Step.REGIONS, False)
+            self.use_tool()
+            self.show_all()
+
+        def finished(result: object) -> None:
+            over()
+            done(result)
+
+        def failed(error: BaseException) -> None:
+            over()
+            if isinstance(error, Cancelled):
+                return
+            if wrong is not None:
+                wrong(error)
+            else:
+                self.bench.tell(Weight.ERROR, str(error))
+
+        self.stop_tool()
+        self.job = self.bench.jobs.start(title, work, finished, failed)
+        self.job.progressed.connect(self.panel.show_share)
+        self.show_all()
 
     def _cancel(self) -> None:
-        for job in (self.doing.job, self._loading):
+        for job in (self.job, self._loading):
             if job is not None:
                 job.cancel()
+
+    def _show_plan(self, tool: Tool | None) -> None:
+        """Show what a box or plane would take, in words and half painted."""
+        work, before, self._planned = self.work, self._planned, tool
+        if work is None or not self.shown or not (rank := self.panel.regions.rank):
+            return
+        if tool is None:
+            if before is not None:
+                self.bench.scene.paint(None, work.colours)
+            return
+        found = work.finder(tool, rank)()
+        text = self.tr("Facets: {0:,}; area: {1:.2f} cm²").format(
+            int(found.mask.sum()), 1e4 * work.area(found.mask)
+        )
+        self.panel.tools.show_plan(text)
+        self.bench.scene.paint(None, work.planned(found))
+
+    def _use(self, tool: Tool, erase: bool = False) -> None:
+        """Use a tool on the chosen region: look for its facets in a worker, then make it one step."""
+        work = self.work
+        if work is None or self.job is not None:
+            return
+        work.abort()
+        try:
+            finder = work.finder(tool, self.panel.regions.rank)
+        except InputError as error:
+            self.bench.tell(Weight.WARNING, str(error))
+            return
+        if isinstance(tool, Clear):
+            self._found(work, finder(), erase)
+            return
+        self._begin(
+            self.tr("Finding the facets"),
+            lambda *_: finder(),
+            lambda found: self._found(work, found, erase),
+        )
+
+    def _found(self, work: RegionsWork, found: FoundFacets, erase: bool) -> None:
+        if work is not self.work:
+            return
+        if self._planned is not None:
+            self.bench.scene.paint(None, work.colours)
+        try:
+            text = work.give(found, protect=self.panel.tools.protect.isChecked(), erase=erase)
+        except InputError as error:
+            self.bench.tell(Weight.WARNING, str(error))
+            return
+        if found.sentence:
+            self.bench.tell(Weight.INFO, found.sentence)
+        self.push(text)
+        if text is None:
+            self.bench.tell(Weight.INFO, self.tr("Nothing changed: the region is like that already."))
+
+    def _apply(self) -> None:
+        """Compute the probe again with these regions."""
+        bench, desk = self.bench, self.bench.desk
+        if self.job is not None:
+            return
+        self.keeper.keep_now()
+        text = self.tr("give the probe its regions")
+
+        def work(progress: Progress, cancelled: Stop) -> Callable[[Session], Record]:
+            desk.do(lambda _session: None).result()  # what was just painted is in the session now
+            return apply(desk, progress, cancelled)
+
+        def recorded(_: object) -> None:
+            bench.set_failed(Step.REGIONS, "")
+            bench.tell(Weight.GOOD, self.tr("The probe has its regions now."))
+
+        def wrong(error: BaseException) -> None:
+            bench.set_failed(Step.REGIONS, str(error))
+            bench.tell(Weight.ERROR, str(error))
+
+        def computed(record: Callable[[Session], Record]) -> None:
+            bench.undo.push(SessionCommand(bench, text, record, recorded, wrong))
+
+        bench.set_running(Step.REGIONS, True)
+        self._begin(self.tr("Giving the probe its regions"), work, computed, wrong)
+
+    # ---- files -----------------------------------------------------------------------------------
 
     def _ask_import(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
             self, self.tr("Import regions"), "", self.tr("Regions (*.json *.csv)")
         )
         if name:
-            read_regions(self, Path(name))
+            self.read(Path(name))
 
     def _ask_export(self) -> None:
         name, _ = QFileDialog.getSaveFileName(
             self, self.tr("Export regions"), "regions.json", self.tr("Regions (*.json *.csv)")
         )
         if name:
-            write_regions(self, Path(name))
+            self.write(Path(name))
+
+    def read(self, file: Path) -> None:
+        """Replace all regions by those of a file, as one step; names and colours stay where the file has none."""
+        work = self.work
+        if work is None:
+            return
+
+        def done(found: RegionSet) -> None:
+            if work is not self.work:
+                return
+            regions = found
+            if file.suffix.lower() == ".csv":
+                regions = RegionSet.from_labels(found.labels, work.model.regions)
+            self.edit(lambda model: model.replace_all(regions), 1)
+
+        self._begin(self.tr("Reading regions"), lambda *_: load_regions(file, work.probe), done)
+
+    def write(self, file: Path) -> None:
+        """Write all regions to a file."""
+        work = self.work
+        if work is None:
+            return
+        regions = work.model.snapshot()
+        self._begin(
+            self.tr("Writing regions"),
+            lambda *_: save_regions(regions, work.probe, file),
+            lambda _: self.bench.tell(Weight.GOOD, self.tr("The regions are written to {0}.").format(file)),
+        )

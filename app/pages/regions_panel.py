@@ -6,25 +6,24 @@ from dataclasses import dataclass
 from enum import Enum, auto
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QProgressBar,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QProgressBar, QWidget
 
-from contactbench.app.pages.regions_fields import muted
-from contactbench.app.pages.regions_shape import ShapePanel
-from contactbench.app.pages.regions_tools import ToolPanel
+from contactbench.app.pages.region_tools import ShapePanel, ToolPanel
 from contactbench.pipeline.workbench.regions_session import Standing
 from contactbench.pipeline.workbench.steps import StepState
-from contactbench.widgets.icons import Sign, icon, state_icon
+from contactbench.widgets.controls import (
+    PanelScroll,
+    accent,
+    column,
+    plain_label,
+    push_button,
+    row,
+    sentence_label,
+    show_value,
+)
+from contactbench.widgets.icons import Sign, state_icon
 from contactbench.widgets.phrases import said
-from contactbench.widgets.progress import show_value
 from contactbench.widgets.region_list import RegionListWidget
-from contactbench.widgets.scrolled import Scrolled
 
 
 class Mode(Enum):
@@ -37,113 +36,60 @@ class Mode(Enum):
 
 
 @dataclass(frozen=True)
-class View:
-    """
-    Everything that decides what the page looks like.
-
-    Attributes
-    ----------
-    mode : Mode
-    sentence : str
-        Why it is locked or failed.
-    regions : int
-        How many there are.
-    chosen : bool
-        Whether one of them is.
-    painted : bool
-        Whether a facet belongs to one.
-    standing : Standing
-    dirty : bool
-        There are changes that the session does not have yet.
-    busy : bool
-        Something is being computed.
-    unkept : str
-        Why the regions could not be kept; empty if they could.
-    """
+class RegionsView:
+    """Everything that decides what the page looks like."""
 
     mode: Mode
-    sentence: str = ""
-    regions: int = 0
-    chosen: bool = False
-    painted: bool = False
+    sentence: str = ""  # Why it is locked or failed
+    regions: int = 0  # How many there are
+    chosen: bool = False  # Whether one of them is
+    painted: bool = False  # Whether a facet belongs to one
     standing: Standing = Standing.NONE
-    dirty: bool = False
-    busy: bool = False
-    unkept: str = ""
+    dirty: bool = False  # There are changes that the session does not have yet
+    busy: bool = False  # Something is being computed
+    unkept: str = ""  # Why the regions could not be kept; empty if they could
 
 
-class RegionsPanel(Scrolled):
+class RegionsPanel(PanelScroll):
     """The controls of the page; `show_view` is the one place that decides what is seen."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent=parent)
-        inside = QWidget()
-        layout = QVBoxLayout(inside)
-        layout.setContentsMargins(10, 10, 10, 10)
-        layout.setSpacing(8)
-        title = QLabel(self.tr("Regions"))
-        title.setProperty("role", "title")
-        layout.addWidget(title)
-        layout.addWidget(
-            muted(
-                self.tr(
-                    "Mark the parts that are meant to be touched, the most important first: where a reading fits"
-                    " several places, the contact is looked for there. Regions are optional."
-                )
-            )
-        )
-        layout.addLayout(self._make_state())
-        self.body = self._make_body()
-        layout.addWidget(self.body)
-        layout.addStretch(1)
-        self.setWidget(inside)
-
-    def _make_state(self) -> QVBoxLayout:
-        column, row, busy = QVBoxLayout(), QHBoxLayout(), QHBoxLayout()
-        self.state_mark = Sign(24)
-        self.state_text = QLabel()
-        self.state_text.setWordWrap(True)
+        self.state_mark, self.state_text = Sign(24), sentence_label()
         self.state_text.setObjectName("regions_state")
-        row.addWidget(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
-        row.addWidget(self.state_text, 1)
-        column.addLayout(row)
         self.progress = QProgressBar()
         self.progress.setRange(0, 100)
         self.progress.setAccessibleName(self.tr("How far it is"))
-        self.cancel_button = QPushButton(self.tr("Cancel"))
-        self.cancel_button.setMinimumHeight(36)
-        busy.addWidget(self.progress, 1)
-        busy.addWidget(self.cancel_button)
-        column.addLayout(busy)
-        self.go_button = QPushButton(self.tr("Go to Probe"))
-        self.apply_button = QPushButton(self.tr("Give them to the probe"))
-        self.apply_button.setToolTip(self.tr("Computes the probe again, with more facets in the regions"))
-        self.next_button = QPushButton()
-        for button in (self.go_button, self.apply_button, self.next_button):
-            button.setMinimumHeight(40)
-            column.addWidget(button)
-        return column
-
-    def _make_body(self) -> QWidget:
-        body = QWidget()
-        layout = QVBoxLayout(body)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        self.regions = RegionListWidget()
-        self.tools = ToolPanel()
-        self.shape = ShapePanel()
-        files = QHBoxLayout()
-        self.import_button = QPushButton(self.tr("Import..."))
-        self.import_button.setToolTip(self.tr("Replace all regions by those of a JSON or CSV file"))
-        self.export_button = QPushButton(self.tr("Export..."))
-        self.export_button.setToolTip(self.tr("Write the regions to a JSON or CSV file"))
-        for button in (self.import_button, self.export_button):
-            button.setMinimumHeight(36)
-            files.addWidget(button)
-        for part in (self.regions, self.tools, self.shape):
-            layout.addWidget(part)
-        layout.addLayout(files)
-        return body
+        self.cancel_button = push_button(self.tr("Cancel"))
+        self.go_button = push_button(self.tr("Go to Probe"), high=40)
+        self.apply_button = push_button(
+            self.tr("Give them to the probe"),
+            tip=self.tr("Computes the probe again, with more facets in the regions"),
+            high=40,
+        )
+        self.next_button = push_button("", high=40)
+        self.import_button = push_button(
+            self.tr("Import..."), tip=self.tr("Replace all regions by those of a JSON or CSV file")
+        )
+        self.export_button = push_button(
+            self.tr("Export..."), tip=self.tr("Write the regions to a JSON or CSV file")
+        )
+        self.regions, self.tools, self.shape = RegionListWidget(), ToolPanel(), ShapePanel()
+        intro = self.tr(
+            "Mark the parts that are meant to be touched, the most important first: where a reading fits"
+            " several places, the contact is looked for there. Regions are optional."
+        )
+        state = row()
+        state.addWidget(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
+        state.addWidget(self.state_text, 1)
+        inside, self.body = QWidget(), QWidget()
+        column(self.body, self.regions, self.tools, self.shape, row(self.import_button, self.export_button))
+        column(
+            inside, plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state,
+            row((self.progress, 1), self.cancel_button), self.go_button, self.apply_button, self.next_button,
+            self.body, margins=(10, 10, 10, 10),
+        ).addStretch(1)  # fmt: skip
+        self.setWidget(inside)
 
     # ---- what is seen ------------------------------------------------------------------------
 
@@ -152,7 +98,7 @@ class RegionsPanel(Scrolled):
         self.progress.setRange(0, 100)
         show_value(self.progress, round(100 * share))
 
-    def show_view(self, view: View) -> None:
+    def show_view(self, view: RegionsView) -> None:
         """Show all of it."""
         ready = view.mode is Mode.READY
         state, text = self._said(view)
@@ -176,13 +122,12 @@ class RegionsPanel(Scrolled):
         self.apply_button.setEnabled(not view.busy)
         self.next_button.setVisible(ready and (applied or not view.painted))
         self.next_button.setText(self.tr("Go on to Verify") if applied else self.tr("Go on without regions"))
-        self._accent(self.go_button, self.go_button.isVisibleTo(self))
-        self._accent(self.apply_button, waiting and not applied)
-        self._accent(self.next_button, applied)
-        self._accent(self.regions.add_button, ready and view.regions == 0)
-        self.regions.add_button.setIcon(icon("add", "panel" if ready and view.regions == 0 else "text"))
+        accent(self.go_button, self.go_button.isVisibleTo(self))
+        accent(self.apply_button, waiting and not applied)
+        accent(self.next_button, applied)
+        accent(self.regions.add_button, ready and view.regions == 0, "add")
 
-    def _said(self, view: View) -> tuple[StepState, str]:
+    def _said(self, view: RegionsView) -> tuple[StepState, str]:
         """Return the state and its sentence."""
         if view.mode is Mode.LOCKED:
             return StepState.LOCKED, view.sentence
@@ -204,7 +149,7 @@ class RegionsPanel(Scrolled):
             return StepState.READY, self.tr("Nothing is painted yet: take the brush and drag over the probe.")
         return self._of_painted(view)
 
-    def _of_painted(self, view: View) -> tuple[StepState, str]:
+    def _of_painted(self, view: RegionsView) -> tuple[StepState, str]:
         if view.dirty:
             return StepState.READY, self.tr("Painted; it is kept in the session in a moment.")
         if view.standing is Standing.APPLIED:
@@ -214,10 +159,3 @@ class RegionsPanel(Scrolled):
                 "Kept in the session. The probe takes them along when it is made."
             )
         return StepState.STALE, self.tr("Kept in the session, but the probe does not have them yet.")
-
-    @staticmethod
-    def _accent(button: QPushButton, on: bool) -> None:
-        if bool(button.property("primary")) != on:
-            button.setProperty("primary", on)
-            button.style().unpolish(button)
-            button.style().polish(button)

@@ -4,28 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtWidgets import QLabel, QPushButton, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QTabWidget, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
-from contactbench.app.pages.verify_editing import MarkerEditing
-from contactbench.app.pages.verify_leaving import Leaving
-from contactbench.app.pages.verify_live import LiveShow
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_point import PointPanel
 from contactbench.app.pages.verify_result import ResultPanel
-from contactbench.app.pages.verify_scene import TouchScene
-from contactbench.app.pages.verify_settings import SettingsPanel
+from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
+from contactbench.app.pages.verify_settings import VerifySettingsPanel
 from contactbench.app.pages.verify_touch import TouchPanel
-from contactbench.app.pages.verify_undo import ChangeSettings
 from contactbench.app.pages.verify_virtual import Toucher
+from contactbench.app.undo import SetParameters
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.pipeline.workbench.verify import (
-    Outcome,
-    Tool,
+    TouchTool,
+    VerifyOutcome,
     VerifyWork,
     checked_parameters,
     outcome_of,
@@ -35,9 +32,8 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
     why_locked,
 )
+from contactbench.widgets.controls import PanelScroll, column, plain_label, push_button, sentence_label
 from contactbench.widgets.phrases import said
-from contactbench.widgets.scrolled import Scrolled
-from contactbench.widgets.sounds import Sounds
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -51,31 +47,16 @@ _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
 
 
 class VerifyPage(Page):
-    """
-    Markers, how to touch them, a known point, the touches, and the verdict, on a tab each.
-
-    Attributes
-    ----------
-    work : VerifyWork
-    markers : Markers
-    """
+    """Markers, how to touch them, a known point, the touches, and the verdict, on a tab each."""
 
     step: ClassVar[Step] = Step.VERIFY
 
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         self.work = VerifyWork(bench.desk, bench.live)
-        self.markers = Markers()
-        self.tool: Tool | None = None
-        self.outcome: Outcome | None = None
-        self.sounds = Sounds(self)
-        self.toucher = Toucher(bench, self)
-        self.scene_view = TouchScene(bench)
-        self._live = LiveShow(self)
-        self._editing, self._leaving = MarkerEditing(self), Leaving(self)
-        self.window_N, self.wanted = (8.0, 10.0), 1
+        self.toucher, self.scene_view = Toucher(bench, self), VerifyScene(bench)
         self._entered = self._busy = self._closed = False
-        self._read_at = -1
+        self._read_at, self._told = -1, tuple[str, ...]()
         self._loading: object = None
         self._job: Job | None = None
         self._build()
@@ -83,53 +64,42 @@ class VerifyPage(Page):
         self._allow()
 
     def _build(self) -> None:
-        column = QVBoxLayout(self)
-        column.setContentsMargins(10, 8, 10, 8)
-        title = QLabel(self.tr("Verify"))
-        title.setProperty("role", "title")
-        column.addWidget(title)
-        self.locked = QLabel()
-        self.locked.setWordWrap(True)
-        self.go = QPushButton(self.tr("Go there"))
-        self.go.setMinimumHeight(36)
-        self.go.setProperty("primary", True)
-        column.addWidget(self.locked)
-        column.addWidget(self.go)
+        self.locked = sentence_label()
+        self.go = push_button(self.tr("Go there"), self._go, primary=True)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.tabs.setUsesScrollButtons(False)
-        self.panel_markers, self.panel_how = MarkersPanel(), SettingsPanel()
-        self.panel_touch, self.panel_result = TouchPanel(), ResultPanel()
-        self.panel_point = PointPanel(self.bench)
+        self.panel_markers, self.panel_how = MarkersPanel(self.bench, self.work), VerifySettingsPanel()
+        self.panel_touch, self.panel_result = TouchPanel(self.bench, self.work), ResultPanel()
+        self.panel_point, point = PointPanel(self.bench), QWidget()
+        column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
         for panel, name in (
             (self.panel_markers, self.tr("Markers")),
             (self.panel_how, self.tr("How")),
-            (_filling_top(self.panel_point), self.tr("Point")),
+            (point, self.tr("Point")),
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
         ):
-            self.tabs.addTab(Scrolled(panel), name)
-        column.addWidget(self.tabs, 1)
-        column.addStretch(0)
+            self.tabs.addTab(PanelScroll(panel), name)
+        title = plain_label(self.tr("Verify"), "title")
+        column(self, title, self.locked, self.go, self.tabs, margins=(10, 8, 10, 8), space=6).setStretch(3, 1)
 
     def _connect(self) -> None:
-        touch = self.panel_touch
-        self.go.clicked.connect(self._go)
-        touch.start_wanted.connect(self.start)
-        touch.finish_wanted.connect(self.finish)
-        touch.discard_wanted.connect(self.discard)
-        touch.skip_wanted.connect(self._leaving.ask)
-        touch.repeat_wanted.connect(self._repeat)
-        touch.touch_wanted.connect(self._touch_one)
-        touch.touch_all_toggled.connect(lambda on: self.toucher.begin() if on else self.toucher.end())
-        touch.muted.connect(lambda muted: setattr(self.sounds, "muted", muted))
-        touch.heat_toggled.connect(self.scene_view.show_heat)
+        touch, markers, result = self.panel_touch, self.panel_markers, self.panel_result
+        touch.start.clicked.connect(self.start)
+        touch.finish.clicked.connect(self.finish)
+        touch.discard.clicked.connect(self.discard)
+        touch.repeat.clicked.connect(self._repeat)
+        touch.touch.clicked.connect(self._touch_one)
+        touch.touch_all.toggled.connect(lambda on: self.toucher.begin() if on else self.toucher.end())
+        touch.heat.toggled.connect(self.scene_view.show_heat)
         self.toucher.stopped.connect(self._touched_all)
         self.panel_how.changed.connect(self._set)
-        self._editing.connect_panel()
-        self.panel_result.again_wanted.connect(self.start)
-        self.panel_result.go_on_wanted.connect(lambda: self.bench.go_to.emit(Step.EXPORT))
-        self.panel_markers.touch_wanted.connect(lambda: self.tabs.setCurrentIndex(_TOUCH))
+        markers.changed.connect(self._allow)
+        markers.refused.connect(self._read_again)
+        markers.go_on.clicked.connect(lambda: self.tabs.setCurrentIndex(_TOUCH))
+        result.again.clicked.connect(self.start)
+        result.go_on.clicked.connect(lambda: self.bench.go_to.emit(Step.EXPORT))
         self.bench.scene.picked.connect(self._picked)
 
     # ---- shown and hidden ------------------------------------------------------------------------
@@ -161,12 +131,28 @@ class VerifyPage(Page):
 
     def tick(self) -> None:
         """Show the newest of what is live."""
-        self._live.tick()
-        self.panel_point.poll()
+        reading, touches = self.bench.live.reading(), self.work.touches
+        view = None if touches is None else touches.view()
+        self.scene_view.show_reading(reading, self.panel_touch.captions(firm_contact(reading)))
+        self.scene_view.tick()
+        self.scene_view.show_markers(self.work.markers, view)
+        self.panel_touch.show_reading(reading)
+        self.panel_markers.show_touches(view)
+        if touches is None or view is None:
+            self.panel_touch.show_idle(reading)
+        else:
+            self.panel_touch.show_touches(touches, view)
+        self.toucher.tick(touches, view)
+        self.watch()
 
     def watch(self) -> None:
-        """Hear of devices and disk while another page is shown."""
-        self._live.watch()
+        """Tell what is wrong with devices and disk, and that all is well again, whichever page is shown."""
+        before, self._told = self._told, self.work.findings
+        for sentence in self._told:
+            if sentence not in before:
+                self.bench.tell(Weight.WARNING, sentence)
+        if before and not self._told and self.work.going_on:
+            self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
         self.panel_point.poll()
 
     def close_page(self) -> None:
@@ -177,11 +163,10 @@ class VerifyPage(Page):
             self._job.cancel()
         # Not here: it may have to wait for what is just being judged, and for the disk.
         self.bench.jobs.start(self.tr("Keeping the recording"), lambda *_: self.work.abandon())
-        self.sounds.close()
+        self.panel_touch.sounds.close()
 
     def _go(self) -> None:
-        state = self.bench.desk.state
-        missing = why_locked(state, "calibration")
+        missing = why_locked(self.bench.desk.state, "calibration")
         self.bench.go_to.emit(Step.GRAVITY if missing else Step.PROBE)
 
     # ---- what the session has --------------------------------------------------------------------
@@ -194,58 +179,54 @@ class VerifyPage(Page):
             return
         self._read_at = state.count
         try:
-            given = checked_parameters(parameters_of(state))
-            self.panel_how.show_parameters(given)
-            self.window_N, self.wanted = given.windows[0], given.repeats * len(given.windows)
+            self.work.parameters = checked_parameters(parameters_of(state))
+            self.panel_how.show_parameters(self.work.parameters)
         except InputError as error:
             self.bench.tell(Weight.ERROR, str(error))
 
-        def work(_progress: object, _cancelled: object) -> tuple[Markers, Outcome | None]:
+        def work(_progress: object, _cancelled: object) -> tuple[Markers, VerifyOutcome | None]:
             return kept(desk.folder, state), outcome_of(desk.folder, state, stale)
 
-        def came(found: tuple[Markers, Outcome | None]) -> None:
+        def came(found: tuple[Markers, VerifyOutcome | None]) -> None:
             if state.count == self._read_at and not self._closed:
-                if not self._editing.pending:
-                    self.show_markers(found[0])
-                differs = self.outcome.differs if self.outcome is not None and found[1] is not None else ""
-                self._show_outcome(found[1], differs)
+                if not self.panel_markers.pending:
+                    self.work.markers = found[0]
+                self._show_outcome(found[1])
+                self._allow()
 
         self.bench.jobs.start(self.tr("Reading the verification"), work, came, self._not_read)
         self.panel_point.read()
         self._load_tool()
 
-    def read_again(self) -> None:
-        """Read everything, also if the session did not change."""
+    def _read_again(self) -> None:
         self._read_at = -1
         self._read()
 
     def _not_read(self, error: BaseException) -> None:
-        if not isinstance(error, InputError):
-            raise error
-        if not self._closed:
-            self.bench.tell(Weight.ERROR, str(error))
+        if not self._closed or not isinstance(error, InputError):
+            self.bench.tell_error(error)
 
     def _load_tool(self) -> None:
         """Load probe and calibration, if they are others than before."""
-        desk, state = self.bench.desk, self.bench.desk.state
+        desk, state, known = self.bench.desk, self.bench.desk.state, self.work.tool
         key = tool_key(state)
-        if key is None or key == self._loading or (self.tool is not None and self.tool.content == key):
+        if key is None or key == self._loading or (known is not None and known.content == key):
             return
         self._loading = key
 
-        def work(_progress: object, _cancelled: object) -> tuple[Tool, ContactSolver]:
+        def work(_progress: object, _cancelled: object) -> tuple[TouchTool, ContactSolver]:
             tool = tool_of(desk.folder, state)
             return tool, ContactSolver(tool.probe)
 
-        def came(found: tuple[Tool, ContactSolver]) -> None:
+        def came(found: tuple[TouchTool, ContactSolver]) -> None:
             self._loading = None
             if self._closed:
                 return
-            self.tool, solver = found
-            self.scene_view.probe = self.tool.probe
-            self.bench.live.set_model(self.tool.model)
-            self.bench.live.set_solver(solver)
-            self.panel_markers.show_regions(self._regions())
+            self.work.tool = tool = found[0]
+            self.scene_view.probe = tool.probe
+            self.bench.live.set_model(tool.model)
+            self.bench.live.set_solver(found[1])
+            self.panel_markers.show_regions()
             if self._entered:
                 self.scene_view.begin(self.tr("Drawing the heat map"))
             self._allow()
@@ -256,42 +237,28 @@ class VerifyPage(Page):
 
         self.bench.jobs.start(self.tr("Loading the probe"), work, came, wrong)
 
-    def _regions(self) -> list[tuple[int, str]]:
-        if self.tool is None:
-            return []
-        ranks = sorted({int(rank) for rank in self.tool.probe.region.tolist()} - {0})
-        return [(rank, self.tr("region {rank}").format(rank=rank)) for rank in ranks]
-
-    def show_markers(self, markers: Markers) -> None:
-        """Show markers that are another set now."""
-        self.markers = markers
-        self._allow()
-
-    def _show_outcome(self, outcome: Outcome | None, differs: str = "") -> None:
-        if outcome is not None and differs and not outcome.differs:
-            outcome = outcome.with_difference(differs)
-        self.outcome = outcome
-        self.panel_result.show_outcome(outcome)
+    def _show_outcome(self, outcome: VerifyOutcome | None) -> None:
+        self.work.take_outcome(outcome)
+        self.panel_result.show_outcome(self.work.outcome)
 
     def _set(self, values: dict[str, object], text: str) -> None:
         """Change settings of the verification."""
         if "order" in values:
-            values = {"order": list(self.markers.names) if values["order"] else []}
+            values = {"order": list(self.work.markers.names) if values["order"] else []}
         try:
-            before = plain_parameters(parameters_of(self.bench.desk.state))
-            checked_parameters({**parameters_of(self.bench.desk.state), **values})
+            known = parameters_of(self.bench.desk.state)
+            before, _ = plain_parameters(known), checked_parameters({**known, **values})
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
-            self.read_again()
+            self._read_again()
             return
-        now = {f"verification.{name}": value for name, value in values.items()}
-        was = {f"verification.{name}": before[name] for name in values}
-        if now != was:
-            self.bench.undo.push(ChangeSettings(self.bench, was, now, text))
+        now = {f"verification.{name}": value for name, value in values.items() if value != before[name]}
+        if now:
+            self.bench.undo.push(SetParameters(self.bench, now, text))
 
     def _picked(self, pick: Pick) -> None:
         if self._entered and self.panel_markers.pick.isChecked():
-            self._editing.picked(pick)
+            self.panel_markers.picked(pick)
 
     # ---- touching --------------------------------------------------------------------------------
 
@@ -303,6 +270,7 @@ class VerifyPage(Page):
             self._busy, self._job = False, None
             if not self._closed:
                 done(found)
+                self.bench.set_running(Step.VERIFY, self.work.going_on)
                 self._allow()
 
         def wrong(error: BaseException) -> None:
@@ -311,29 +279,23 @@ class VerifyPage(Page):
                 return
             self.bench.set_running(Step.VERIFY, self.work.going_on)
             self._allow()
-            if not isinstance(error, InputError):
-                raise error
+            self.bench.tell_error(error)
             self.panel_touch.say(str(error))
-            self.bench.tell(Weight.ERROR, str(error))
 
         self._job = self.bench.jobs.start(title, work, over, wrong)
 
     def start(self) -> None:
         """Begin to follow and record touches."""
-        tool, markers = self.tool, self.markers
+        tool, markers = self.work.tool, self.work.markers
         if tool is None or not len(markers) or self._busy or self.work.going_on:
             return
         self.tabs.setCurrentIndex(_TOUCH)
         self.panel_touch.say("")
         self.scene_view.forget_contacts()
-
-        def began(_: object) -> None:
-            self.bench.set_running(Step.VERIFY, self.work.going_on)
-
         self._do(
             self.tr("Measuring the noise"),
             lambda _, cancelled: self.work.start(tool, markers, cancelled),
-            began,
+            lambda _: None,
         )
 
     def finish(self) -> None:
@@ -342,20 +304,18 @@ class VerifyPage(Page):
             return
         self.toucher.end()
 
-        def judged(outcome: object) -> None:
-            self.bench.set_running(Step.VERIFY, False)
-            if isinstance(outcome, Outcome):
+        def judged(outcome: VerifyOutcome | None) -> None:
+            if outcome is not None:
                 self._show_outcome(outcome)
                 self.panel_touch.say("")  # what was wrong while it was recorded: the verdict says it better
                 self.tabs.setCurrentIndex(_RESULT)
-                self.sounds.play("done")
-                good = outcome.passed
-                self.bench.tell(
-                    Weight.GOOD if good else Weight.WARNING,
-                    self.tr("The verification passed.")
-                    if good
-                    else self.tr("The verification did not pass."),
+                self.panel_touch.sounds.play("done")
+                passed, failed = (
+                    self.tr("The verification passed."),
+                    self.tr("The verification did not pass."),
                 )
+                good = outcome.passed
+                self.bench.tell(Weight.GOOD if good else Weight.WARNING, passed if good else failed)
 
         self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(), judged)
 
@@ -363,11 +323,7 @@ class VerifyPage(Page):
         """End it without a verdict."""
         if not self._busy and self.work.going_on:
             self.toucher.end()
-            self._do(
-                self.tr("Ending the recording"),
-                lambda *_: self.work.discard(),
-                lambda _: self.bench.set_running(Step.VERIFY, False),
-            )
+            self._do(self.tr("Ending the recording"), lambda *_: self.work.discard(), lambda _: None)
 
     def _repeat(self) -> None:
         touches = self.work.touches
@@ -391,22 +347,17 @@ class VerifyPage(Page):
     # ---- what can be done ------------------------------------------------------------------------
 
     def _allow(self) -> None:
-        going_on = self.work.going_on
-        ready = self.tool is not None and len(self.markers) > 0
-        self.panel_touch.allow(ready=ready, going_on=going_on, virtual=self.toucher.there, busy=self._busy)
-        self.panel_markers.lock(going_on or self._busy or self.tool is None)
-        self.panel_how.setEnabled(not going_on and not self._busy)
-        known = [(each.name, each.point_S.tolist()) for each in self.markers.all]
-        self.panel_point.show_markers(known, None if self.tool is None else self.tool.model)
-        self.panel_point.setEnabled(not going_on and not self._busy)
-        self._live.show_idle()
-
-
-def _filling_top(panel: QWidget) -> QWidget:
-    """Return a panel at the top of its tab, with what is left empty below it."""
-    widget = QWidget()
-    column = QVBoxLayout(widget)
-    column.setContentsMargins(0, 8, 0, 0)
-    column.addWidget(panel)
-    column.addStretch(1)
-    return widget
+        """Show what can be done now, also where nothing ticks."""
+        work = self.work
+        free = not work.going_on and not self._busy
+        ready = work.tool is not None and len(work.markers) > 0
+        self.panel_touch.allow(ready=ready, virtual=self.toucher.there, busy=self._busy)
+        self.panel_markers.lock(not free or work.tool is None)
+        self.panel_how.setEnabled(free)
+        known = [(each.name, each.point_S.tolist()) for each in work.markers.all]
+        self.panel_point.show_markers(known, None if work.tool is None else work.tool.model)
+        self.panel_point.setEnabled(free)
+        if not work.going_on:
+            self.panel_touch.show_idle(None)
+            self.panel_touch.next.setText("")
+            self.panel_markers.show_touches(None)

@@ -1,208 +1,291 @@
-"""The markers of the Verify page: where they come from, and the table of them."""
+"""The markers of the Verify page: where they come from, the table of them, and edits that can be undone."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QComboBox,
     QDoubleSpinBox,
+    QFileDialog,
     QGridLayout,
     QHBoxLayout,
     QLabel,
-    QPushButton,
-    QSizePolicy,
     QSpinBox,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from contactbench.app.bench import Weight
+from contactbench.app.undo import Exchange
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
+from contactbench.widgets.controls import HIGH, choice, column, named, push_button, row, sentence_label
 from contactbench.widgets.icons import icon
-from contactbench.widgets.marker_table import MarkerTable, ShownMarker
+from contactbench.widgets.marker_table import MarkerTable
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable
 
-_TALL = 36
-
-
-def narrow(field: QWidget, least: int) -> None:
-    """Let a field be as narrow as `least` px: its own wish is for the longest that it could ever hold."""
-    field.setMinimumWidth(least)
-    field.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.verify import VerifyWork
+    from contactbench.pipeline.workbench.verify_touches import TouchView
+    from contactbench.widgets.scene.scene import Pick
 
 
 class MarkersPanel(QWidget):
     """
-    Asks for markers; does nothing by itself.
+    Makes and edits the markers of a verification; each edit is one step that can be undone, and ends in the session.
 
     Attributes
     ----------
     table : MarkerTable
+    pending : int
+        Edits that the session does not have yet: what it has is old until then.
     """
 
-    spread_wanted = Signal(int, object)  # count, region or None
-    grid_wanted = Signal(float, object)  # pitch, m; region or None
-    typed = Signal(object)  # (3,) tuple, m
-    pick_toggled = Signal(bool)
-    import_wanted = Signal()
-    export_wanted = Signal()
-    remove_wanted = Signal(list)
-    snap_wanted = Signal()
-    touch_wanted = Signal()
+    changed = Signal()
+    refused = Signal()  # the session could not keep them: what it has is to be read again
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, bench: Bench, work: VerifyWork, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 8, 0, 0)
-        column.setSpacing(8)
-        column.addLayout(self._making())
+        self._bench, self._work, self.pending = bench, work, 0
+        self._shown: tuple[object, ...] = ()
         self.table = MarkerTable()
         self.table.setMinimumHeight(190)
-        self.table.remove_wanted.connect(self.remove_wanted)
-        column.addWidget(self.table, 1)
-        column.addLayout(self._editing())
-        column.addLayout(self._typing())
-        self._empty = QLabel(
+        self.table.remove_wanted.connect(self.remove)
+        self.table.rename_wanted.connect(self.rename)
+        self._empty = sentence_label(
             self.tr(
                 "No markers yet. Spread some over the probe, click on it, or import a table of measured ones."
-            )
+            ),
+            "muted",
         )
-        self._empty.setWordWrap(True)
-        self._empty.setProperty("role", "muted")
-        column.insertWidget(1, self._empty)
-        self.go_on = QPushButton(icon("play", "panel"), self.tr("Go on: touch them"))
-        self.go_on.setProperty("primary", True)
-        self.go_on.setMinimumHeight(_TALL)
+        self.go_on = push_button(self.tr("Go on: touch them"), None, "play", primary=True)
         self.go_on.hide()
-        self.go_on.clicked.connect(lambda _=False: self.touch_wanted.emit())
-        column.insertWidget(2, self.go_on)
+        column(
+            self, self._making(), self._empty, self.go_on, self.table, self._editing(), self._typing(),
+            margins=(0, 8, 0, 0),
+        ).setStretchFactor(self.table, 1)  # fmt: skip
 
     def _making(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(6)
-        self.region = QComboBox()
-        self.region.setMinimumHeight(_TALL)
-        self.region.setAccessibleName(self.tr("Where markers are placed"))
-        self.show_regions(())
-        grid.addWidget(QLabel(self.tr("Place them on")), 0, 0)
-        grid.addWidget(self.region, 0, 1, 1, 2)
-        self.count = QSpinBox()
-        self.count.setRange(1, 1000)
-        self.count.setValue(12)
-        self.count.setAccessibleName(self.tr("How many markers"))
-        self.spread = self._button(self.tr("Spread evenly"), "add", self._spread)
-        grid.addWidget(self.count, 1, 0)
-        grid.addWidget(self.spread, 1, 1, 1, 2)
-        self.pitch = QDoubleSpinBox()
-        self.pitch.setRange(0.5, 200.0)
-        self.pitch.setValue(10.0)
-        self.pitch.setSuffix(" mm")
-        self.pitch.setAccessibleName(self.tr("Distance of the lines of the grid, mm"))
-        self.grid = self._button(self.tr("On a grid"), "add", self._grid)
-        grid.addWidget(self.pitch, 2, 0)
-        grid.addWidget(self.grid, 2, 1, 1, 2)
-        for each in (self.count, self.pitch, self.region):
-            narrow(each, 84)
-        for each in (self.count, self.pitch):
-            each.setMinimumHeight(_TALL)
-            each.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        grid.setColumnStretch(2, 1)
-        return grid
+        self.region = choice((), self.tr("Where markers are placed"), least=84)
+        self.show_regions()
+        self.count = QSpinBox(minimum=1, maximum=1000, value=12)
+        named(self.count, self.tr("How many markers"), least=84)
+        self.pitch = QDoubleSpinBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
+        named(self.pitch, self.tr("Distance of the lines of the grid, mm"), least=84)
+        self.spread = push_button(self.tr("Spread evenly"), self._spread, "add", least=100)
+        self.grid = push_button(self.tr("On a grid"), self._grid, "add", least=100)
+        layout = QGridLayout()
+        layout.setSpacing(6)
+        for line, (first, second) in enumerate(
+            (
+                (QLabel(self.tr("Place them on")), self.region),
+                (self.count, self.spread),
+                (self.pitch, self.grid),
+            )
+        ):
+            layout.addWidget(first, line, 0)
+            layout.addWidget(second, line, 1, 1, 2)
+        layout.setColumnStretch(2, 1)
+        return layout
 
     def _editing(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(6)
-        self.pick = QPushButton(icon("add"), self.tr("Click on it"))
+        self.pick = push_button(self.tr("Click on it"), None, "add", least=100)
         self.pick.setCheckable(True)
-        narrow(self.pick, 100)
-        self.pick.setMinimumHeight(_TALL)
         self.pick.setToolTip(
             self.tr("Every click on the probe adds a marker; with one marker selected, it moves there")
         )
-        self.pick.toggled.connect(self.pick_toggled)
-        self.remove = self._button(
-            self.tr("Remove"), "remove", lambda: self.remove_wanted.emit(self.table.selected_names)
+        self.pick.toggled.connect(lambda on: self._bench.scene.set_tool("pick" if on else "turn"))
+        self.remove_button = push_button(
+            self.tr("Remove"), lambda: self.remove(self.table.selected_names), "remove", least=100
         )
-        self.importing = self._button(self.tr("Import…"), "folder", self.import_wanted.emit)
-        self.exporting = self._button(self.tr("Save as…"), "export", self.export_wanted.emit)
-        self.snap = self._button(self.tr("Onto the surface"), "down", self.snap_wanted.emit)
-        self.snap.setToolTip(self.tr("Move every marker to the nearest point of the probe"))
-        for place, button in enumerate((self.pick, self.remove, self.importing, self.exporting, self.snap)):
-            grid.addWidget(button, place // 2, place % 2)
-        grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(1, 1)
-        return grid
+        self.importing = push_button(self.tr("Import…"), self._ask_import, "folder", least=100)
+        self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export", least=100)
+        self.snap_button = push_button(self.tr("Onto the surface"), self.snap, "down", least=100)
+        self.snap_button.setToolTip(self.tr("Move every marker to the nearest point of the probe"))
+        layout = QGridLayout()
+        layout.setSpacing(6)
+        buttons = (self.pick, self.remove_button, self.importing, self.exporting, self.snap_button)
+        for place, button in enumerate(buttons):
+            layout.addWidget(button, place // 2, place % 2)
+        for part in (0, 1):
+            layout.setColumnStretch(part, 1)
+        return layout
 
     def _typing(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(4)
         self.coordinates = []
         for axis in ("x", "y", "z"):
-            field = QDoubleSpinBox()
-            field.setRange(-2000.0, 2000.0)
-            field.setDecimals(1)
-            field.setPrefix(f"{axis} ")
-            field.setMinimumHeight(_TALL)
-            narrow(field, 84)
-            field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            field.setAccessibleName(self.tr("{axis} of a marker in the sensor frame S, mm").format(axis=axis))
-            field.setToolTip(field.accessibleName())
-            self.coordinates.append(field)
-            row.addWidget(field, 1)
-        self.add = QToolButton()
-        self.add.setIcon(icon("add"))
-        self.add.setMinimumSize(_TALL, _TALL)
-        self.add.setAccessibleName(self.tr("Add a marker at these coordinates"))
-        self.add.setToolTip(self.add.accessibleName())
-        self.add.clicked.connect(lambda _=False: self._type())
-        row.addWidget(self.add)
-        return row
+            name = self.tr("{axis} of a marker in the sensor frame S, mm").format(axis=axis)
+            field = QDoubleSpinBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
+            self.coordinates.append(named(field, name, least=84))
+        self.add_button = QToolButton()
+        self.add_button.setIcon(icon("add"))
+        named(self.add_button, self.tr("Add a marker at these coordinates")).setMinimumSize(HIGH, HIGH)
+        self.add_button.clicked.connect(lambda _=False: self._type())
+        return row(*((field, 1) for field in self.coordinates), self.add_button, space=4)
 
-    def _button(self, text: str, name: str, action: object) -> QPushButton:
-        button = QPushButton(icon(name), text)
-        button.setMinimumHeight(_TALL)
-        narrow(button, 100)
-        button.clicked.connect(lambda _=False: action())  # type: ignore[operator]
-        return button
+    # ---- what is shown -------------------------------------------------------------------------------
 
-    def _spread(self) -> None:
-        self.spread_wanted.emit(self.count.value(), self.region.currentData())
+    def show_regions(self) -> None:
+        """Offer the regions of the probe, the first of them chosen; without any the whole probe."""
+        tool = self._work.tool
+        ranks = [] if tool is None else sorted({int(rank) for rank in tool.probe.region.tolist()} - {0})
+        wanted: list[tuple[str, int | None]] = [
+            (self.tr("region {rank}").format(rank=rank), rank) for rank in ranks
+        ]
+        wanted.append((self.tr("the whole probe"), None))
+        if wanted != [(self.region.itemText(i), self.region.itemData(i)) for i in range(self.region.count())]:
+            self.region.clear()
+            for words, rank in wanted:
+                self.region.addItem(words, rank)
 
-    def _grid(self) -> None:
-        self.grid_wanted.emit(1e-3 * self.pitch.value(), self.region.currentData())
-
-    def _type(self) -> None:
-        x, y, z = (1e-3 * field.value() for field in self.coordinates)
-        self.typed.emit((x, y, z))
-
-    # ---- what is shown -----------------------------------------------------------------------
-
-    def show_regions(self, regions: Sequence[tuple[int, str]]) -> None:
-        """Offer the regions (rank, name) of the probe, the first of them chosen; without any the whole probe."""
-        known = [(self.region.itemData(row), self.region.itemText(row)) for row in range(self.region.count())]
-        wanted: list[tuple[int | None, str]] = [*regions, (None, self.tr("the whole probe"))]
-        if known == wanted:
+    def show_touches(self, view: TouchView | None) -> None:
+        """Show the table as the touches stand; None: nothing goes on."""
+        work = self._work
+        content = (work.markers, work.outcome if view is None else (view.rows, view.next_one))
+        if content == self._shown:
             return
-        self.region.clear()
-        for rank, name in wanted:
-            self.region.addItem(name, rank)
-
-    def show_markers(self, rows: Sequence[ShownMarker]) -> None:
-        """Show the table."""
+        self._shown = content
+        # What was added meanwhile has no touches.
+        rows = work.rows if view is None else (*view.rows, *work.rows[len(view.rows) :])
         self._empty.setVisible(not rows)
         self.go_on.setVisible(bool(rows))
         self.exporting.setEnabled(bool(rows))
-        self.table.show_rows(rows)
+        self.table.show_rows(rows, None if view is None else view.next_one)
 
     def lock(self, locked: bool) -> None:
         """Allow no changes, as while they are touched."""
         for each in (
-            self.spread, self.grid, self.pick, self.remove, self.importing, self.snap, self.add, self.region,
-            self.count, self.pitch,
+            self.spread, self.grid, self.pick, self.remove_button, self.importing, self.snap_button,
+            self.add_button, self.region, self.count, self.pitch,
         ):  # fmt: skip
             each.setEnabled(not locked)
         if locked:
             self.pick.setChecked(False)
+
+    # ---- one step ------------------------------------------------------------------------------------
+
+    def push(self, after: Markers, text: str) -> None:
+        """Have other markers, as a step that can be undone."""
+        before = self._work.markers
+        if after != before:
+            self._bench.undo.push(Exchange(text, before, after, lambda markers: self._use(markers, text)))
+
+    def _use(self, markers: Markers, text: str) -> None:
+        self.pending += 1
+        self._work.markers = markers
+        self.changed.emit()
+        self._bench.do(text, lambda session: keep(session, markers), self._kept, self._not_kept)
+
+    def _kept(self, _: object) -> None:
+        self.pending -= 1
+
+    def _not_kept(self, error: BaseException) -> None:
+        self.pending -= 1
+        self._bench.tell(Weight.ERROR, str(error))
+        self.refused.emit()
+
+    def _try(self, edit: Callable[[], Markers], text: str) -> None:
+        if self._work.going_on:
+            return
+        try:
+            self.push(edit(), text)
+        except InputError as error:
+            self._bench.tell(Weight.WARNING, str(error))
+
+    def _make(self, text: str, make: Callable[[], Markers]) -> None:
+        """Make markers in a worker, then have them."""
+        if not self._work.going_on:
+            self._bench.jobs.start(text, lambda *_: make(), lambda made: self.push(made, text), self._wrong)
+
+    def _wrong(self, error: BaseException) -> None:
+        self._bench.tell_error(error, Weight.WARNING)
+
+    # ---- edits ---------------------------------------------------------------------------------------
+
+    def add(self, point: tuple[float, float, float]) -> None:
+        """Add a marker at a point, m."""
+        self._try(lambda: self._work.markers.added(point), self.tr("Add a marker"))
+
+    def _type(self) -> None:
+        x, y, z = (1e-3 * field.value() for field in self.coordinates)
+        self.add((x, y, z))
+
+    def picked(self, pick: Pick) -> None:
+        """Add a marker on the probe, or move the one that is selected there."""
+        name, markers = self.table.current_name, self._work.markers
+        if name is not None and name in markers.names:
+            text = self.tr("Move marker {name}").format(name=name)
+            self._try(lambda: markers.moved(name, pick.point), text)
+            self.table.clearSelection()
+        else:
+            self._try(lambda: markers.added(pick.point), self.tr("Add a marker"))
+
+    def remove(self, names: list[str]) -> None:
+        """Remove markers."""
+        if names:
+            self._try(lambda: self._work.markers.without(names), self.tr("Remove markers"))
+
+    def rename(self, old: str, new: str) -> None:
+        """Call a marker otherwise."""
+        text = self.tr("Rename marker {name}").format(name=old)
+        self._try(lambda: self._work.markers.renamed(old, new), text)
+
+    def _spread(self) -> None:
+        tool, count, region = self._work.tool, self.count.value(), self.region.currentData()
+        if tool is not None:
+            self._make(self.tr("Place markers"), lambda: spread(tool.probe, count, region))
+
+    def _grid(self) -> None:
+        tool, pitch, region = self._work.tool, 1e-3 * self.pitch.value(), self.region.currentData()
+        if tool is not None:
+            self._make(self.tr("Place markers"), lambda: grid(tool.probe, pitch, region))
+
+    def snap(self) -> None:
+        """Move the markers onto the probe's surface."""
+        tool, markers = self._work.tool, self._work.markers
+        if tool is not None and len(markers):
+            self._make(self.tr("Move markers onto the surface"), lambda: on_surface(markers, tool.probe)[0])
+
+    # ---- files ---------------------------------------------------------------------------------------
+
+    def bring(self, file: Path) -> None:
+        """Import a table of markers, instead of those that are there."""
+        self._make(self.tr("Import markers"), lambda: imported(file))
+
+    def write(self, file: Path) -> None:
+        """Write the markers as a table."""
+        data = self._work.markers.to_bytes()
+
+        def work(_progress: object, _cancelled: object) -> None:
+            try:
+                write_durably(file, data)
+            except OSError as error:
+                raise InputError(
+                    f"{file}: the markers cannot be written ({error}): choose another place."
+                ) from error
+
+        self._bench.jobs.start(
+            self.tr("Saving the markers"),
+            work,
+            lambda _: self._bench.tell(Weight.GOOD, self.tr("The markers are in {file}.").format(file=file)),
+            self._wrong,
+        )
+
+    def _ask_import(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(
+            self, self.tr("Import markers"), "", self.tr("Tables of markers (*.csv)")
+        )
+        if name:
+            self.bring(Path(name))
+
+    def _ask_export(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save markers"), "markers.csv", self.tr("Tables of markers (*.csv)")
+        )
+        if name:
+            self.write(Path(name))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
-from contactbench.app.pages.known_check import TALL, KnownCheckPanel
+from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.verification.known import TOUCH
 from contactbench.pipeline.workbench.known_checks import PressReading
+from contactbench.widgets.controls import accent, choice, push_button, row, sentence_label
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,23 +31,17 @@ class PointPanel(KnownCheckPanel):
         self.setTitle(self.tr("Known point"))
         self.model: GravityModel | None = None
         self._points: dict[str, list[float]] = {}
-        intro = self.label()
-        intro.setText(
+        intro = sentence_label(
             self.tr(
                 "Press one marker on the side of the probe with a finger. It shows a wrong sign or unit of the torques,"
                 " and a probe that is turned on the sensor."
             )
         )
-        self.point = QComboBox()
-        self.point.setMinimumHeight(TALL)
-        self.point.setAccessibleName(self.tr("Marker"))
+        self.point = choice((), self.tr("Marker"), tip="")
         label = QLabel(self.tr("Marker"))
         label.setBuddy(self.point)
-        row = QHBoxLayout()
-        row.addWidget(label)
-        row.addWidget(self.point, 1)
-        self.start = self.button(self.tr("Record a press"), "play", self._record)
-        self.finish(intro, row, self.start, self.cancel)
+        self.start = push_button(self.tr("Record a press"), self._record, "play")
+        self.lay_out(intro, row(label, (self.point, 1)), self.start)
 
     def show_markers(
         self, markers: Sequence[tuple[str, Sequence[float]]], model: GravityModel | None
@@ -77,7 +72,7 @@ class PointPanel(KnownCheckPanel):
 
     def began(self) -> None:
         """Have the virtual bench press, where there is one."""
-        bench, name = self.virtual, self.point.currentText()
+        bench, name = self.bench.live.bench, self.point.currentText()
         if bench is not None and name in self._points:
             point = np.array(self._points[name]) / 1e3
             bench.touch(point_S=point, force=_PRESS_N, seconds=_PRESS_S)
@@ -89,4 +84,4 @@ class PointPanel(KnownCheckPanel):
         self.start.setEnabled(ready and not self.busy)
         self.point.setEnabled(ready and not self.busy)
         self.start.setToolTip("" if self._points else self.tr("Place a marker first, on the tab Markers."))
-        self.accent(self.start, on=ready and not self.busy and self.outcome is None, picture="play")
+        accent(self.start, ready and not self.busy and self.outcome is None, "play")

@@ -4,78 +4,46 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
+from contactbench.pipeline.verification.model_error import model_error_words
+from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.workbench.verify import Outcome
+    from contactbench.pipeline.verification.figures import Verification
+    from contactbench.pipeline.workbench.verify import VerifyOutcome
 
-_TALL, _ICON = 36, 34
+_ICON = 34
 
 
 class ResultPanel(QWidget):
     """Shows a verification."""
 
-    again_wanted = Signal()
-    go_on_wanted = Signal()
-
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._report: Path | None = None
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 8, 0, 0)
-        column.setSpacing(8)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        self.sign, self.verdict = Sign(_ICON), QLabel()
-        self.verdict.setProperty("role", "title")
+        self.sign, self.verdict = Sign(_ICON), plain_label("", "title")
         self.verdict.setWordWrap(True)
-        row.addWidget(self.sign)
-        row.addWidget(self.verdict, 1)
-        column.addLayout(row)
-        self.number = self._label("number")
-        self.range = self._label("muted")
-        self.figures = self._label("")
-        self.why = self._label("")
-        self.diagnosis = self._label("")
-        self.notes = self._label("muted")
-        self.model_error = self._label("")
-        for label in self._labels():
-            column.addWidget(label)
-        buttons = QHBoxLayout()
-        self.open = QPushButton(icon("folder"), self.tr("Open the report"))
-        self.open.setMinimumHeight(_TALL)
-        self.open.clicked.connect(self._open)
-        self.again = QPushButton(icon("redo"), self.tr("Verify again"))
-        self.again.setMinimumHeight(_TALL)
-        self.again.clicked.connect(lambda _=False: self.again_wanted.emit())
-        buttons.addWidget(self.open, 1)
-        buttons.addWidget(self.again, 1)
-        column.addLayout(buttons)
-        self.go_on = QPushButton(icon("export", "panel"), self.tr("Go on: Export"))
-        self.go_on.setProperty("primary", True)
-        self.go_on.setMinimumHeight(_TALL)
-        self.go_on.clicked.connect(lambda _=False: self.go_on_wanted.emit())
-        column.addWidget(self.go_on)
-        column.addStretch(1)
+        self.number, self.range = sentence_label(role="number"), sentence_label(role="muted")
+        self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
+        self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
+        self.open = push_button(self.tr("Open the report"), self._open, "folder")
+        self.again = push_button(self.tr("Verify again"), None, "redo")
+        self.go_on = push_button(self.tr("Go on: Export"), None, "export", primary=True)
+        column(
+            self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
+            row((self.open, 1), (self.again, 1)), self.go_on,
+            margins=(0, 8, 0, 0),
+        ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
 
-    def _label(self, role: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        if role:
-            label.setProperty("role", role)
-        return label
-
-    def show_outcome(self, outcome: Outcome | None) -> None:
+    def show_outcome(self, outcome: VerifyOutcome | None) -> None:
         """Show a verification; None: there is none yet."""
         self._report = None if outcome is None else outcome.report
         self.open.setVisible(self._report is not None)
@@ -96,10 +64,16 @@ class ResultPanel(QWidget):
         number = (
             self.tr("no touch counted") if mean is None else self.tr("{mean} mm").format(mean=f"{mean:.2f}")
         )
+        found = outcome.found
         self._texts(
-            number, self._range(outcome), self._figures(outcome), self._why(outcome), outcome.diagnosis,
-            "\n".join((*outcome.notes, *outcome.warnings)), outcome.model_error,
-        )  # fmt: skip
+            number,
+            self._range(outcome),
+            self._figures(found),
+            self._why(outcome),
+            "" if found.diagnosis is None else found.diagnosis.text,
+            "\n".join((*found.verdict.notes, *found.warnings)),
+            model_error_words(found.model_error),
+        )
 
     def _put(self, words: str, name: str, colour: str) -> None:
         self.verdict.setText(words)
@@ -113,41 +87,42 @@ class ResultPanel(QWidget):
             label.setText(said(text))
             label.setVisible(bool(text))
 
-    def _range(self, outcome: Outcome) -> str:
+    def _range(self, outcome: VerifyOutcome) -> str:
         if outcome.mean_mm is None:
             return ""
         if outcome.touches == 1:
             return self.tr("mean error of one touch")
-        if outcome.low_mm is None or outcome.high_mm is None:
+        ci = outcome.found.ci
+        if ci is None:
             return self.tr("mean error of {count} touches").format(count=outcome.touches)
+        low, high = ci.mean_mm
         return self.tr("mean error of {count} touches; surely between {low} and {high} mm (95 %)").format(
-            count=outcome.touches, low=f"{outcome.low_mm:.2f}", high=f"{outcome.high_mm:.2f}"
+            count=outcome.touches, low=f"{low:.2f}", high=f"{high:.2f}"
         )
 
-    def _figures(self, outcome: Outcome) -> str:
-        if outcome.mean_mm is None or outcome.max_mm is None:
+    def _figures(self, found: Verification) -> str:
+        overall, limits = found.overall, found.limits
+        if overall is None:
             return ""
         lines = [
             self.tr("Largest error: {size} mm; up to {limit} mm passes").format(
-                size=f"{outcome.max_mm:.2f}", limit=f"{outcome.max_limit_mm:g}"
+                size=f"{overall.max_mm:.2f}", limit=f"{1e3 * limits.max_m:g}"
             ),
-            self.tr("Mean error: up to {limit} mm passes").format(limit=f"{outcome.mean_limit_mm:g}"),
+            self.tr("95 % of touches: within {size} mm").format(size=f"{overall.p95_mm:.2f}"),
+            self.tr("Mean error: up to {limit} mm passes").format(limit=f"{1e3 * limits.mean_m:g}"),
         ]
-        if outcome.p95_mm is not None:
-            lines.insert(1, self.tr("95 % of touches: within {size} mm").format(size=f"{outcome.p95_mm:.2f}"))
-        if outcome.ratio is not None:
-            lines.append(
-                self.tr("{ratio} times what noise and calibration explain").format(
-                    ratio=f"{outcome.ratio:.1f}"
-                )
-            )
+        if found.ratio is not None:
+            words = self.tr("{ratio} times what noise and calibration explain")
+            lines.append(words.format(ratio=f"{found.ratio:.1f}"))
         return "\n".join(lines)
 
-    def _why(self, outcome: Outcome) -> str:
+    def _why(self, outcome: VerifyOutcome) -> str:
         lines = [outcome.stale] if outcome.stale else []
-        lines += [f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.reasons]
-        if outcome.rejected:
-            listed = ", ".join(f"{count} × {reason}" for reason, count in outcome.rejected)
+        lines += [
+            f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.found.verdict.reasons
+        ]
+        if rejected := outcome.found.rejected:
+            listed = ", ".join(f"{count} × {reason}" for reason, count in rejected.items())
             lines.append(self.tr("Not counted: {listed}.").format(listed=listed))
         if outcome.differs:
             lines.append(outcome.differs)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.workbench.live import Reading
+    from contactbench.pipeline.workbench.live import LiveReading
     from contactbench.pipeline.workbench.markers import Markers
     from contactbench.pipeline.workbench.verify_touches import TouchView
 
@@ -26,21 +26,15 @@ _LEAST_N = 1.0
 _SHOWN = {"skipped": "open"}  # the scene knows open, done and failed
 
 
-def firm_contact(reading: Reading | None) -> Contact | None:
+def firm_contact(reading: LiveReading | None) -> Contact | None:
     """Return the contact of a press that is firm enough to be shown; None: there is none."""
     # A hand that lets go: the ellipse of so little force is larger than the probe, and says nothing.
     light = reading is None or not float(np.linalg.norm(reading.compensated[:3])) >= _LEAST_N
     return None if reading is None or light else reading.contact
 
 
-class TouchScene:
-    """
-    Draws for one page; nothing while that is not shown.
-
-    Parameters
-    ----------
-    bench : Bench
-    """
+class VerifyScene:
+    """Draws for one page; nothing while that is not shown."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench, self._scene = bench, bench.scene
@@ -93,13 +87,13 @@ class TouchScene:
 
     # ---- the contact -------------------------------------------------------------------------
 
-    def show_reading(self, reading: Reading | None, captions: tuple[str, str] = ("", "")) -> None:
+    def show_reading(self, reading: LiveReading | None, captions: tuple[str, str] = ("", "")) -> None:
         """
         Show the contact and the force now.
 
         Parameters
         ----------
-        reading : Reading or None
+        reading : LiveReading or None
         captions : (str, str)
             What is written beside the second place, if there is one: in sight, and behind the probe.
         """

@@ -2,145 +2,125 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+import math
+from typing import TYPE_CHECKING
 
-from contactbench.app.pages.verify_markers import narrow
+import numpy as np
+from PySide6.QtWidgets import QCheckBox, QInputDialog, QToolButton, QWidget
+
+from contactbench.app.bench import Weight
+from contactbench.app.pages.verify_scene import firm_contact
+from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
+from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.verification.protocol import State
+from contactbench.widgets.controls import HIGH, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
+from contactbench.widgets.sounds import Sounds
 from contactbench.widgets.touch_state import TouchState
 
-_TALL = 36
+if TYPE_CHECKING:
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.workbench.live import LiveReading
+    from contactbench.pipeline.workbench.verify import VerifyWork
+    from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOf, TouchView
+
+_KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
+_DECIDED = (State.ACCEPTED, State.REJECTED)
+_SURE = (Reason.OK, Reason.VERTEX, Reason.BY_REGION)
+_LONGEST = 200  # characters of a reason
 
 
 class TouchPanel(QWidget):
-    """Shows touches as they happen; does nothing by itself."""
+    """Shows touches as they happen, with words and tones."""
 
-    start_wanted = Signal()
-    finish_wanted = Signal()
-    discard_wanted = Signal()
-    skip_wanted = Signal()
-    repeat_wanted = Signal()
-    touch_wanted = Signal()
-    touch_all_toggled = Signal(bool)
-    muted = Signal(bool)
-    heat_toggled = Signal(bool)
-
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, bench: Bench, work: VerifyWork, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 8, 0, 0)
-        column.setSpacing(8)
-        self.state = TouchState()
-        column.addWidget(self.state)
-        self.next = self._label("")
-        column.addWidget(self.next)
-        self.notice = self._label("bad")
+        self._bench, self._work, self.sounds = bench, work, Sounds(self)
+        self._decided: TouchOf | None = None
+        self._left = 0
+        self.state, self.error = TouchState(), ErrorView()
+        self.next, self.notice = sentence_label(), sentence_label(role="bad")
         self.notice.hide()
-        column.addWidget(self.notice)
-        column.addLayout(self._main_buttons())
-        self.error = ErrorView()
-        column.addWidget(self.error)
-        column.addLayout(self._other_buttons())
-        column.addWidget(self._virtual())
-        column.addLayout(self._switches())
-        column.addStretch(1)
-
-    def _label(self, role: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        if role:
-            label.setProperty("role", role)
-        return label
-
-    def _main_buttons(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(6)
-        self.start = self._button(self.tr("Start touching"), "play", self.start_wanted)
-        self.start.setProperty("primary", True)
-        self.finish = self._button(self.tr("Finish"), "check", self.finish_wanted)
-        self.finish.setProperty("primary", True)
-        for each, name in ((self.start, "play"), (self.finish, "check")):
-            each.setIcon(icon(name, "panel"))
-        self.finish.setToolTip(self.tr("Keep the recording, judge it, and make the report"))
-        self.discard = self._button(self.tr("Throw away"), "cross", self.discard_wanted)
-        self.discard.setToolTip(self.tr("End without a verdict; the touches are not kept"))
-        row.addWidget(self.start, 1)
-        row.addWidget(self.finish, 1)
-        row.addWidget(self.discard, 1)
-        return row
-
-    def _other_buttons(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(6)
-        self.repeat = self._button(self.tr("Touch again"), "redo", self.repeat_wanted)
-        self.repeat.setToolTip(
-            self.tr("The marker that is selected in the table, or else the last one; all its touches count")
-        )
-        self.skip = self._button(self.tr("Leave it out"), "remove", self.skip_wanted)
-        self.skip.setToolTip(
-            self.tr("Go on with the marker after the next one; you say why, and the report repeats it")
-        )
-        grid.addWidget(self.repeat, 0, 0)
-        grid.addWidget(self.skip, 0, 1)
-        return grid
-
-    def _virtual(self) -> QWidget:
+        self._make_buttons()
         self.virtual = QWidget()
-        row = QHBoxLayout(self.virtual)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(6)
-        self.touch = self._button(self.tr("Touch it for me"), "play", self.touch_wanted)
-        self.touch.setToolTip(self.tr("The virtual bench presses the next marker with a tip"))
-        self.touch_all = QPushButton(icon("play"), self.tr("Touch all"))
-        self.touch_all.setCheckable(True)
-        narrow(self.touch_all, 110)
-        self.touch_all.setMinimumHeight(_TALL)
-        self.touch_all.setToolTip(self.tr("The virtual bench presses one marker after the other"))
-        self.touch_all.toggled.connect(self.touch_all_toggled)
-        row.addWidget(self.touch, 1)
-        row.addWidget(self.touch_all, 1)
-        return self.virtual
+        pair = row((self.touch, 1), (self.touch_all, 1))
+        pair.setContentsMargins(0, 0, 0, 0)
+        self.virtual.setLayout(pair)
+        column(
+            self, self.state, self.next, self.notice,
+            row((self.start, 1), (self.finish, 1), (self.discard, 1)), self.error,
+            row((self.repeat, 1), (self.skip, 1)), self.virtual, row((self.heat, 1), self.mute),
+            margins=(0, 8, 0, 0),
+        ).addStretch(1)  # fmt: skip
 
-    def _switches(self) -> QHBoxLayout:
-        row = QHBoxLayout()
+    def _make_buttons(self) -> None:
+        self.start = push_button(self.tr("Start touching"), None, "play", primary=True, least=110)
+        self.finish = push_button(
+            self.tr("Finish"),
+            None,
+            "check",
+            tip=self.tr("Keep the recording, judge it, and make the report"),
+            primary=True,
+            least=110,
+        )
+        self.discard = push_button(
+            self.tr("Throw away"),
+            None,
+            "cross",
+            tip=self.tr("End without a verdict; the touches are not kept"),
+            least=110,
+        )
+        self.repeat = push_button(
+            self.tr("Touch again"),
+            None,
+            "redo",
+            tip=self.tr(
+                "The marker that is selected in the table, or else the last one; all its touches count"
+            ),
+            least=110,
+        )
+        self.skip = push_button(
+            self.tr("Leave it out"),
+            self._ask_why,
+            "remove",
+            tip=self.tr("Go on with the marker after the next one; you say why, and the report repeats it"),
+            least=110,
+        )
+        self.touch = push_button(
+            self.tr("Touch it for me"),
+            None,
+            "play",
+            tip=self.tr("The virtual bench presses the next marker with a tip"),
+            least=110,
+        )
+        self.touch_all = push_button(
+            self.tr("Touch all"),
+            None,
+            "play",
+            tip=self.tr("The virtual bench presses one marker after the other"),
+            least=110,
+        )
+        self.touch_all.setCheckable(True)
         self.heat = QCheckBox(self.tr("Heat map of contacts"))
         self.heat.setToolTip(self.tr("Colour the probe by where it was touched, in contacts per mm²"))
-        self.heat.setMinimumHeight(_TALL)
-        self.heat.toggled.connect(self.heat_toggled)
-        row.addWidget(self.heat, 1)
+        self.heat.setMinimumHeight(HIGH)
         self.mute = QToolButton()
         self.mute.setCheckable(True)
         self.mute.setIcon(icon("sound"))
-        self.mute.setMinimumSize(_TALL, _TALL)
+        self.mute.setMinimumSize(HIGH, HIGH)
         self.mute.setAccessibleName(self.tr("Mute the tones"))
         self.mute.setToolTip(self.tr("A tone for each state; press to mute them"))
-        self.mute.toggled.connect(self._muted)
-        row.addWidget(self.mute)
-        return row
+        self.mute.toggled.connect(self._mute)
 
-    def _button(self, text: str, name: str, signal: object) -> QPushButton:
-        button = QPushButton(icon(name), text)
-        button.setMinimumHeight(_TALL)
-        narrow(button, 110)
-        button.clicked.connect(lambda _=False: signal.emit())  # type: ignore[attr-defined]
-        return button
-
-    def _muted(self, muted: bool) -> None:
+    def _mute(self, muted: bool) -> None:
         self.mute.setIcon(icon("mute" if muted else "sound"))
         self.mute.setAccessibleName(self.tr("Tones are muted") if muted else self.tr("Mute the tones"))
-        self.muted.emit(muted)
+        self.sounds.muted = muted
+
+    # ---- what is shown -------------------------------------------------------------------------------
 
     def say(self, text: str) -> None:
         """Show what is in the way; empty: nothing."""
@@ -149,8 +129,9 @@ class TouchPanel(QWidget):
             self.notice.setText(text)
         self.notice.setVisible(bool(text))
 
-    def allow(self, *, ready: bool, going_on: bool, virtual: bool, busy: bool) -> None:
+    def allow(self, *, ready: bool, virtual: bool, busy: bool) -> None:
         """Show the buttons that are of use now."""
+        going_on = self._work.going_on
         self.start.setVisible(not going_on)
         self.start.setEnabled(ready and not busy)
         self.finish.setVisible(going_on)
@@ -158,3 +139,186 @@ class TouchPanel(QWidget):
         for each in (self.finish, self.discard, self.repeat, self.skip, self.touch, self.touch_all):
             each.setEnabled(going_on and not busy)
         self.virtual.setVisible(virtual)
+
+    def show_reading(self, reading: LiveReading | None) -> None:
+        """Say how sure the contact is now."""
+        contact = firm_contact(reading)
+        on = None if contact is None or reading is None else reading.on
+        sure = contact is None or (contact.reason in _SURE and on in (None, MARKS[0]))
+        words = (self._contact(contact), self._mark(on))
+        self.state.show_contact(" ".join(filter(None, words)), sure)
+
+    def show_idle(self, reading: LiveReading | None) -> None:
+        """Show that nothing goes on."""
+        force = math.nan if reading is None else float(np.linalg.norm(reading.compensated[:3]))
+        self.state.show_state("idle", self._what_first(), force, self._work.parameters.windows[0])
+
+    def show_touches(self, touches: LiveTouches, view: TouchView) -> None:
+        """Show how the touches stand."""
+        self._play(touches, view)
+        state, detail = view.state.value, self._wish(view)
+        if self._decided is not None and self._left > 0:
+            self._left -= view.state is State.ARMED
+            state = State.REJECTED.value if self._decided.why else State.ACCEPTED.value
+            detail = self._said(self._decided, view.state is State.ARMED)
+        self.state.show_state(state, detail, view.force, view.window)
+        self.next.setText(self._next(view))
+        findings = self._work.findings
+        self.say(findings[0] if findings else view.notice)
+        last = view.last.error_mm if view.last is not None and not view.last.why else None
+        limit = 1e3 * touches.settings.limits.max_m
+        self.error.show_errors(view.mean_mm, view.sd_mm, view.errors_mm, last, limit, self._against(view))
+
+    def _play(self, touches: LiveTouches, view: TouchView) -> None:
+        events = touches.take_events()
+        for event in events:
+            if event.touch is not None:
+                self._decided, self._left = view.last, _KEPT_TICKS
+            elif event.state is State.TOUCHING:
+                self._decided, self._left = None, 0
+        loudest = next((each for each in reversed(events) if each.state in _DECIDED), None)
+        if events:
+            self.sounds.play((loudest or events[-1]).state.value)
+
+    # ---- leaving a marker out ------------------------------------------------------------------------
+
+    def _ask_why(self) -> None:
+        """Ask why the next marker is left out; touches go on meanwhile."""
+        touches = self._work.touches
+        view = None if touches is None else touches.view()
+        if view is None or view.next_one is None:
+            return
+        name = view.rows[view.next_one].name
+        dialog = QInputDialog(self.window())
+        dialog.setWindowTitle(self.tr("Leave {name} out").format(name=name))
+        dialog.setLabelText(self.tr("Why is {name} not touched? The report says so.").format(name=name))
+        dialog.setComboBoxEditable(True)
+        dialog.setComboBoxItems(
+            [
+                self.tr("nothing reaches it"),
+                self.tr("the mark cannot be seen any more"),
+                self.tr("the housing gives way there"),
+                self.tr("a touch there would do damage"),
+            ]
+        )
+        dialog.setOkButtonText(self.tr("Leave it out"))
+        dialog.textValueSelected.connect(lambda why: self.leave_out(name, why))
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def leave_out(self, name: str, why: str) -> None:
+        """Leave a marker out for a reason, if it is still the next one."""
+        touches, why = self._work.touches, " ".join(why.split())[:_LONGEST]
+        if touches is None:
+            return
+        weight = Weight.WARNING
+        if not why:
+            words = self.tr("{name} is not left out: that needs a reason.")
+        elif touches.skip(why, name) is None:
+            weight, words = Weight.INFO, self.tr("{name} is not left out: it was touched meanwhile.")
+        else:
+            words = self.tr("{name} is left out: {why}. The verdict and the report say so.")
+        self._bench.tell(weight, words.format(name=name, why=why))
+
+    # ---- words ---------------------------------------------------------------------------------------
+
+    def captions(self, contact: Contact | None) -> tuple[str, str]:
+        """Return what is written beside the second place: in sight, and behind the probe."""
+        if contact is None:
+            return "", ""
+        if contact.reason is Reason.TWO_TOUCHES:
+            return self.tr("second touch"), self.tr("second touch, behind")
+        return self.tr("could also be here"), self.tr("could also be here, behind")
+
+    def _what_first(self) -> str:
+        if self._bench.live.pair is None:
+            return self.tr("No sensor is open: connect one in step 1, Devices.")
+        if not len(self._work.markers):
+            return self.tr("Place markers first, on the first tab.")
+        return self.tr(
+            "Take everything off the probe, then start. From then on, only touch: no mouse is needed."
+        )
+
+    def _wish(self, view: TouchView) -> str:
+        low, high = view.window
+        words = {
+            State.ARMED: self.tr("Press with {low} to {high} N, and hold still."),
+            State.TOUCHING: self.tr("Bring the force to {low} to {high} N, and hold still."),
+            State.SETTLED: self.tr("Do not move: the samples are taken."),
+            State.ACCEPTED: self.tr("Let go."),
+            State.REJECTED: self.tr("Let go."),
+        }[view.state]
+        return words.format(low=f"{low:g}", high=f"{high:g}")
+
+    def _said(self, touch: TouchOf, free: bool) -> str:
+        if touch.why:
+            why = said(touch.why)
+            return self.tr("{why} ({force} N). Let go, and touch again.").format(
+                why=f"{why[0].upper()}{why[1:]}", force=f"{touch.force:.1f}"
+            )
+        words = self.tr("{marker}: {size} mm off.") if free else self.tr("{marker}: {size} mm off. Let go.")
+        return words.format(
+            marker=touch.marker, size="–" if touch.size_mm is None else f"{touch.size_mm:.2f}"
+        )
+
+    def _contact(self, contact: Contact | None) -> str:
+        """Say how sure the contact is, or why there is none."""
+        if contact is None:
+            return ""
+        sure = self.tr("Confidence {percent} %").format(percent=_percent(contact.confidence))
+        match contact.reason:
+            case Reason.OK | Reason.VERTEX:
+                return sure
+            case Reason.BY_REGION:
+                return self.tr(
+                    "{sure}, because of the declared regions: the wrench fits another place, too."
+                ).format(sure=sure)
+            case Reason.AMBIGUOUS:
+                return self.tr(
+                    "{sure}: the wrench fits another place, too. Press in another direction."
+                ).format(sure=sure)
+            case Reason.TWO_TOUCHES:
+                return self.tr("A second touch joined: both are shown.")
+            case Reason.IMPLAUSIBLE:
+                return self.tr(
+                    "No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm."
+                    " Two touches at once, or wrong units, mount or compensation?"
+                ).format(sigmas=f"{math.sqrt(contact.misfit):.1f}", arm=f"{1e3 * abs(contact.arm):.0f}")
+            case Reason.TANGENTIAL:
+                return self.tr("The force is almost parallel to the surface: press more steeply.")
+            case Reason.OUTSIDE_REGION:
+                return self.tr("The contact is outside every region.")
+            case Reason.SATURATED:
+                return self.tr("The sensor is at the end of its range: press less hard.")
+        return self.tr(
+            "No part of the probe faces this force: check that it is the force on the probe, and the mount."
+        )
+
+    def _mark(self, on: str | None) -> str:
+        """Say where a contact is no better than a guess, or should not be; empty: it lies on the mesh as it was."""
+        if on == MARKS[INVENTED]:
+            return self.tr("On a facet that the mesh file did not have: its place is a guess.")
+        if on == MARKS[UNTOUCHABLE]:
+            return self.tr("On a region marked untouchable: check the region and the mount.")
+        return ""
+
+    def _next(self, view: TouchView) -> str:
+        if view.next_one is None:
+            return self.tr(
+                "All markers are touched; touches: {done}. Finish, or touch some once more."
+            ).format(done=view.accepted)
+        return self.tr("Next: {name} · {done} of {wanted} touches").format(
+            name=view.rows[view.next_one].name, done=view.accepted, wanted=view.wanted
+        )
+
+    def _against(self, view: TouchView) -> str:
+        if view.last is None or view.last.ratio is None or view.max_mm is None:
+            return self.tr("of the touches that count")
+        return self.tr("largest {largest} mm; the last was {ratio} times what noise explains").format(
+            largest=f"{view.max_mm:.2f}", ratio=f"{view.last.ratio:.1f}"
+        )
+
+
+def _percent(confidence: float) -> str:
+    """Return a share of one in per cent; what is not certain is never said to be 100."""
+    return f"{min(100 * confidence, 99.9):.1f}" if confidence > 0.99 else f"{100 * confidence:.0f}"

@@ -44,15 +44,13 @@ class Toucher(QObject):
     @property
     def there(self) -> bool:
         """Whether a virtual bench is open."""
-        pair = self._bench.live.pair
-        return pair is not None and pair.bench is not None
+        return self._bench.live.bench is not None
 
     def touch(self, point: NDArray[np.float64], force: float) -> None:
         """Press a point, m, with a force, N; for a little more than a second."""
-        pair = self._bench.live.pair
-        if pair is None or pair.bench is None:
-            return
-        self._asked, self._over = pair.bench.touch(point_S=point, force=force, seconds=_HELD_S), None
+        bench = self._bench.live.bench
+        if bench is not None:
+            self._asked, self._over = bench.touch(point_S=point, force=force, seconds=_HELD_S), None
 
     def press_next(self, touches: LiveTouches, view: TouchView) -> None:
         """Press the next marker, in the middle of its force window."""
@@ -97,8 +95,7 @@ class Toucher(QObject):
         On the bench's clock: on a computer that is too slow for it a press takes longer than it would, and another
         one before its end would be counted as one that failed.
         """
-        pair = self._bench.live.pair
-        bench = None if pair is None else pair.bench
+        bench = self._bench.live.bench
         if self._asked is not None:
             if not self._asked.done():
                 return True

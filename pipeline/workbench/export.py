@@ -15,7 +15,13 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
+from contactbench.pipeline.workbench.standings import (
+    RESULTS,
+    CheckItem,
+    checklist,
+    refuse_without,
+    results_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +29,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.differ import Differences
     from contactbench.pipeline.session import Session
 
-SHA256, PLACE, RESULTS = "export.sha256", "export.place", "export.results"
+SHA256, PLACE = "export.sha256", "export.place"
 _SHOWN = 60
 _MOST_DIFFERENCES = 12
 # What is another in every bundle, and says nothing by itself.
@@ -31,7 +37,7 @@ _ALWAYS = ("provenance.", "probe.sha256", "planes.sha256")
 
 
 @dataclass(frozen=True)
-class Preview:
+class ExportPreview:
     """A bundle as it would be written."""
 
     files: tuple[tuple[str, int], ...]  # (name, bytes)
@@ -49,13 +55,13 @@ class ExportView:
     """How an export stands."""
 
     items: tuple[CheckItem, ...]
-    preview: Preview | None
+    preview: ExportPreview | None
     problem: str = ""  # Why there is no preview; empty where there is one
     lacks: str = ""  # The option that somebody must give before there is one; empty: none
 
 
 @dataclass(frozen=True)
-class Exported:
+class ExportedBundle:
     """A bundle that was written, and loaded again."""
 
     place: Path
@@ -90,7 +96,7 @@ def built(session: Session, *, unverified: bool) -> RuntimeConfig:
     return export_from_session(session, options.settings(), unverified=unverified)
 
 
-def export(session: Session, place: Path, *, unverified: bool = False) -> Exported:
+def export(session: Session, place: Path, *, unverified: bool = False) -> ExportedBundle:
     """
     Write a session's bundle, load it as a runtime does, and write that down in the session.
 
@@ -119,7 +125,7 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
             f"{place}: the bundle on the disk is not the one that was written: check the disk, then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
-    return Exported(place, sha256, found.model.verified, _checked(found, place))
+    return ExportedBundle(place, sha256, found.model.verified, _checked(found, place))
 
 
 def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:
@@ -129,11 +135,6 @@ def record(session: Session, place: Path, sha256: str, *, verified: bool) -> Non
     session.set_parameter(SHA256, sha256)
     session.set_parameter(PLACE, str(place))
     session.set_parameter(RESULTS, dict(results_of(session.state)))
-
-
-def files_of(config: RuntimeConfig) -> dict[str, bytes]:
-    """Return name -> bytes of a bundle's files."""
-    return config.encoded()
 
 
 def _sha256(config: RuntimeConfig) -> str:
@@ -151,11 +152,11 @@ def _checked(config: RuntimeConfig, place: Path) -> str:
     )
 
 
-def _preview(session: Session, config: RuntimeConfig) -> Preview:
+def _preview(session: Session, config: RuntimeConfig) -> ExportPreview:
     files = tuple((name, len(content)) for name, content in config.encoded().items())
     reasons = () if config.model.verified else config.model.provenance.stale
     changes = _changes(session.state.settings, config)
-    return Preview(
+    return ExportPreview(
         files,
         _figures(config),
         _sha256(config),

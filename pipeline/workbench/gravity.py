@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.suggest import Plan
     from contactbench.pipeline.workbench.gravity_fit import GravitySettings
-    from contactbench.pipeline.workbench.live import Block
+    from contactbench.pipeline.workbench.live import LiveBlock
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²
@@ -111,7 +111,7 @@ class GravityWork:
 
     # ---- samples, in the streams' threads ------------------------------------------------------
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples."""
         known = block.known
         with self._lock:
@@ -173,11 +173,7 @@ class GravityWork:
         with self._lock:
             self.automatic = automatic
 
-    def set_left_out(self, rows: Iterable[PoseRow], left_out: bool) -> None:
-        """Leave poses out, or take them back."""
-        self.set_left_out_at([row.time for row in rows], left_out)
-
-    def set_left_out_at(self, moments: Iterable[float], left_out: bool) -> None:
+    def set_left_out(self, moments: Iterable[float], left_out: bool) -> None:
         """Leave the poses out in which moments lie, s on the samples' clock, or take them back."""
         with self._lock:
             for moment in moments:
@@ -316,11 +312,6 @@ class GravityWork:
             ),
         )
 
-    def stands(self) -> str:
-        """Say how the sensor stands."""
-        R_WE = self._R_WE
-        return "" if R_WE is None else describe(self.settings.sensor_orientations(R_WE), self.settings.down_W)
-
 
 class GravityCheck:
     """
@@ -382,7 +373,7 @@ class GravityCheck:
         farthest: NDArray[np.float64] = candidates[int(np.argmin(nearness))]
         return farthest
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples, in the streams' thread."""
         known = block.known
         if self.found is not None or not known.any():

@@ -104,7 +104,7 @@ def gravity_settings(state: State) -> GravitySettings:
 
 
 @dataclass(frozen=True)
-class Finding:
+class GravityFinding:
     """Something that the poses say, and what would mend it."""
 
     key: str
@@ -131,7 +131,7 @@ class Solved:
 
     calibration: Calibration | None  # None: there are fewer than three
     proposal: Proposal | None
-    findings: tuple[Finding, ...]
+    findings: tuple[GravityFinding, ...]
 
     @property
     def enough(self) -> bool:
@@ -219,10 +219,10 @@ def _planned(read: Sequence[PoseSample], planned: Plan | None, settings: Gravity
 
 def findings(
     poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
-) -> tuple[Finding, ...]:
+) -> tuple[GravityFinding, ...]:
     """Return what poses say of themselves and of the conventions they were read by, in sentences."""
     found = [
-        Finding(
+        GravityFinding(
             f"rejected {rejection.name}",
             f"{_capital(rejection.name)}: {rejection.reason} It does not count. Take it again, or go on with"
             f" {int(calibration.kept.sum())} poses.",
@@ -242,7 +242,7 @@ def findings(
 
 def _convention(
     poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
-) -> Finding | None:
+) -> GravityFinding | None:
     """Return which mistaken convention explains the poses, if one does."""
     convention = Convention(inverse=settings.parameters.inverse)
     quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat()
@@ -256,15 +256,15 @@ def _convention(
         mounted = _mounted(poses, calibration, settings)
         if mounted is not None or calibration.verdict.level is not Level.REFUSE:
             return mounted
-        return Finding("unexplained", found.sentence)
+        return GravityFinding("unexplained", found.sentence)
     return _remedied(found, len(poses), settings)
 
 
-def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Finding:
+def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> GravityFinding:
     """Return a finding with what mends it, where a parameter can."""
     key, sentence, turn = found.best.hypothesis, found.sentence, found.best.turn
     if key == "transposed":
-        return Finding(
+        return GravityFinding(
             key,
             sentence,
             settings=((INVERSE, not settings.parameters.inverse),),
@@ -275,23 +275,23 @@ def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Findin
     if key.startswith("rezero_before_"):
         change = int(key.removeprefix("rezero_before_")) - 1
         short = range(change) if change <= count - change else range(change, count)
-        return Finding(key, sentence, leave_out=tuple(short), remedy="Leave the smaller part out")
-    return Finding(key, sentence)
+        return GravityFinding(key, sentence, leave_out=tuple(short), remedy="Leave the smaller part out")
+    return GravityFinding(key, sentence)
 
 
-def _turned(key: str, sentence: str, R_ES: NDArray[np.float64]) -> Finding:
+def _turned(key: str, sentence: str, R_ES: NDArray[np.float64]) -> GravityFinding:
     degrees = [
         round(float(angle), 3) + 0.0 for angle in Rotation.from_matrix(R_ES).as_euler("xyz", degrees=True)
     ]
     words = ", ".join(f"{angle:.1f}" for angle in degrees)
-    return Finding(
+    return GravityFinding(
         key, sentence, settings=((MOUNT, degrees),), remedy=f"Set the mount to {words}° about x, y, z"
     )
 
 
 def _mounted(
     poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
-) -> Finding | None:
+) -> GravityFinding | None:
     """Return the mount that explains poses which as they are read are refused."""
     if (
         calibration.verdict.level is not Level.REFUSE

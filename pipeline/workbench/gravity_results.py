@@ -14,12 +14,12 @@ from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,
     POSES_FILE,
-    Finding,
+    GravityFinding,
     findings,
     gravity_settings,
 )
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
-from contactbench.pipeline.workbench.undoing import put_result
+from contactbench.pipeline.workbench.session_change import put_result
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -35,14 +35,14 @@ _DIFFERS = 0.1  # of the contact error: less is what a few samples more or less 
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class GravityOutcome:
     """A calibration that is in the session."""
 
     calibration: Calibration
     rows: tuple[PoseRow, ...]
     recording: str  # Name of the recording that it was made from; empty: from poses that were brought in
     leave_out: tuple[float, ...]  # Moments of the poses that were left out, s
-    findings: tuple[Finding, ...] = ()  # What is wrong, and what would mend it
+    findings: tuple[GravityFinding, ...] = ()  # What is wrong, and what would mend it
 
     @property
     def changeable(self) -> bool:
@@ -106,7 +106,7 @@ def take_up(session: Session, recording: str) -> tuple[str, tuple[PoseSample, ..
 
 def finish(
     session: Session, recording: str, leave_out: Sequence[float] = (), earlier: str | None = None
-) -> Outcome:
+) -> GravityOutcome:
     """
     Compute poses and calibration from a recording that is in the session.
 
@@ -136,7 +136,7 @@ def finish(
     return _computed(session, inputs, parameters)
 
 
-def change(session: Session, leave_out: Sequence[float]) -> Outcome:
+def change(session: Session, leave_out: Sequence[float]) -> GravityOutcome:
     """Compute the same anew, with other poses left out; arguments and errors as for `finish`."""
     made = session.state.current_results.get(("captures", POSES_FILE))
     if made is None:
@@ -151,7 +151,7 @@ def change(session: Session, leave_out: Sequence[float]) -> Outcome:
 
 def _computed(
     session: Session, inputs: dict[str, str], parameters: dict[str, Any], *, again: bool = False
-) -> Outcome:
+) -> GravityOutcome:
     compute(session, "captures", POSES_FILE, inputs, parameters)
     poses = session.state.current_results["captures", POSES_FILE]
     given = gravity_settings(session.state).given
@@ -183,7 +183,7 @@ def _same(session: Session, inputs: Mapping[str, str], given: Mapping[str, Any])
     return None
 
 
-def outcome_of(folder: Path, state: State) -> Outcome | None:
+def outcome_of(folder: Path, state: State) -> GravityOutcome | None:
     """
     Read the calibration that a session has now; None: none.
 
@@ -198,14 +198,14 @@ def outcome_of(folder: Path, state: State) -> Outcome | None:
     fitted = load_calibration(folder / result.file.path)
     poses = state.result_with(result.action.inputs.get("poses", ""))
     if poses is None or poses.slot != ("captures", POSES_FILE):
-        return Outcome(fitted, calibrated_rows(fitted, earlier=len(fitted.poses)), "", ())
+        return GravityOutcome(fitted, calibrated_rows(fitted, earlier=len(fitted.poses)), "", ())
     given: dict[str, Any] = dict(poses.action.parameters)
     left = tuple(map(float, given.get("leave_out", ())))
     used = state.input_with(poses.action.inputs.get("recording", ""))
     rows = calibrated_rows(fitted, left, _earlier_count(folder, state, poses))
     flange = read_poses(folder / poses.file.path).poses
     found = () if len(flange) != len(fitted.poses) else findings(flange, fitted, gravity_settings(state))
-    return Outcome(fitted, rows, "" if used is None else used.name, left, found)
+    return GravityOutcome(fitted, rows, "" if used is None else used.name, left, found)
 
 
 def _earlier_count(folder: Path, state: State, poses: Result) -> int:
@@ -213,7 +213,7 @@ def _earlier_count(folder: Path, state: State, poses: Result) -> int:
     return 0 if before is None else len(read_poses(folder / before.file.path).poses)
 
 
-def difference(live: Calibration | None, outcome: Outcome) -> str:
+def difference(live: Calibration | None, outcome: GravityOutcome) -> str:
     """Say how the session's calibration differs from the one that was shown while it was made; empty: it does not."""
     made = outcome.calibration
     if live is None:

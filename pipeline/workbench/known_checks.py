@@ -13,7 +13,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
-from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.verify import REPORT
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.workbench.desk import Desk
-    from contactbench.pipeline.workbench.live import Block, Live
+    from contactbench.pipeline.workbench.live import Live, LiveBlock
 
 FILES = {WEIGHT: "known_weight.json", TOUCH: "known_touch.json"}
 _PRESSED_N, _RELEASED_N = 3.0, 1.5
@@ -79,7 +79,7 @@ class StillReading:
         with self._lock:
             return bool(self._detector.captures)
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples."""
         known = block.known
         if not known.any():
@@ -114,7 +114,7 @@ class PressReading:
             return "Press the point with 5 to 15 N, hold for a second, then let go."
         return "Let go." if self.held >= _HELD_S else "Hold it steady."
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples."""
         known = np.isfinite(block.wrenches).all(axis=1) & np.isfinite(block.R_WS).all(axis=(1, 2))
         if not known.any() or self.done:
@@ -146,7 +146,7 @@ class KnownChecks:
     def __init__(self, desk: Desk, live: Live) -> None:
         self._desk, self._live = desk, live
         self.reading: StillReading | PressReading | None = None
-        self._tape: Tape | None = None
+        self._tape: SessionTape | None = None
         self._end: Callable[[], None] = lambda: None
         self._busy = threading.Lock()
 
@@ -170,7 +170,7 @@ class KnownChecks:
                     "Nothing tells the sensor's orientation: choose a source of poses in step 1, Devices."
                 )
             name = next_recording(self._desk.state, self._desk.folder, reading.stem)
-            self._tape = Tape.start(self._desk, self._live, name).result(_PATIENCE_S)
+            self._tape = SessionTape.start(self._desk, self._live, name).result(_PATIENCE_S)
             self._end, self.reading = self._live.follow(reading.feed), reading
 
     def keep(self) -> str:
@@ -189,7 +189,7 @@ class KnownChecks:
             if tape is not None:
                 tape.discard().result()
 
-    def _stop(self) -> Tape | None:
+    def _stop(self) -> SessionTape | None:
         self._end()
         self._end = lambda: None
         tape, self._tape, self.reading = self._tape, None, None

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.streams import Pair
 
 _KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
@@ -127,7 +128,7 @@ def _put(store: NDArray[np.float64], place: int, new: NDArray[np.float64]) -> No
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class LiveReading:
     """The newest moment."""
 
     time: float  # s
@@ -139,7 +140,7 @@ class Reading:
     on: str | None = None
 
 
-class Moment:
+class LiveMoment:
     """
     What the filter says now; the contact is looked for when it is asked for, once for each sample.
 
@@ -154,7 +155,7 @@ class Moment:
         self._time = -np.inf
         self._raw: NDArray[np.float64] | None = None
         self._R_WS = np.full((3, 3), np.nan)
-        self._told: tuple[tuple[object, ...], Reading] | None = None
+        self._told: tuple[tuple[object, ...], LiveReading] | None = None
         self._looked = -np.inf
         self._contacts: deque[tuple[float, NDArray[np.float64]]] = deque(maxlen=_CONTACTS)
         self._lock = threading.Lock()
@@ -171,7 +172,7 @@ class Moment:
         with self._lock:
             self._time, self._raw, self._R_WS = float(times[-1]), state, R_WS[-1]
 
-    def reading(self, model: GravityModel | None, solver: ContactSolver | None) -> Reading | None:
+    def reading(self, model: GravityModel | None, solver: ContactSolver | None) -> LiveReading | None:
         """Return the newest moment; None before the first sample."""
         with self._asking:
             with self._lock:
@@ -197,7 +198,7 @@ class Moment:
         R_WS: NDArray[np.float64],
         model: GravityModel | None,
         solver: ContactSolver | None,
-    ) -> Reading:
+    ) -> LiveReading:
         compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
         contact, on = None, None
         if solver is not None and np.isfinite(compensated).all():
@@ -209,7 +210,7 @@ class Moment:
         ):  # looked for anew, with another calibration or probe
             self._contacts.pop()
         self._contacts.append((time, np.full(3, np.nan) if point is None else point))
-        return Reading(time, raw, compensated, R_WS, contact, on)
+        return LiveReading(time, raw, compensated, R_WS, contact, on)
 
     def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
         """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
@@ -224,7 +225,7 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class Block:
+class LiveBlock:
     """Samples that came together, each with the orientation that the sensor had; n of them."""
 
     times: NDArray[np.float64]  # (n,); s, on the samples' clock
@@ -288,10 +289,10 @@ class Live:
         self.R_ES: NDArray[np.float64] = np.eye(3)
         self.on_error: list[Callable[[Exception], None]] = []
         self._ring = Ring(_KEPT)
-        self._track, self._moment = PoseTrack(np.eye(3)), Moment(_USUAL_HZ)
+        self._track, self._moment = PoseTrack(np.eye(3)), LiveMoment(_USUAL_HZ)
         self._detector = FrozenDetector()
         self._waiting: list[WrenchSample] = []
-        self._followers: list[Callable[[Block], None]] = []
+        self._followers: list[Callable[[LiveBlock], None]] = []
         self._taps: list[Tap] = []
         self._lock = threading.RLock()  # of what waits and who gets it: samples keep their order
         self._opening = threading.Lock()
@@ -343,7 +344,7 @@ class Live:
             self._waiting.clear()
             self._ring.clear()
             self._detector = FrozenDetector()
-            self._track, self._moment = PoseTrack(mount), Moment(_rate_of(pair))
+            self._track, self._moment = PoseTrack(mount), LiveMoment(_rate_of(pair))
             self.R_ES, self.addresses, self.pair = mount, (sensor, poses), pair
         try:
             pair.start()
@@ -378,6 +379,11 @@ class Live:
         return pair.sensor.health, None if pair.poses is None else pair.poses.health
 
     @property
+    def bench(self) -> VirtualBench | None:
+        """The virtual bench; None: none is open."""
+        return None if self.pair is None else self.pair.bench
+
+    @property
     def opening(self) -> bool:
         """Whether devices are just being opened, or closed."""
         return self._opening.locked()
@@ -401,7 +407,7 @@ class Live:
 
     # ---- who gets what comes -----------------------------------------------------------------------
 
-    def follow(self, follower: Callable[[Block], None]) -> Callable[[], None]:
+    def follow(self, follower: Callable[[LiveBlock], None]) -> Callable[[], None]:
         """Have blocks given to `follower`, in the streams' thread; returns what ends that."""
         with self._lock:
             self._followers.append(follower)
@@ -435,7 +441,7 @@ class Live:
         """Find contacts with another solver from now on; None: with none."""
         self.solver = solver
 
-    def reading(self) -> Reading | None:
+    def reading(self) -> LiveReading | None:
         """Return the newest moment; None: no sample came yet."""
         return self._moment.reading(self.model, self.solver)
 
@@ -486,7 +492,7 @@ class Live:
             self._waiting = waiting[count:]
             self._give(self._block(waiting[:count]))
 
-    def _block(self, samples: Sequence[WrenchSample]) -> Block:
+    def _block(self, samples: Sequence[WrenchSample]) -> LiveBlock:
         times = np.array([sample.time for sample in samples], dtype=np.float64)
         wrenches = np.array([(*sample.force, *sample.torque) for sample in samples], dtype=np.float64)
         saturated = np.array([bool(sample.status & Status.OVERRANGE) for sample in samples])
@@ -494,9 +500,9 @@ class Live:
         flagged = [bool(sample.status & ~(Status.LATE | Status.OVERRANGE)) for sample in samples]
         R_WS = self._track.at(times)
         R_WS[np.array(frozen) | np.array(flagged)] = np.nan
-        return Block(times, wrenches, R_WS, saturated)
+        return LiveBlock(times, wrenches, R_WS, saturated)
 
-    def _give(self, block: Block) -> None:
+    def _give(self, block: LiveBlock) -> None:
         model = self.model
         if model is None:
             compensated = np.full_like(block.wrenches, np.nan)

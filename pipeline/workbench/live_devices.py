@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
 from contactbench.pipeline.session.making import mount_rotation
-from contactbench.pipeline.workbench.statuses import MOUNT, POSES, SENSOR, SERIAL
+from contactbench.pipeline.workbench.standings import MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -22,7 +22,7 @@ _CLOSE = 0.8  # of the range
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class ConnectionTrial:
     """What is measured of open devices."""
 
     state: State  # Of the sensor
@@ -40,13 +40,8 @@ class Trial:
     range_used: NDArray[np.float64] | None
     sentences: tuple[str, ...]  # What is wrong, and what to do; empty when nothing is
 
-    @property
-    def well(self) -> bool:
-        """Whether samples come and nothing is wrong."""
-        return self.state is State.STREAMING and not self.sentences
 
-
-def trial_of(live: Live) -> Trial | None:
+def trial_of(live: Live) -> ConnectionTrial | None:
     """Measure the devices that are open; None: none is."""
     health, pair = live.health, live.pair
     if health is None or pair is None:
@@ -63,7 +58,7 @@ def trial_of(live: Live) -> Trial | None:
     bench = pair.bench
     limits = None if bench is None else bench.sensor.settings.limit
     used = None if limits is None else largest / limits
-    return Trial(
+    return ConnectionTrial(
         sensor.state,
         sensor.rate,
         None if poses is None else poses.rate,

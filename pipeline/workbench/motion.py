@@ -100,7 +100,7 @@ class MotionChoice:
 
 
 @dataclass(frozen=True)
-class Change:
+class MotionChange:
     """A change of state: when (s), to what, and why."""
 
     time_s: float
@@ -118,7 +118,7 @@ class Course:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class MotionPlace:
     """
     Where things are, for a picture.
 
@@ -163,7 +163,7 @@ class MotionRun:
         self.outcome: dict[str, Any] | None = None
         self._frames: deque[LoopFrame] = deque(maxlen=_KEPT)
         self._arrived: deque[tuple[float, float]] = deque(maxlen=_PACE_FRAMES)
-        self._changes: list[Change] = []
+        self._changes: list[MotionChange] = []
         self._failure = ""
         # A file: a pipe that nobody reads would hold the process up.
         self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - it lives as long as the process
@@ -196,7 +196,7 @@ class MotionRun:
         return self._failure
 
     @property
-    def changes(self) -> tuple[Change, ...]:
+    def changes(self) -> tuple[MotionChange, ...]:
         """How the state has changed until now."""
         return tuple(self._changes)
 
@@ -263,7 +263,7 @@ class MotionRun:
             self._arrived.append((time.monotonic(), told.time_s))
             self.newest = told
             if told.reason is not None:
-                self._changes.append(Change(told.time_s, told.state, told.reason))
+                self._changes.append(MotionChange(told.time_s, told.state, told.reason))
         else:
             self.outcome = told
 
@@ -275,11 +275,11 @@ class MotionRun:
         return ""
 
 
-def placed(beginning: Beginning, frame: LoopFrame) -> Placed:
+def placed(beginning: Beginning, frame: LoopFrame) -> MotionPlace:
     """Return where things are in a frame."""
     R_BS = np.array(frame.R_BS).reshape(3, 3)
     sensor = np.array(frame.sensor_B_m)
-    return Placed(
+    return MotionPlace(
         R_BS,
         sensor - np.array(beginning.rest_B_m),
         R_BS.T @ (np.array(frame.phantom_B_m) - sensor),

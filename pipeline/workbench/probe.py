@@ -76,7 +76,7 @@ class Mesh:
 
 
 @dataclass(frozen=True)
-class Plan:
+class ProbePlan:
     """What is chosen: as the options of ``contactbench probe prepare``, lengths in mm."""
 
     units: str = "auto"
@@ -95,7 +95,7 @@ class Plan:
     @property
     def parameters(self) -> dict[str, Any]:
         """What a session's computation is told: everything that is not as usual."""
-        usual = Plan()
+        usual = ProbePlan()
         told = (each.name for each in fields(self) if each.name not in {"alignment", "painted"})
         return {
             name: list(value) if isinstance(value := getattr(self, name), tuple) else value
@@ -110,10 +110,10 @@ class Plan:
 
 
 @dataclass(frozen=True, eq=False)
-class Preview:
+class ProbePreview:
     """What a plan gives."""
 
-    plan: Plan
+    plan: ProbePlan
     mesh: Mesh
     placed: ProbeFile  # The outer surface with all its facets, where it will be
     done: Preparation  # The probe, and what was done
@@ -177,7 +177,7 @@ class ProbeWork:
         found = _inspected(mesh.file, units, progress, cancelled)
         return Mesh(mesh.file, mesh.companions, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
 
-    def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, Plan] | None:
+    def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, ProbePlan] | None:
         """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""
         state = self.desk.state
         recipe = recipe_of(state)
@@ -186,9 +186,9 @@ class ProbeWork:
         wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
         files = lay_out(self.desk.folder, state, wanted, self._place())
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
-        known = {each.name for each in fields(Plan)} & set(ProbeParameters.model_fields)
+        known = {each.name for each in fields(ProbePlan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
-        plan = Plan(alignment=alignment, **{name: getattr(given, name) for name in known})
+        plan = ProbePlan(alignment=alignment, **{name: getattr(given, name) for name in known})
         return self.take(files["mesh"], plan.units, progress, cancelled), plan
 
     @property
@@ -198,19 +198,23 @@ class ProbeWork:
 
     # ---- what comes of it ------------------------------------------------------------------------
 
-    def shell(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Dense:
+    def shell(
+        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
+    ) -> Dense:
         """Make the outer surface, or give the one that was made before; as ``contactbench probe shell``."""
         return dense_of(mesh.file, plan.given, remember=True, progress=progress, cancelled=cancelled)
 
     def placed(
-        self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None
+        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
     ) -> ProbeFile:
         """Return the outer surface where the plan puts it, with the session's regions; see `shell`."""
         dense = self.shell(mesh, plan, progress, cancelled)
         files, _ = self._regions(plan)
         return place(dense, plan.alignment, partial(put_on, file=files[REGIONS]) if files else None)
 
-    def ladder(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Ladder:
+    def ladder(
+        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
+    ) -> Ladder:
         """Measure what fewer facets cost and save; as ``contactbench probe ladder``."""
         placed = self.placed(mesh, plan, _part(progress, 0.0, 0.5), cancelled)
         given = plan.given
@@ -223,7 +227,9 @@ class ProbeWork:
             cancelled=cancelled,
         )
 
-    def preview(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Preview:
+    def preview(
+        self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
+    ) -> ProbePreview:
         """Prepare the probe as the session will, and measure how far it is from the outer surface."""
         inputs, regions = self._regions(plan)
         inputs["mesh"] = mesh.file
@@ -234,9 +240,9 @@ class ProbeWork:
         placed = self.placed(mesh, plan)
         probe = done.content.probe
         distance, _, _ = SurfaceIndex(probe.vertices, probe.faces).closest(placed.probe.vertices)
-        return Preview(plan, mesh, placed, done, regions, distance)
+        return ProbePreview(plan, mesh, placed, done, regions, distance)
 
-    def _regions(self, plan: Plan) -> tuple[dict[str, Path], str]:
+    def _regions(self, plan: ProbePlan) -> tuple[dict[str, Path], str]:
         """Return the session's regions as a file, and their content; neither where there are none."""
         state = self.desk.state
         kept = state.newest(REGIONS)
@@ -279,7 +285,7 @@ def _part(progress: Progress, low: float, high: float) -> Progress:
     return lambda share: progress(low + share * (high - low))
 
 
-def commit(session: Session, preview: Preview) -> Record:
+def commit(session: Session, preview: ProbePreview) -> Record:
     """
     Put a prepared probe, and what it was made from, into a session; for `Desk.do`.
 

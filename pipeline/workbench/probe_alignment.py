@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,14 +34,6 @@ _NOISE_FORCE, _NOISE_TORQUE, _PLACEMENT_M = 0.05, 0.002, 0.0003
 _LARGEST_FILE = 2**20
 
 
-@dataclass(frozen=True, eq=False)
-class PointPair:
-    """A place picked on the mesh, and where it lies."""
-
-    point_P: NDArray[np.float64]  # (3,) float64; In the mesh's frame, m
-    point_S: NDArray[np.float64]  # (3,) float64; In the sensor frame, m
-
-
 def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np.float64]:
     """Return places on what is shown (n, 3) or (3,), m, in the mesh's own frame P."""
     points = np.asarray(points_S, dtype=np.float64)
@@ -52,13 +43,20 @@ def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np
     return moved
 
 
-def by_points(pairs: Sequence[PointPair]) -> Alignment:
-    """Align by places picked on the mesh; as ``contactbench probe align --points``."""
+def by_points(pairs: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> Alignment:
+    """
+    Align by places picked on the mesh; as ``contactbench probe align --points``.
+
+    Parameters
+    ----------
+    pairs : sequence of ((3,), (3,))
+        A place in the mesh's frame, and where it lies in the sensor frame, m.
+    """
     if len(pairs) < FEWEST_PAIRS:
         raise InputError(
             f"{len(pairs)} places are picked, and {FEWEST_PAIRS} are needed: pick another one, far from these."
         )
-    return align_points([each.point_P for each in pairs], [each.point_S for each in pairs])
+    return align_points([point_P for point_P, _ in pairs], [point_S for _, point_S in pairs])
 
 
 def by_flange(

@@ -26,7 +26,7 @@ REGIONS, REGIONS_FILE = "regions", "regions.json"
 
 
 @dataclass(frozen=True, eq=False)
-class Recipe:
+class ProbeRecipe:
     """How the session's probe is made."""
 
     inputs: Mapping[str, str]  # Role -> hash
@@ -34,7 +34,7 @@ class Recipe:
     result: Result | None = None  # The probe that was made so; None: it is only planned
 
 
-def recipe_of(state: State) -> Recipe | None:
+def recipe_of(state: State) -> ProbeRecipe | None:
     """
     Return how the session's newest probe was made, or else how it would be; None without a mesh.
 
@@ -51,11 +51,11 @@ def recipe_of(state: State) -> Recipe | None:
     if made:
         newest = max(made, key=lambda each: each.number)
         since = {key: each.value for key, each in settings.items() if each.number > newest.number}
-        return Recipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
+        return ProbeRecipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
     if state.mesh is None:
         return None
     given = {key: each.value for key, each in settings.items()}
-    return Recipe(newest_inputs(state, PROBE), given)
+    return ProbeRecipe(newest_inputs(state, PROBE), given)
 
 
 def shell_file_of(

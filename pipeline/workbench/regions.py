@@ -106,7 +106,7 @@ _WORDS: dict[type, str] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundFacets:
     """What a tool found."""
 
     tool: Tool
@@ -116,7 +116,9 @@ class Found:
     revision: int  # Of the regions that it looked at
 
 
-def find(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: Tool, revision: int = 0) -> Found:
+def find(
+    graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: Tool, revision: int = 0
+) -> FoundFacets:
     """
     Find the facets of a tool for the region of a rank; RegionError if it cannot.
 
@@ -128,10 +130,10 @@ def find(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: Tool, re
     rank : int
     tool : Tool
     revision : int
-        See `Found`.
+        See `FoundFacets`.
     """
     mask, sentence = _mask(graph, labels, rank, tool)
-    return Found(tool, rank, mask, sentence, revision)
+    return FoundFacets(tool, rank, mask, sentence, revision)
 
 
 def _mask(
@@ -161,7 +163,7 @@ def _mask(
             return smooth(graph, own, rings, allowed=labels == 0), ""
 
 
-def give(model: RegionModel, found: Found, *, protect: bool, erase: bool) -> None:
+def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) -> None:
     """
     Make what was found one step of the model, as the commands ``contactbench probe regions ...`` do.
 
@@ -264,7 +266,7 @@ class RegionsWork:
         """Return the area of the facets of a mask (m,), m²."""
         return float(self.probe.areas[mask].sum())
 
-    def planned(self, found: Found) -> NDArray[np.uint8]:
+    def planned(self, found: FoundFacets) -> NDArray[np.uint8]:
         """Return the colours (m, 3) with what a tool found half painted, to be seen before it is done."""
         colours = self._colours.copy()
         half = self._table[found.rank].astype(np.uint16)
@@ -342,20 +344,20 @@ class RegionsWork:
 
     # ---- tools -------------------------------------------------------------------------------
 
-    def finder(self, tool: Tool, rank: int) -> Callable[[], Found]:
+    def finder(self, tool: Tool, rank: int) -> Callable[[], FoundFacets]:
         """Return what finds a tool's facets, from a copy of the labels: to be called in any thread, one at a time."""
         if not 1 <= rank <= len(self.model.regions):
             raise RegionError("No region is chosen: add one, or choose one in the list.")
         labels, graph, revision = self.model.labels.copy(), self.graph, self.revision
         return lambda: find(graph, labels, rank, tool, revision)
 
-    def give(self, found: Found, *, protect: bool = False, erase: bool = False) -> str | None:
+    def give(self, found: FoundFacets, *, protect: bool = False, erase: bool = False) -> str | None:
         """
         Give a region the facets that a tool found.
 
         Parameters
         ----------
-        found : Found
+        found : FoundFacets
         protect : bool
             Facets of other regions stay theirs.
         erase : bool
@@ -374,10 +376,6 @@ class RegionsWork:
         if found.revision != self.revision:
             raise RegionError("The regions were changed meanwhile, so nothing was done: do it again.")
         return self.step(lambda model: give(model, found, protect=protect, erase=erase))
-
-    def clear(self, rank: int) -> str | None:
-        """Take all facets out of a region; see `step`."""
-        return self.give(self.finder(Clear(), rank)())
 
     # ---- how ---------------------------------------------------------------------------------
 

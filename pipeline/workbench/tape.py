@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _NAMES = {"sensor": "The sensor", "robot": "The source of poses"}
 
 
-class Tape:
+class SessionTape:
     """
     One recording that is being made; see `start`.
 
@@ -52,7 +52,7 @@ class Tape:
         self._ending = threading.Lock()
 
     @classmethod
-    def start(cls, desk: Desk, live: Live, name: str | None = None) -> Future[Tape]:
+    def start(cls, desk: Desk, live: Live, name: str | None = None) -> Future[SessionTape]:
         """
         Begin to record what comes from now on, by the sensor whose serial number is in the session.
 
@@ -71,7 +71,7 @@ class Tape:
         return desk.do(lambda session: cls._begin(desk, session, live, name))
 
     @classmethod
-    def _begin(cls, desk: Desk, session: Session, live: Live, name: str | None) -> Tape:
+    def _begin(cls, desk: Desk, session: Session, live: Live, name: str | None) -> SessionTape:
         pair = live.pair
         if pair is None:
             raise InputError("No device is open, so there is nothing to record: choose devices first.")

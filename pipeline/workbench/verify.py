@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import threading
 import time
 from dataclasses import dataclass, replace
@@ -11,12 +10,18 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
-from contactbench.pipeline.verification.figures import ModelError
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
+from contactbench.pipeline.workbench.markers import Markers
 from contactbench.pipeline.workbench.markers import kept as read_kept
-from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView, live_noise
+from contactbench.pipeline.workbench.verify_touches import (
+    LiveTouches,
+    MarkerRow,
+    TouchView,
+    live_noise,
+    point_mm,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -25,11 +30,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.verification.figures import Verification
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
-    from contactbench.pipeline.workbench.markers import Markers
-    from contactbench.pipeline.workbench.tape import Tape
-    from contactbench.pipeline.workbench.verify_touches import TouchView
+    from contactbench.pipeline.workbench.tape import SessionTape
 
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
 KIND, RESULT, REPORT = "verification", "verification.json", "report.html"
@@ -74,7 +78,7 @@ def plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
 
 
 @dataclass(frozen=True, eq=False)
-class Tool:
+class TouchTool:
     """What touches are located with."""
 
     probe: Probe  # S
@@ -82,7 +86,7 @@ class Tool:
     content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
 
 
-def tool_of(folder: Path, state: State) -> Tool:
+def tool_of(folder: Path, state: State) -> TouchTool:
     """
     Load a session's newest probe and calibration; for a worker.
 
@@ -105,7 +109,7 @@ def tool_of(folder: Path, state: State) -> Tool:
         raise InputError(
             "The calibration was refused: nothing verified with it would count. Calibrate again."
         )
-    return Tool(probe, calibration.model, content)
+    return TouchTool(probe, calibration.model, content)
 
 
 def tool_key(state: State) -> tuple[str, str] | None:
@@ -126,18 +130,29 @@ def why_locked(state: State, *kinds: str) -> str:
 
 class VerifyWork:
     """
-    A verification that goes on, or does not.
+    The step Verify: what touches are located with, the markers, and a verification that goes on, or does not.
 
     Attributes
     ----------
+    tool : TouchTool or None
+        None: there is none yet.
+    markers : Markers
+    parameters : VerificationParameters
+        Of the session.
+    outcome : VerifyOutcome or None
+        That the session has.
     touches : LiveTouches or None
         None: nothing goes on.
     """
 
     def __init__(self, desk: Desk, live: Live) -> None:
         self._desk, self._live = desk, live
+        self.tool: TouchTool | None = None
+        self.markers = Markers()
+        self.parameters = checked_parameters({})
+        self.outcome: VerifyOutcome | None = None
         self.touches: LiveTouches | None = None
-        self._tape: Tape | None = None
+        self._tape: SessionTape | None = None
         self._name = ""
         self._order: tuple[str, ...] = ()
         self._left_out: dict[str, str] = {}
@@ -151,9 +166,22 @@ class VerifyWork:
         return self.touches is not None
 
     @property
-    def recording(self) -> bool:
-        """Whether they are recorded."""
-        return self._tape is not None
+    def rows(self) -> tuple[MarkerRow, ...]:
+        """The markers while nothing goes on: as the last verification has them, if it still holds."""
+        outcome = self.outcome
+        holds = outcome is not None and not outcome.stale
+        judged = {each.name: each for each in outcome.found.per_marker} if outcome and holds else {}
+        wanted = self.parameters.repeats * len(self.parameters.windows)
+        rows = []
+        for marker in self.markers.all:
+            row, each = MarkerRow(marker.name, point_mm(marker), 0, wanted), judged.get(marker.name)
+            if outcome is not None and each is not None:
+                state = "failed" if each.max_mm > 1e3 * outcome.found.limits.max_m else "done"
+                row = replace(
+                    row, touches=each.touches, mean_mm=each.mean_mm, max_mm=each.max_mm, state=state
+                )
+            rows.append(row)
+        return tuple(rows)
 
     @property
     def findings(self) -> tuple[str, ...]:
@@ -161,7 +189,14 @@ class VerifyWork:
         tape = self._tape
         return () if tape is None else tape.findings
 
-    def start(self, tool: Tool, markers: Markers, cancelled: Callable[[], bool] = lambda: False) -> None:
+    def take_outcome(self, outcome: VerifyOutcome | None) -> None:
+        """Have a verdict that the session has; what was another while it was live is remembered."""
+        before = self.outcome
+        if outcome is not None and before is not None and before.differs and not outcome.differs:
+            outcome = replace(outcome, differs=before.differs)
+        self.outcome = outcome
+
+    def start(self, tool: TouchTool, markers: Markers, cancelled: Callable[[], bool] = lambda: False) -> None:
         """
         Begin to follow and to record touches; waits for a second of samples, so call it in a worker.
 
@@ -187,7 +222,7 @@ class VerifyWork:
             self.touches = touches
             self._end = self._live.follow(touches.feed)
 
-    def _used(self, tool: Tool, markers: Markers) -> dict[str, str]:
+    def _used(self, tool: TouchTool, markers: Markers) -> dict[str, str]:
         """Return what the touches are judged with, by role: also if there is something newer when they are."""
         state = self._desk.do(lambda session: session.state).result()  # after all that waits to be written
         kept = state.newest(MARKERS)
@@ -216,10 +251,10 @@ class VerifyWork:
         return None
 
     def _record(self) -> None:
-        from contactbench.pipeline.workbench.tape import Tape
+        from contactbench.pipeline.workbench.tape import SessionTape
 
         self._name = next_recording(self._desk.state, self._desk.folder, "verify")
-        self._tape = Tape.start(self._desk, self._live, self._name).result()
+        self._tape = SessionTape.start(self._desk, self._live, self._name).result()
 
     def _stop(self) -> TouchView | None:
         """End the following; returns what was seen last."""
@@ -233,7 +268,7 @@ class VerifyWork:
         self._order, self._left_out = touches.order, touches.left_out
         return touches.view()
 
-    def finish(self) -> Outcome | None:
+    def finish(self) -> VerifyOutcome | None:
         """
         Keep the recording, judge it, and make the report; waits, so call it in a worker.
 
@@ -253,7 +288,7 @@ class VerifyWork:
             if self._left_out or parameters_of(self._desk.state).get("left_out"):
                 given["left_out"] = self._left_out
 
-            def judge(session: Session) -> Outcome | None:
+            def judge(session: Session) -> VerifyOutcome | None:
                 judge_recording(session, name, given, inputs)
                 return outcome_of(session.folder, session.state, session.stale(), seen)
 
@@ -278,46 +313,28 @@ class VerifyWork:
 
 
 @dataclass(frozen=True)
-class MarkerOutcome:
-    """Of one marker, mm."""
+class VerifyOutcome:
+    """A verification that the session has."""
 
-    name: str
-    touches: int
-    mean_mm: float
-    max_mm: float
-    bias_mm: tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """A verification, as it is shown."""
-
-    passed: bool
-    # reasons, notes, warnings: Why not; what it says nothing about; what to know of the recording
-    reasons: tuple[str, ...]
-    notes: tuple[str, ...]
-    warnings: tuple[str, ...]
-    diagnosis: str  # What to fix first; empty: too few touches
-    touches: int  # Accepted
-    mean_mm: float | None
-    sd_mm: float | None
-    p95_mm: float | None
-    max_mm: float | None
-    low_mm: float | None  # low_mm, high_mm: The mean is between them, 95 %
-    high_mm: float | None
-    ratio: float | None  # Error over what noise and calibration explain
-    mean_limit_mm: float
-    max_limit_mm: float
-    rejected: tuple[tuple[str, int], ...]  # (reason, count)
-    markers: tuple[MarkerOutcome, ...]
+    found: Verification
     report: Path | None
     differs: str = ""  # What was another while it was live; empty: nothing
     stale: str = ""  # Why it no longer holds; empty: it does
-    model_error: str = ""  # What the model leaves out of the wrench, and what to do about it
 
-    def with_difference(self, words: str) -> Outcome:
-        """Return it with what was another while it was live."""
-        return replace(self, differs=words)
+    @property
+    def passed(self) -> bool:
+        """Whether it did."""
+        return self.found.verdict.passed
+
+    @property
+    def touches(self) -> int:
+        """How many were accepted."""
+        return 0 if self.found.overall is None else self.found.overall.touches
+
+    @property
+    def mean_mm(self) -> float | None:
+        """Mean error; None: no touch was accepted."""
+        return None if self.found.overall is None else self.found.overall.mean_mm
 
 
 def outcome_of(
@@ -325,7 +342,7 @@ def outcome_of(
     state: State,
     stale: Mapping[tuple[str, str], tuple[str, ...]],
     live: TouchView | None = None,
-) -> Outcome | None:
+) -> VerifyOutcome | None:
     """
     Read a session's verification; None: there is none.
 
@@ -346,18 +363,18 @@ def outcome_of(
     found = state.current_results.get((KIND, RESULT))
     if found is None:
         return None
+    from contactbench.pipeline.report import ReportError, read_verification
+
     file = folder / found.file.path
     try:
-        content = json.loads(file.read_bytes())
-        outcome = _read(content, _report(folder, state, found.known_as))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        verification = read_verification(file)
+    except ReportError as error:
         raise InputError(
             f"{file}: the verification cannot be read ({error}): see `contactbench session verify`."
         ) from error
     reasons = stale.get(found.slot, ())
-    return replace(
-        outcome, differs="" if live is None else differs(outcome, live), stale=" ".join(reasons[:1])
-    )
+    outcome = VerifyOutcome(verification, _report(folder, state, found.known_as), stale=" ".join(reasons[:1]))
+    return outcome if live is None else replace(outcome, differs=differs(outcome, live))
 
 
 def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
@@ -367,45 +384,7 @@ def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
     return folder / found.file.path
 
 
-def _read(content: dict[str, Any], report: Path | None) -> Outcome:
-    from contactbench.pipeline.verification.model_error import model_error_words
-
-    verdict, overall = content["verdict"], content.get("overall") or {}
-    interval = (content.get("ci") or {}).get("mean_mm") or (None, None)
-    diagnosis, left = content.get("diagnosis") or {}, content.get("model_error")
-    return Outcome(
-        passed=bool(verdict["passed"]),
-        reasons=tuple(verdict["reasons"]),
-        notes=tuple(verdict.get("notes", ())),
-        warnings=tuple(content.get("warnings", ())),
-        diagnosis=str(diagnosis.get("text", "")),
-        touches=int(overall.get("touches", 0)),
-        mean_mm=overall.get("mean_mm"),
-        sd_mm=overall.get("sd_mm"),
-        p95_mm=overall.get("p95_mm"),
-        max_mm=overall.get("max_mm"),
-        low_mm=interval[0],
-        high_mm=interval[1],
-        ratio=content.get("ratio"),
-        mean_limit_mm=1e3 * float(content["limits"]["mean_m"]),
-        max_limit_mm=1e3 * float(content["limits"]["max_m"]),
-        rejected=tuple((str(why), int(count)) for why, count in content.get("rejected", {}).items()),
-        markers=tuple(
-            MarkerOutcome(
-                str(each["name"]),
-                int(each["touches"]),
-                float(each["mean_mm"]),
-                float(each["max_mm"]),
-                (float(each["bias_mm"][0]), float(each["bias_mm"][1]), float(each["bias_mm"][2])),
-            )
-            for each in content.get("per_marker", ())
-        ),
-        report=report,
-        model_error=model_error_words(None if left is None else ModelError(**left)),
-    )
-
-
-def differs(outcome: Outcome, live: TouchView) -> str:
+def differs(outcome: VerifyOutcome, live: TouchView) -> str:
     """Say what the raw recording gave otherwise than what was seen while it was made; empty: nothing."""
     if live.mean_mm is None or outcome.mean_mm is None:
         if live.accepted == outcome.touches:

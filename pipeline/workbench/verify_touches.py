@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.contact import WrenchNoise
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.verification.markers import Marker, MarkerSet
     from contactbench.pipeline.verification.verify import VerifySettings
-    from contactbench.pipeline.workbench.live import Block
+    from contactbench.pipeline.workbench.live import LiveBlock
 
 _SMOOTH = 10  # samples that the shown force is the mean of
 _RECENT_S = 1.0
@@ -30,7 +30,7 @@ _FEWEST = 40  # samples that noise is told from
 
 
 @dataclass
-class Turns:
+class TouchOrder:
     """
     The order in which markers are touched, where it is given; it can be changed while touches go on.
 
@@ -41,7 +41,7 @@ class Turns:
     names: list[str]  # One for each touch
 
     @classmethod
-    def of(cls, order: Sequence[str], repeats: int, windows: int) -> Turns:
+    def of(cls, order: Sequence[str], repeats: int, windows: int) -> TouchOrder:
         """Return every marker in its turn, once per repeat and force window."""
         return cls([name for _ in range(repeats * windows) for name in order])
 
@@ -85,12 +85,13 @@ class MarkerRow:
     """
 
     name: str
-    touches: int
-    wanted: int
-    mean_mm: float | None
-    max_mm: float | None
-    state: str
-    window: tuple[float, float] | None
+    point_mm: tuple[float, float, float]  # S
+    touches: int = 0
+    wanted: int = 1
+    mean_mm: float | None = None
+    max_mm: float | None = None
+    state: str = "open"
+    window: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +113,12 @@ class TouchView:
     notice: str  # What is in the way; empty: nothing
     # (start, end); Places of markers and where they were found, m, for the accepted touches
     contacts: tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...] = field(default=())
+
+
+def point_mm(marker: Marker) -> tuple[float, float, float]:
+    """Return where a marker is, S, mm."""
+    x, y, z = (1e3 * marker.point_S).tolist()
+    return x, y, z
 
 
 def live_noise(wrenches: NDArray[np.float64]) -> tuple[WrenchNoise, float] | None:
@@ -160,9 +167,9 @@ class LiveTouches:
     ) -> None:
         self.markers, self.settings = markers, settings
         self._model, protocol = model, settings.protocol
-        self._turns: Turns | None = None
+        self._turns: TouchOrder | None = None
         if protocol.order:
-            self._turns = Turns.of(protocol.order, protocol.repeats, len(protocol.windows))
+            self._turns = TouchOrder.of(protocol.order, protocol.repeats, len(protocol.windows))
             protocol = replace(protocol, order=tuple(self._turns.names))
         placing = Placing(probe, markers, model, noise[0], protocol.samples, noise[1])
         self._protocol = TouchProtocol(placing, protocol)
@@ -179,7 +186,7 @@ class LiveTouches:
 
     # ---- samples -----------------------------------------------------------------------------
 
-    def feed(self, block: Block) -> None:
+    def feed(self, block: LiveBlock) -> None:
         """Take samples."""
         wrenches = self._model.compensate(block.R_WS, block.wrenches)
         with self._lock:
@@ -339,12 +346,12 @@ class LiveTouches:
             if shown.marker is not None and touch.window is not None:
                 errors.setdefault(shown.marker, []).append(shown.size_mm or 0.0)
                 windows[shown.marker, touch.window] += 1
-        return tuple(self._row(name, errors.get(name, []), windows) for name in self.markers.names)
+        return tuple(self._row(each, errors.get(each.name, []), windows) for each in self.markers.markers)
 
     def _row(
-        self, name: str, errors: list[float], windows: Counter[tuple[str, tuple[float, float]]]
+        self, marker: Marker, errors: list[float], windows: Counter[tuple[str, tuple[float, float]]]
     ) -> MarkerRow:
-        protocol = self.settings.protocol
+        name, protocol = marker.name, self.settings.protocol
         left = [each for each in protocol.windows if windows[name, each] < protocol.repeats]
         wanted = protocol.repeats * len(protocol.windows) + self._extra[name]
         worst = max(errors) if errors else None
@@ -354,7 +361,8 @@ class LiveTouches:
         elif not left and name not in self._again:
             state = "failed" if worst is not None and worst > 1e3 * self.settings.limits.max_m else "done"
         mean = float(np.mean(errors)) if errors else None
-        return MarkerRow(name, len(errors), wanted, mean, worst, state, left[0] if left else None)
+        window = left[0] if left else None
+        return MarkerRow(name, point_mm(marker), len(errors), wanted, mean, worst, state, window)
 
     def _next(self, rows: tuple[MarkerRow, ...]) -> int | None:
         names = self.markers.names

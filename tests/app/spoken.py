@@ -17,6 +17,7 @@ _SHOWN = {
     "setPlainText", "setPrefix", "setSpecialValueText", "setStatusTip", "setSuffix", "setTabText", "setText",
     "setTitle", "setToolTip", "setWhatsThis", "setWindowTitle", "showMessage", "tell", "warning",
 }  # fmt: skip
+_SHOWN_FIRST = {"plain_label", "push_button", "sentence_label"}  # the rest are roles and pictures
 _SPOKEN = {"tr", "translate"}
 _LETTERS = re.compile(r"[^\W\d_]{2,}")
 _NO_WORDS = re.compile(r"<[^<>]*>|\S*://\S*")  # tags and addresses
@@ -67,6 +68,9 @@ class Source(ast.NodeVisitor):
             self._take(node, name)
         elif name in _SHOWN and not (isinstance(node.func, ast.Attribute) and _is_log(node.func.value)):
             for text in _bare(node):
+                self.wrong.append(f"{self._where(node)}: {text!r} is not given to tr()")
+        elif name in _SHOWN_FIRST:
+            for text in _bare(ast.Tuple(node.args[:1])):
                 self.wrong.append(f"{self._where(node)}: {text!r} is not given to tr()")
         self.generic_visit(node)
 

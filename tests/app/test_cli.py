@@ -115,7 +115,7 @@ class Window(MainWindow):
         if self.bench is None or not self.pages.made:
             return
         self.show_step(Step.VERIFY)
-        if self.pages.current.tool is not None and self.bench.live.solver is not None:
+        if self.pages.current.work.tool is not None and self.bench.live.solver is not None:
             self.timer.stop()
             self.close()
 

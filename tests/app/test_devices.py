@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt
 
 from contactbench.app.bench import Bench
 from contactbench.app.pages.devices import DevicesPage
-from contactbench.app.undo import SessionCommand, SetParameter
+from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
 from contactbench.pipeline.devices.url import Protocol
@@ -224,8 +224,8 @@ def test_undone_before_it_is_over(bench):
 
 
 def test_one_parameter(bench):
-    bench.undo.push(SetParameter(bench, "devices.serial", "SN 1", "set the serial number"))
-    bench.undo.push(SetParameter(bench, "devices.serial", "SN 2", "set the serial number"))
+    bench.undo.push(SetParameters(bench, {"devices.serial": "SN 1"}, "set the serial number"))
+    bench.undo.push(SetParameters(bench, {"devices.serial": "SN 2"}, "set the serial number"))
     bench.undo.undo()
     settle(bench)
     assert settings(bench)["devices.serial"] == "SN 1"

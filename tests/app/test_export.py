@@ -7,46 +7,23 @@ import pytest
 from typer.testing import CliRunner
 from workbench.touch_session import make_session, verify
 
-from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench import Weight
 from contactbench.app.pages.export import ExportPage
 from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
-from contactbench.widgets.scene import Scene
+from contactbench.pipeline.workbench.steps import Step
 
-LONG = 30_000
+from .page_window import PageWindow
 
 
-class Window:
-    """The page alone; the scene is not shown."""
-
+class Window(PageWindow):
     def __init__(self, qtbot, folder):
-        self.qtbot, self.told = qtbot, []
-        self.desk, self.scene = Desk(Session.open(folder, by="ada")), Scene()
-        qtbot.addWidget(self.scene)
-        self.bench = Bench(self.desk, self.scene)
-        self.bench.told.connect(self.told.append)
-        self.page = ExportPage(self.bench)
-        qtbot.addWidget(self.page)
-        self.page.resize(360, 640)
-        self.page.show()
-        qtbot.waitExposed(self.page)
-        self.bench.changed.connect(lambda: self.page.show_state(StepStatus(StepState.READY, "")))
-        self.page.enter()
+        super().__init__(qtbot, Session.open(folder, by="ada"), ExportPage)
+        self.enter()
         self.wait(lambda: self.page.view is not None)
-
-    def wait(self, condition):
-        self.qtbot.waitUntil(condition, timeout=LONG)
-
-    def close(self):
-        self.page.leave()
-        self.page.close_page()
-        self.bench.close()
-        self.scene.close_scene()
 
 
 @pytest.fixture(scope="module")
@@ -74,11 +51,11 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     assert page.zip.isEnabled()
     assert not page.unverified.isVisible()
     assert "probe.ply" in page.files.text()
-    page.settings.operator.setText("Ada Lovelace")
-    page.settings.operator.editingFinished.emit()
+    page.settings.texts["operator"].setText("Ada Lovelace")
+    page.settings.texts["operator"].editingFinished.emit()
     page.settings.force.setValue(20.0)
-    page.settings.sensor_name.setText("wrist")
-    page.settings.sensor_name.editingFinished.emit()
+    page.settings.texts["sensor_name"].setText("wrist")
+    page.settings.texts["sensor_name"].editingFinished.emit()
     window.wait(lambda: "Ada Lovelace" in page.figures.text() and "20 N" in page.figures.text())
     page.write(tmp_path / "window.zip")
     window.wait(lambda: page.exported is not None)

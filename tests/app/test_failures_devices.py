@@ -58,7 +58,7 @@ def test_unplugged_while_weighing_and_back(made, tmp_path):
     with emulator("sri", "tcp", rate=200.0) as sensor:
         port = port_of(sensor.url)
         made.open(equipped(folder, sensor.url))
-        made.wait(lambda: made.window.live.connected)
+        made.wait(lambda: made.window.bench.connected)
         page = made.page(Step.GRAVITY)
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
@@ -81,7 +81,7 @@ def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path
     folder = tmp_path / "s"
     with emulator("sri", "serial", rate=200.0) as sensor:
         made.open(equipped(folder, sensor.url))
-        made.wait(lambda: made.window.live.connected)
+        made.wait(lambda: made.window.bench.connected)
         page = made.page(Step.GRAVITY)
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
@@ -102,12 +102,12 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
             session.set_parameter("devices.sensor", sensor.url)
             session.set_parameter("devices.poses", STILL)
         made.open(folder)
-        made.wait(lambda: made.window.live.connected)
+        made.wait(lambda: made.window.bench.connected)
         page = made.page(Step.VERIFY)
-        made.wait(lambda: page.tool is not None)
+        made.wait(lambda: page.work.tool is not None)
         page.panel_markers.count.setValue(2)
         click(made, page.panel_markers.spread)
-        made.wait(lambda: len(page.markers) == 2 and not page._editing.pending)
+        made.wait(lambda: len(page.work.markers) == 2 and not page.panel_markers.pending)
         page.tabs.setCurrentIndex(3)
         click(made, page.panel_touch.start)
         made.wait(lambda: page.work.going_on)

@@ -25,7 +25,7 @@ def folder(tmp_path_factory):
 def open_window(qtbot, folder, tmp_path):
     with whole(qtbot, tmp_path) as made:
         made.open(folder)
-        made.wait(lambda: made.window.live.connected)
+        made.wait(lambda: made.window.bench.connected)
         yield made
 
 

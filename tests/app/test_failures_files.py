@@ -125,9 +125,9 @@ def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
         session.set_parameter("config.rate", 200.0)
     before = results(folder)
     made.open(folder)
-    made.wait(lambda: made.window.live.connected)
+    made.wait(lambda: made.window.bench.connected)
     made.page(Step.VERIFY)
-    made.wait(lambda: made.window.pages.current.tool is not None)
+    made.wait(lambda: made.window.pages.current.work.tool is not None)
     made.page(Step.EXPORT)
     made.page(Step.DEVICES)
     made.idle()
@@ -140,7 +140,7 @@ def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
     assert made.window.bench.running == set()
     full.free()
     shown(made.qtbot, made.window, made.window.menus.open_again)
-    made.wait(lambda: made.window.live.connected)
+    made.wait(lambda: made.window.bench.connected)
     made.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
     assert not made.unexpected
     close(made)
@@ -151,7 +151,7 @@ def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
 def test_a_disk_that_fills_while_it_is_recorded(made, tmp_path, full):
     folder = tmp_path / "s"
     shown(made.qtbot, made.window, lambda: made.window.sessions.try_virtual(folder))
-    made.wait(lambda: made.window.live.connected)
+    made.wait(lambda: made.window.bench.connected)
     page = made.page(Step.GRAVITY)
     click(made, page.primary)
     made.wait(lambda: page.run.phase is Phase.CAPTURING and page.run._tape.seconds > 1.5)
@@ -305,7 +305,7 @@ from PySide6.QtCore import QTimer
 class Window(MainWindow):
     def look(self):
         page = self.pages.current
-        if self.bench is None or self.pages.step is not Step.GRAVITY or not self.live.connected:
+        if self.bench is None or self.pages.step is not Step.GRAVITY or not self.bench.connected:
             return
         if page.run.phase == "idle":
             page.primary.click()

@@ -17,8 +17,8 @@ from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.session_change import value_in
 from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.pipeline.workbench.undoing import value_in
 from contactbench.widgets.scene.scene import Pick
 
 from .failures import whole
@@ -101,7 +101,7 @@ def test_a_verification_that_fails_says_what_to_do_and_is_not_exported(made, ses
     sentence = wait_state(made, Step.VERIFY, StepState.FAILED)
     assert "9.9 mm" in sentence or "not pass" in sentence.lower()
     page = made.page(Step.VERIFY)
-    made.wait(lambda: page.outcome is not None)
+    made.wait(lambda: page.work.outcome is not None)
     assert (
         "not pass" in page.panel_result.verdict.text().lower()
         or "fail" in page.panel_result.verdict.text().lower()
@@ -176,15 +176,15 @@ def tilt(made):
 
 def spread(made):
     page = made.page(Step.VERIFY)
-    made.wait(lambda: page.tool is not None)
+    made.wait(lambda: page.work.tool is not None)
     page.panel_markers.count.setValue(4)
     click(made, page.panel_markers.spread)
-    made.wait(lambda: len(page.markers) == 4)
+    made.wait(lambda: len(page.work.markers) == 4)
 
 
 def pick(made):
     page = made.page(Step.VERIFY)
-    made.wait(lambda: page.tool is not None and page.panel_markers.pick.isEnabled())
+    made.wait(lambda: page.work.tool is not None and page.panel_markers.pick.isEnabled())
     page.panel_markers.pick.setChecked(True)
     made.window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
     page.panel_markers.pick.setChecked(False)
@@ -253,7 +253,7 @@ def test_undone_and_done_again_by_the_menu(made, sessions, tmp_path, what):
 def test_closed_while_everything_runs(made, sessions, tmp_path):
     folder = shutil.copytree(sessions / "calibrated", tmp_path / "s")
     bench = made.open(folder)
-    made.wait(lambda: made.window.live.connected)
+    made.wait(lambda: made.window.bench.connected)
     page = made.page(Step.VERIFY)
     spread(made)
     made.idle()

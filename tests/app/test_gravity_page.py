@@ -3,80 +3,39 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QWidget
 from workbench.gravity_bench import batches, record
 
-from contactbench.app.bench import Bench
 from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.unfinished import adopt_unfinished
-from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.gravity_fit import Finding, Solved
+from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Solved
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import StepState, StepStatus
+
+from .page_window import PageWindow
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
 READY = StepStatus(StepState.READY, "Take poses.")
 
 
-class QuietScene(QWidget):
-    """Takes what the page shows in 3D, and draws nothing."""
-
-    def __init__(self):
-        super().__init__()
-        self.R_WS = self.ghost = None
-
-    def look(self, view):
-        pass
-
-    def show_orientation(self, R_WS):
-        self.R_WS = R_WS
-
-    def show_ghost(self, R_WS):
-        self.ghost = R_WS
-
-
-class Window:
-    """The page beside its scene, on a bench whose clock goes when it is told."""
+class Window(PageWindow):
+    """On a bench whose clock goes when it is told."""
 
     def __init__(self, qtbot, folder, prepare=None):
-        self.qtbot = qtbot
         session = Session.create(folder)
         if prepare is not None:
             prepare(session)
-        self.scene = QuietScene()
-        self.bench = Bench(Desk(session), self.scene)
-        self.told = []
-        self.bench.told.connect(self.told.append)
-        self.widget = QWidget()
-        qtbot.addWidget(self.widget)
-        self.widget.resize(1280, 800)
-        box = QHBoxLayout(self.widget)
-        self.page = GravityPage(self.bench)
-        self.page.setFixedWidth(360)
-        box.addWidget(self.scene, 1)
-        box.addWidget(self.page)
-        self.bench.changed.connect(lambda: self.page.show_state(READY))
-        self.widget.show()
-        self.page.enter()
+        super().__init__(qtbot, session, GravityPage)
+        self.enter(READY)
 
     def open(self, sensor=STEPWISE, poses=STEPWISE):
         self.bench.live.open(sensor, poses)
 
-    def until(self, condition, steps=250):
-        """Let the bench's clock go until something is so."""
-
-        def look():
-            pair = self.bench.live.pair
-            if pair is not None and pair.stepwise:
-                pair.step(steps)
-            self.page.tick()
-            assert condition()
-
-        self.qtbot.waitUntil(look, timeout=30_000)
+    def until(self, condition, steps=250, poll=None):
+        super().until(condition, steps, poll)
 
     def press(self, button):
         self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
@@ -99,14 +58,6 @@ class Window:
         self.until(self.page.primary.isEnabled, steps=0)
         self.press(self.page.primary)
         self.until(lambda: self.page.run.phase is Phase.IDLE, steps=0)
-
-    def said(self):
-        return [message.text for message in self.told]
-
-    def close(self):
-        self.page.leave()
-        self.page.close_page()
-        self.bench.close()
 
 
 @pytest.fixture
@@ -241,7 +192,7 @@ def test_findings_are_told_while_another_page_is_shown(window):
     w.open()
     w.start()
     w.page.leave()
-    found = Finding(
+    found = GravityFinding(
         "rejected pose 2", "Pose 2: bumped. Take it again, or go on with 3 poses.", leave_out=(1,)
     )
     run.work._solved = Solved(None, None, (found,))

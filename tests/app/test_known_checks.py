@@ -4,69 +4,29 @@ import shutil
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
 from workbench.touch_session import STEPWISE, make_session, surface
 
-from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.verify_point import PointPanel
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome
-from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.known_checks import FILES
-from contactbench.pipeline.workbench.steps import StepState, StepStatus
 from contactbench.pipeline.workbench.verify import tool_of
 
-READY = StepStatus(StepState.READY, "")
+from .page_window import PageWindow
 
 
-class QuietScene(QWidget):
-    """Takes what a page shows in 3D, and draws nothing."""
-
-    def look(self, view):
-        pass
-
-    def show_orientation(self, R_WS):
-        pass
-
-    def show_ghost(self, R_WS):
-        pass
-
-
-class Window:
-    """A page or panel on a bench whose clock goes when it is told."""
-
-    def __init__(self, qtbot, folder, make):
-        self.qtbot, self.told = qtbot, []
-        self.bench = Bench(Desk(Session.open(folder, by="ada")), QuietScene())
-        self.bench.told.connect(self.told.append)
-        self.widget = make(self.bench)
-        qtbot.addWidget(self.widget)
-        qtbot.addWidget(self.bench.scene)
-        self.widget.setFixedWidth(360)
-        self.widget.show()
+class Window(PageWindow):
+    """On a bench whose clock goes when it is told."""
 
     def open(self):
         self.bench.live.open(STEPWISE, STEPWISE)
         self.bench.live.pair.step(400)
 
-    def until(self, condition, poll=lambda: None, steps=100):
-        def look():
-            if self.bench.live.pair is not None:
-                self.bench.live.pair.step(steps)
-            poll()
-            assert condition()
-
-        self.qtbot.waitUntil(look, timeout=60_000)
-
-    def click(self, button):
-        assert button.isEnabled()
-        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-
     def results(self):
-        return self.bench.desk.state.current_results
+        return self.desk.state.current_results
 
 
 @pytest.fixture(scope="module")
@@ -76,25 +36,24 @@ def calibrated(tmp_path_factory):
     return make_session(folder / "s", folder / "files")
 
 
+def opened(folder, place):
+    return Session.open(shutil.copytree(folder, place), by="ada")
+
+
 @pytest.fixture
 def gravity(qtbot, calibrated, tmp_path):
-    made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"), GravityPage)
-    page = made.widget
-    made.bench.changed.connect(lambda: page.show_state(READY))
-    page.enter()
-    page.show_state(READY)
-    made.until(page.weight.isVisible, page.tick, steps=0)
+    made = Window(qtbot, opened(calibrated, tmp_path / "s"), GravityPage)
+    made.enter()
+    made.until(made.page.weight.isVisible, steps=0)
     yield made
-    page.leave()
-    page.close_page()
-    made.bench.close()
+    made.close()
 
 
 @pytest.fixture
 def point(qtbot, calibrated, tmp_path):
-    made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"), PointPanel)
+    made = Window(qtbot, opened(calibrated, tmp_path / "s"), PointPanel)
     yield made
-    made.widget.close_panel()
+    made.page.close_panel()
     made.bench.close()
 
 
@@ -107,7 +66,7 @@ def side():
 
 
 def test_three_clicks_weigh_a_kilogram(gravity):
-    w, page = gravity, gravity.widget
+    w, page = gravity, gravity.page
     panel = page.weight
     w.open()
     assert not panel.second.isEnabled()
@@ -116,10 +75,10 @@ def test_three_clicks_weigh_a_kilogram(gravity):
     w.click(panel.first)
     assert "Take everything off" in panel.hint.text()
     assert not page.primary.isEnabled()  # no captures beside it
-    w.until(panel.second.isEnabled, page.tick)
+    w.until(panel.second.isEnabled)
     assert "hang the weight on the tool" in panel.hint.text()
     w.click(panel.second)
-    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    w.until(lambda: panel.outcome is not None and not panel.busy)
     assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
     assert panel.verdict.isVisible()
     assert panel.verdict.text.startswith("Passed: The sensor reads")
@@ -130,14 +89,14 @@ def test_three_clicks_weigh_a_kilogram(gravity):
 
 
 def test_a_wrong_mass_fails_and_what_was_typed_stays(gravity):
-    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w, panel = gravity, gravity.page.weight
     w.open()
     w.click(panel.first)
-    w.until(panel.second.isEnabled, page.tick)
+    w.until(panel.second.isEnabled)
     panel.mass.setValue(0.8)
     w.click(panel.second)
     w.bench.live.pair.bench.bump((w.bench.live.reading().R_WS.T @ [0, 0, -9.80665]).tolist(), 60.0)
-    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    w.until(lambda: panel.outcome is not None and not panel.busy)
     assert panel.outcome.outcome is Outcome.FAILED
     assert panel.verdict.text.startswith("Failed: ")
     assert panel.mass.value() == 0.8
@@ -145,19 +104,19 @@ def test_a_wrong_mass_fails_and_what_was_typed_stays(gravity):
 
 
 def test_a_reading_can_be_cancelled(gravity):
-    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w, panel = gravity, gravity.page.weight
     w.open()
     w.click(panel.first)
-    w.until(panel.cancel.isVisible, page.tick, steps=0)
+    w.until(panel.cancel.isVisible, steps=0)
     w.click(panel.cancel)
-    w.until(lambda: not panel.busy, page.tick, steps=0)
+    w.until(lambda: not panel.busy, steps=0)
     assert not [each for each in w.bench.desk.state.inputs if each.kind == "recording"]
     assert not panel.second.isEnabled()
     assert panel.first.isEnabled()
 
 
 def test_without_a_sensor_it_is_said(gravity):
-    w, panel = gravity, gravity.widget.weight
+    w, panel = gravity, gravity.page.weight
     w.click(panel.first)
     w.until(lambda: not panel.busy, steps=0)
     assert "No sensor is open" in panel.hint.text()
@@ -165,22 +124,22 @@ def test_without_a_sensor_it_is_said(gravity):
 
 
 def test_a_new_calibration_makes_the_check_stale(gravity):
-    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w, panel = gravity, gravity.page.weight
     w.open()
     w.click(panel.first)
-    w.until(panel.second.isEnabled, page.tick)
+    w.until(panel.second.isEnabled)
     w.click(panel.second)
-    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    w.until(lambda: panel.outcome is not None and not panel.busy)
     done = w.bench.desk.do(
         lambda session: session.mark("calibration", "calibration.json", "stale", "The tool was changed.")
     )
     done.result()
-    w.until(lambda: bool(panel.outcome.stale), page.tick, steps=0)
+    w.until(lambda: bool(panel.outcome.stale), steps=0)
     assert panel.verdict.text.startswith("Stale: check again")
 
 
 def test_a_press_on_a_marker_is_located(point):
-    w, panel = point, point.widget
+    w, panel = point, point.page
     assert not panel.start.isEnabled()
     assert "Place a marker" in panel.start.toolTip()
     tool = tool_of(w.bench.desk.folder, w.bench.desk.state)
@@ -188,7 +147,7 @@ def test_a_press_on_a_marker_is_located(point):
     assert panel.point.currentText() == "side"
     w.open()
     w.click(panel.start)
-    w.until(lambda: panel.outcome is not None and not panel.busy, panel.poll)
+    w.until(lambda: panel.outcome is not None and not panel.busy, poll=panel.poll)
     assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
     assert w.results()[TOUCH, FILES[TOUCH]].action.parameters["point"] == pytest.approx(
         [1e3 * v for v in side()]

@@ -69,7 +69,7 @@ def window(request, qtbot, make_window, tmp_path):
     else:
         folder = request.getfixturevalue("calibrated")
         shown(qtbot, made, lambda: made.sessions.open(folder))
-        qtbot.waitUntil(lambda: made.live.connected, timeout=LONG)
+        qtbot.waitUntil(lambda: made.bench.connected, timeout=LONG)
     yield made
     use_theme("light")
 

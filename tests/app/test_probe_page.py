@@ -3,7 +3,6 @@ import pytest
 import trimesh
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QWidget
 from workbench.probe_files import bad_meshes, egg
 
 from contactbench.app.bench import Bench
@@ -16,39 +15,12 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.mesh_report import MeshReport
-from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
+
+from .page_window import PaperScene
 
 PATIENCE = 60_000
 VIRTUAL = "virtual://bench?probe=t-shape&sensor=paper"
-
-
-class PaperScene(QWidget):
-    """A scene that only remembers what it was told."""
-
-    picked, dropped = Scene.picked, Scene.dropped
-
-    def __init__(self):
-        super().__init__()
-        self.probe = self.overlay = self.field = self.tool = None
-
-    def show_probe(self, probe):
-        self.probe = probe
-
-    def show_overlay(self, probe):
-        self.overlay = probe
-
-    def show_field(self, values, _title=""):
-        self.field = values
-
-    def look(self, view):
-        pass
-
-    def set_tool(self, tool):
-        self.tool = tool
-
-    def close_scene(self):
-        pass
 
 
 @pytest.fixture

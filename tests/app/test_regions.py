@@ -101,7 +101,7 @@ def draw(window, *places):
 
 
 def idle(window, qtbot):
-    qtbot.waitUntil(lambda: window.page.doing.job is None, timeout=LONG)
+    qtbot.waitUntil(lambda: window.page.job is None, timeout=LONG)
 
 
 def rows(window):
@@ -284,7 +284,7 @@ def test_a_box_whose_numbers_are_no_box_is_said(window):
     tools.lows[0].setValue(50)
     assert "below" in tools.box_plan.text()
     tools._give(False)
-    assert window.page.doing.job is None
+    assert window.page.job is None
 
 
 def test_shape_buttons_change_the_chosen_region(window, qtbot):
@@ -316,20 +316,18 @@ def test_shape_buttons_change_the_chosen_region(window, qtbot):
 
 
 def test_import_and_export(window, qtbot, tmp_path):
-    from contactbench.app.pages.regions_files import read_regions, write_regions
-
     draw(window, (0, 0, 1))
     painted = rows(window)
     for name in ("regions.json", "regions.csv"):
-        write_regions(window.page, tmp_path / name)
+        window.page.write(tmp_path / name)
         idle(window, qtbot)
         window.page.panel.shape.clear_button.click()
-        read_regions(window.page, tmp_path / name)
+        window.page.read(tmp_path / name)
         idle(window, qtbot)
         assert rows(window) == painted
         assert window.bench.undo.undoText() == "import regions"
     (tmp_path / "other.json").write_text("{}", encoding="utf-8")
-    read_regions(window.page, tmp_path / "other.json")
+    window.page.read(tmp_path / "other.json")
     idle(window, qtbot)
     assert "other.json" in window.told[-1].text
     assert rows(window) == painted
@@ -386,17 +384,17 @@ def test_giving_them_to_the_probe(window, qtbot):
 def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
     import threading
 
-    from contactbench.app.pages import regions_doing
+    from contactbench.app.pages import regions
 
     draw(window, (0, 0, 1))
-    real, asked = regions_doing.apply, threading.Event()
+    real, asked = regions.apply, threading.Event()
 
     def slow(desk, progress, cancelled):
         progress(0.5)
         asked.wait(20)
         return real(desk, progress, cancelled)
 
-    monkeypatch.setattr(regions_doing, "apply", slow)
+    monkeypatch.setattr(regions, "apply", slow)
     window.page.panel.apply_button.click()
     qtbot.waitUntil(lambda: window.page.panel.progress.value() == 50, timeout=LONG)
     assert Step.REGIONS in window.bench.running
@@ -408,18 +406,18 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
 
 
 def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
-    from contactbench.app.pages import regions_keeping
+    from contactbench.app.pages import region_autosave
 
     def full(*_):
         raise SessionError("The disk is full.")
 
-    real = regions_keeping.keep
-    monkeypatch.setattr(regions_keeping, "keep", full)
+    real = region_autosave.keep
+    monkeypatch.setattr(region_autosave, "keep", full)
     draw(window, (0, 0, 1))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: "The disk is full." in said(window), timeout=LONG)
     assert window.page.keeper.dirty
-    monkeypatch.setattr(regions_keeping, "keep", real)
+    monkeypatch.setattr(region_autosave, "keep", real)
     draw(window, (0, 1, 0))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from contactbench.app.shortcuts import CheatSheet, keys_of
+from contactbench.app.dialogs import CheatSheet, keys_of
 from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import shown

@@ -14,11 +14,11 @@ from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
 
 from contactbench.app.opening import VIRTUAL_BENCH, free_folder
 from contactbench.app.settings import Recent, Settings
-from contactbench.app.start import Question, StartPage
+from contactbench.app.start import QuestionCard, StartPage
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.controls import PanelScroll
 
 from .conftest import shown
 
@@ -40,7 +40,7 @@ def test_the_virtual_bench_is_one_click_away(qtbot, window):
     assert DeviceAddress.parse(VIRTUAL_BENCH).gives_wrenches
     assert bench.desk.folder.parent == window.settings.sessions
     assert window.pages.step is Step.GRAVITY
-    qtbot.waitUntil(lambda: window.live.connected, timeout=30_000)
+    qtbot.waitUntil(lambda: window.bench.connected, timeout=30_000)
     qtbot.waitUntil(lambda: "Hz" in window.live.rates(), timeout=10_000)
     assert window.header.device_line(bench).startswith("virtual bench")
 
@@ -172,7 +172,7 @@ def test_no_button_of_any_page_can_be_pressed_in_a_session_that_is_read_only(
             button.setEnabled(True)  # as pages do when their step's state changes
         window.pages.read_statuses()
         assert [each.text() for each in page.findChildren(QPushButton) if each.isEnabled()] == [], step
-        for area in page.findChildren(Scrolled):
+        for area in page.findChildren(PanelScroll):
             assert area.isEnabled(), step
 
 
@@ -262,7 +262,7 @@ def test_recent_sessions_say_when_and_how_far_and_missing_ones_are_grey(qtbot):
 
 
 def test_a_question_takes_one_answer(qtbot):
-    question, answers = Question(), []
+    question, answers = QuestionCard(), []
     qtbot.addWidget(question)
     question.ask(
         "What now?", [("This", lambda: answers.append("this")), ("That", lambda: answers.append("that"))]

@@ -95,6 +95,7 @@ def test_every_word_goes_through_tr(spoken_files):
     [
         ('self.label.setText("Ready now")', "is not given to tr()"),
         ('QLabel(f"{count} poses")', "is not given to tr()"),
+        ('push_button("Ready now", picture="tick")', "is not given to tr()"),
         ("self.tr(words)", "not a plain literal"),
         ("say = self.tr", "by another name"),
         ('window.tr("Steps")', "only self.tr"),

@@ -5,65 +5,32 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QWidget
+from PySide6.QtWidgets import QInputDialog
 from workbench.touch_session import STEPWISE, make_session, press
 
-from contactbench.app.bench import Bench, Weight
+from contactbench.app.bench import Weight
 from contactbench.app.pages.verify import VerifyPage
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.live import Reading
+from contactbench.pipeline.workbench.live import LiveReading
 from contactbench.pipeline.workbench.markers import Markers, kept
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
 
-READY = StepStatus(StepState.READY, "")
-LONG = 30_000
+from .page_window import PageWindow
 
 
-class Window:
-    """A page beside the scene, with the session behind it."""
-
+class Window(PageWindow):
     def __init__(self, qtbot, folder, devices=True):
-        self.qtbot, self.told = qtbot, []
-        self.desk = Desk(Session.open(folder, by="ada"))
-        self.widget = QWidget()
-        qtbot.addWidget(self.widget)
-        self.scene = Scene()
-        self.bench = Bench(self.desk, self.scene)
-        self.bench.told.connect(self.told.append)
+        super().__init__(qtbot, Session.open(folder, by="ada"), VerifyPage, Scene())
         if devices:
             self.bench.live.open(STEPWISE, STEPWISE)
             self.bench.live.pair.step(300)
-        self.page = VerifyPage(self.bench)
-        layout = QHBoxLayout(self.widget)
-        layout.addWidget(self.scene, 1)
-        layout.addWidget(self.page)
-        self.page.setFixedWidth(360)
-        self.widget.resize(900, 640)
-        self.widget.show()
-        qtbot.waitExposed(self.widget)
-        self.bench.changed.connect(lambda: self.page.show_state(READY))
-        self.page.enter()
-        self.page.show_state(READY)
-
-    def wait(self, condition):
-        self.qtbot.waitUntil(condition, timeout=LONG)
-
-    def click(self, button):
-        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+        self.enter()
 
     def kept(self):
         return kept(self.desk.folder, self.desk.state)
-
-    def close(self):
-        self.page.leave()
-        self.page.close_page()
-        self.bench.close()
-        self.scene.close_scene()
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +44,7 @@ def calibrated(tmp_path_factory):
 @pytest.fixture
 def window(qtbot, calibrated, tmp_path):
     made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"))
-    made.wait(lambda: made.page.tool is not None)
+    made.wait(lambda: made.page.work.tool is not None)
     yield made
     made.close()
 
@@ -86,7 +53,7 @@ def spread(window, count):
     panel = window.page.panel_markers
     panel.count.setValue(count)
     window.click(panel.spread)
-    window.wait(lambda: len(window.page.markers) == count and window.kept() == window.page.markers)
+    window.wait(lambda: len(window.page.work.markers) == count and window.kept() == window.page.work.markers)
 
 
 def test_the_whole_way_by_clicks(window):
@@ -101,21 +68,21 @@ def test_the_whole_way_by_clicks(window):
     page.tick()
     assert "M1" in touch.next.text()
     assert page.panel_markers.table.item(0, 4).text() == "next"
-    for marker in page.markers.all:
+    for marker in page.work.markers.all:
         press(window.bench.live, marker.point_S)
         page.tick()
     assert touch.state.state == "accepted"
-    assert "accepted" in page.sounds.played
+    assert "accepted" in page.panel_touch.sounds.played
     assert touch.error.number.endswith("mm")
     assert "All markers" in touch.next.text()
     window.click(touch.finish)
     window.wait(
-        lambda: page.outcome is not None and not page.work.going_on and touch.start.isVisibleTo(touch)
+        lambda: page.work.outcome is not None and not page.work.going_on and touch.start.isVisibleTo(touch)
     )
-    assert page.outcome.passed
+    assert page.work.outcome.passed
     assert page.tabs.currentIndex() == 4
     assert page.panel_result.verdict.text() == "Passed"
-    assert page.panel_result.number.text() == f"{page.outcome.mean_mm:.2f} mm"
+    assert page.panel_result.number.text() == f"{page.work.outcome.mean_mm:.2f} mm"
     assert page.panel_result.open.isVisible()
     assert Step.VERIFY not in window.bench.running
     assert window.told[-1].weight is Weight.GOOD
@@ -127,11 +94,11 @@ def test_a_touch_that_does_not_count_is_said_in_words(window):
     page = window.page
     page.start()
     window.wait(lambda: page.panel_touch.finish.isEnabled())
-    press(window.bench.live, page.markers.all[0].point_S, force=4.0)
+    press(window.bench.live, page.work.markers.all[0].point_S, force=4.0)
     page.tick()
     assert page.panel_touch.state.state == "rejected"
     assert "force out of window (" in page.panel_touch.state.detail.lower()
-    assert page.sounds.played[-1] == "rejected"
+    assert page.panel_touch.sounds.played[-1] == "rejected"
     window.click(page.panel_touch.discard)
     window.wait(lambda: not page.work.going_on and page.panel_touch.start.isEnabled())
     assert ("recording", "verify-1.mcap") not in window.desk.state.current_inputs
@@ -150,30 +117,29 @@ def test_the_virtual_bench_touches_for_who_has_none(window):
 
 def test_markers_are_edited_and_every_edit_can_be_undone(window):
     page, undo = window.page, window.bench.undo
-    page.panel_markers.typed.emit((0.0, 0.0, 0.15))
+    page.panel_markers.add((0.0, 0.0, 0.15))
     page.panel_markers.pick.setChecked(True)
     window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
-    assert page.markers.names == ("M1", "M2")
+    assert page.work.markers.names == ("M1", "M2")
     page.tick()
     page.panel_markers.table.item(0, 0).setText("tip")
-    assert page.markers.names == ("tip", "M2")
-    page.panel_markers.show_markers([])
+    assert page.work.markers.names == ("tip", "M2")
     page.panel_markers.table.rename_wanted.emit("tip", "M2")
     assert window.told[-1].weight is Weight.WARNING
     page.tick()
-    page.panel_markers.remove_wanted.emit(["M2"])
-    assert page.markers.names == ("tip",)
+    page.panel_markers.remove(["M2"])
+    assert page.work.markers.names == ("tip",)
     undo.undo()
-    assert page.markers.names == ("tip", "M2")
+    assert page.work.markers.names == ("tip", "M2")
     for _ in range(3):
         undo.undo()
-    assert page.markers == Markers()
+    assert page.work.markers == Markers()
     undo.setIndex(4)
-    assert page.markers.names == ("tip",)
-    window.wait(lambda: window.kept() == page.markers)
+    assert page.work.markers.names == ("tip",)
+    window.wait(lambda: window.kept() == page.work.markers)
     page.panel_markers.pick.setChecked(False)
     window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
-    assert page.markers.names == ("tip",)
+    assert page.work.markers.names == ("tip",)
 
 
 def test_a_picked_point_moves_the_marker_that_is_selected(window):
@@ -183,24 +149,24 @@ def test_a_picked_point_moves_the_marker_that_is_selected(window):
     page.panel_markers.pick.setChecked(True)
     page.panel_markers.table.select("M2")
     window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
-    assert page.markers.all[1].point_S.tolist() == [0.01, 0.0, 0.15]
-    assert len(page.markers) == 2
+    assert page.work.markers.all[1].point_S.tolist() == [0.01, 0.0, 0.15]
+    assert len(page.work.markers) == 2
 
 
 def test_a_table_is_imported_and_saved(window, tmp_path):
     page, file = window.page, tmp_path / "m.csv"
     file.write_text("name,x_mm,y_mm,z_mm\nnose,0,0,150\n", encoding="utf-8")
-    page._editing.bring(file)
-    window.wait(lambda: page.markers.names == ("nose",))
-    page._editing.write(tmp_path / "out.csv")
+    page.panel_markers.bring(file)
+    window.wait(lambda: page.work.markers.names == ("nose",))
+    page.panel_markers.write(tmp_path / "out.csv")
     window.wait(lambda: (tmp_path / "out.csv").exists())
-    assert (tmp_path / "out.csv").read_bytes() == page.markers.to_bytes()
+    assert (tmp_path / "out.csv").read_bytes() == page.work.markers.to_bytes()
     file.write_text("nothing\n", encoding="utf-8")
-    page._editing.bring(file)
+    page.panel_markers.bring(file)
     window.wait(
         lambda: any("m.csv" in message.text and message.weight is Weight.WARNING for message in window.told)
     )
-    assert page.markers.names == ("nose",)
+    assert page.work.markers.names == ("nose",)
 
 
 def test_a_marker_is_left_out_only_with_a_reason(window):
@@ -216,18 +182,18 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     dialog.accept()
     assert page.work.touches.left_out == {"M1": "the arm cannot get there"}
     assert "the arm cannot get there" in window.told[-1].text
-    page._leaving.leave_out("M2", "  ")
+    page.panel_touch.leave_out("M2", "  ")
     assert "needs a reason" in window.told[-1].text
-    page._leaving.leave_out("M1", "again")
+    page.panel_touch.leave_out("M1", "again")
     assert "touched meanwhile" in window.told[-1].text
     page.tick()
     assert page.panel_markers.table.item(0, 4).text() == "left out"
-    press(window.bench.live, page.markers.all[1].point_S)
+    press(window.bench.live, page.work.markers.all[1].point_S)
     page.tick()
     window.click(page.panel_touch.finish)
-    window.wait(lambda: page.outcome is not None and not page.work.going_on)
-    assert page.outcome.passed
-    assert any("M1 (the arm cannot get there)" in note for note in page.outcome.notes)
+    window.wait(lambda: page.work.outcome is not None and not page.work.going_on)
+    assert page.work.outcome.passed
+    assert any("M1 (the arm cannot get there)" in note for note in page.work.outcome.found.verdict.notes)
 
 
 def test_settings_are_those_of_the_session_and_can_be_undone(window):
@@ -273,7 +239,7 @@ def test_nothing_of_the_page_stays_in_the_scene_and_no_panel_is_too_wide(window)
     page.leave()
     window.page.enter()
     page.panel_touch.mute.click()
-    assert page.sounds.muted
+    assert page.panel_touch.sounds.muted
 
 
 def found(reason, **known):
@@ -298,7 +264,7 @@ def shown(window, monkeypatch, contact, force=9.0, on=None):
     """Let the page see a contact; return what it says, whether without a doubt, and what it shows in the scene."""
     wrench, seen = np.array([0.0, 0.0, -force, 0.0, 0.0, 0.0]), []
     monkeypatch.setattr(
-        window.bench.live, "reading", lambda: Reading(1.0, wrench, wrench, np.eye(3), contact, on)
+        window.bench.live, "reading", lambda: LiveReading(1.0, wrench, wrench, np.eye(3), contact, on)
     )
     monkeypatch.setattr(window.scene, "show_contact", lambda *given: seen.append(given))
     window.page.tick()

@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLa
 from shiboken6 import isValid
 
 from contactbench.app.settings import Settings
-from contactbench.app.window_wheels import guard_wheels
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.controls import guard_wheels
 
 from .conftest import PlainPage, close, shown
 

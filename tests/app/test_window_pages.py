@@ -13,7 +13,7 @@ def test_every_page_is_visited_on_the_virtual_bench_without_a_complaint(qtbot, m
     window = make_window()
     start = window.start.virtual_button
     shown(qtbot, window, lambda: qtbot.mouseClick(start, Qt.MouseButton.LeftButton))
-    qtbot.waitUntil(lambda: window.live.connected, timeout=60_000)
+    qtbot.waitUntil(lambda: window.bench.connected, timeout=60_000)
     for step in Step:
         qtbot.mouseClick(window.steps.row(step), Qt.MouseButton.LeftButton)
         assert window.pages.step is step

@@ -4,13 +4,16 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
-from contactbench.widgets.checklist import Checklist, ShownCheck
-from contactbench.widgets.marker_table import MarkerTable, ShownMarker
+from contactbench.pipeline.workbench.standings import CheckItem, CheckState
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.workbench.verify_touches import MarkerRow
+from contactbench.widgets.checklist import Checklist
+from contactbench.widgets.marker_table import MarkerTable
 
 ROWS = (
-    ShownMarker("tip", (0.0, -1.2, 150.4), 1, 2, 0.42, 0.51, "next"),
-    ShownMarker("left", (10.0, 0.0, 150.0), 2, 2, 2.4, 3.1, "failed"),
-    ShownMarker("right", (-10.0, 0.0, 150.0)),
+    MarkerRow("tip", (0.0, -1.2, 150.4), 1, 2, 0.42, 0.51),
+    MarkerRow("left", (10.0, 0.0, 150.0), 2, 2, 2.4, 3.1, "failed"),
+    MarkerRow("right", (-10.0, 0.0, 150.0)),
 )
 
 
@@ -19,7 +22,7 @@ def table(qtbot):
     made = MarkerTable()
     qtbot.addWidget(made)
     made.resize(340, 300)
-    made.show_rows(ROWS)
+    made.show_rows(ROWS, 0)
     made.show()
     qtbot.waitExposed(made)
     return made
@@ -58,9 +61,7 @@ def test_a_name_that_is_typed_is_only_asked_for(table, qtbot):
 
 
 def test_delete_asks_for_what_is_selected(table, qtbot):
-    with qtbot.waitSignal(table.selected) as chosen:
-        table.select("left")
-    assert chosen.args == ["left"]
+    table.select("left")
     assert table.current_name == "left"
     with qtbot.waitSignal(table.remove_wanted) as asked:
         qtbot.keyClick(table, Qt.Key.Key_Delete)
@@ -69,7 +70,7 @@ def test_delete_asks_for_what_is_selected(table, qtbot):
 
 def test_a_new_error_keeps_what_is_selected(table):
     table.select("right")
-    table.show_rows((*ROWS[:2], ShownMarker("right", (-10.0, 0.0, 150.0), 1, 1, 0.2, 0.2, "done")))
+    table.show_rows((*ROWS[:2], MarkerRow("right", (-10.0, 0.0, 150.0), 1, 1, 0.2, 0.2, "done")))
     assert table.current_name == "right"
     assert texts(table)[2][3:] == ["0.20", "done"]
 
@@ -79,14 +80,14 @@ def test_a_checklist_says_what_to_do_and_leads_there(qtbot):
     qtbot.addWidget(checks)
     checks.show_items(
         (
-            ShownCheck("Probe", "done", "Made.", 1, True),
-            ShownCheck("Verification", "stale", "The probe <b>changed</b>.", 2, False),
+            CheckItem("Probe", CheckState.DONE, "Made.", Step.PROBE),
+            CheckItem("Verification", CheckState.STALE, "The probe <b>changed</b>.", Step.VERIFY),
         )
     )
     (button,) = checks.findChildren(QPushButton)
     assert "Verification" in button.accessibleName()
     with qtbot.waitSignal(checks.wanted) as asked:
         button.click()
-    assert asked.args == [2]
+    assert asked.args == [Step.VERIFY]
     words = [label.text() for label in checks.findChildren(type(checks._grid.itemAtPosition(1, 1).widget()))]
     assert any("stale" in text and "&lt;b&gt;changed" in text for text in words)

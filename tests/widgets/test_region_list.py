@@ -10,9 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from contactbench.pipeline.mesh.regions import PALETTE
 from contactbench.pipeline.workbench.regions import RegionRow
-from contactbench.widgets.region_list import RegionListWidget
-from contactbench.widgets.region_list_colour import ColourMenu
-from contactbench.widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY
+from contactbench.widgets.region_list import AREA, FACETS, NAME, PRIORITY, ColourMenu, RegionListWidget
 
 ROWS = (
     RegionRow("Lens", "#e69f00", 1200, 12.34e-4),
@@ -67,7 +65,7 @@ def test_the_choice_survives_other_areas_and_fewer_rows(listed):
 
 def test_a_name_is_typed_in_its_place(listed, qtbot):
     with qtbot.waitSignal(listed.renamed) as asked:
-        listed.edit_name()
+        listed.view.edit(listed.rows.index(0, NAME))
         field = listed.view.findChild(QLineEdit)
         field.setText("Window")
         qtbot.keyClick(field, Qt.Key.Key_Return)

@@ -4,14 +4,14 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from contactbench.widgets.strip_chart import History, StripChart
+from contactbench.widgets.strip_chart import ChartHistory, StripChart
 from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
 
 
 def history(count=2000, rate=200.0, start=50.0, bias=0.0):
     times = start + np.arange(count) / rate
     raw = np.tile([1.0, -2.0, 3.0, 0.1, -0.2, 0.3], (count, 1)) + bias
-    return History(times, raw, np.full((count, 6), np.nan))
+    return ChartHistory(times, raw, np.full((count, 6), np.nan))
 
 
 @pytest.fixture
@@ -104,7 +104,7 @@ def test_compensated_is_shown_once_there_is_a_calibration_unless_somebody_chose(
     data = history()
     chart.refresh(data)
     assert chart.kind.currentText() == "Raw"
-    calibrated = History(data.times, data.raw, data.raw - 1.0)
+    calibrated = ChartHistory(data.times, data.raw, data.raw - 1.0)
     chart.refresh(calibrated)
     assert chart.kind.currentText() == "Compensated"
     assert "Fx 0.00" in chart.panes[0].read_out
@@ -117,7 +117,7 @@ def test_compensated_is_shown_once_there_is_a_calibration_unless_somebody_chose(
 def test_contacts_are_in_millimetres(chart):
     data = history()
     chart.refresh(
-        History(
+        ChartHistory(
             data.times,
             data.raw,
             data.compensated,
@@ -179,7 +179,7 @@ def test_there_are_as_many_panes_as_there_is_room(chart, qtbot):
 
 
 def test_nothing_at_all_can_be_shown(chart):
-    chart.refresh(History(np.empty(0), np.empty((0, 6)), np.empty((0, 6))))
+    chart.refresh(ChartHistory(np.empty(0), np.empty((0, 6)), np.empty((0, 6))))
     assert "Fx –" in chart.panes[0].read_out
     chart.follow(None)
     chart.tick()

@@ -12,7 +12,7 @@ from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.session.live import LiveRecording
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-from contactbench.pipeline.workbench.live import Block
+from contactbench.pipeline.workbench.live import LiveBlock
 
 STILL_S = 4.5  # of which the wrist turns for the first
 
@@ -41,7 +41,7 @@ def batches(count=6, bumped=None, begin=0):
 def block(batch, turn=None):
     """Return wrenches as the window gets them; `turn`: the flange as S, times this."""
     R = np.array([truth.R_WS for truth in batch.truths])
-    return Block(
+    return LiveBlock(
         np.array([sample.time for sample in batch.wrenches]),
         np.array([[*sample.force, *sample.torque] for sample in batch.wrenches]),
         R if turn is None else R @ turn,

@@ -12,8 +12,8 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
 from contactbench.pipeline.config.runtime.differ import Difference, Differences
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.export import PLACE, RESULTS, SHA256, export, survey, told
-from contactbench.pipeline.workbench.export_checklist import checklist, results_of
+from contactbench.pipeline.workbench.export import PLACE, SHA256, export, survey, told
+from contactbench.pipeline.workbench.standings import RESULTS, checklist, results_of
 from contactbench.pipeline.workbench.steps import Step
 
 

@@ -9,7 +9,7 @@ from contactbench.pipeline.session.state import State
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.live import Block
+from contactbench.pipeline.workbench.live import LiveBlock
 
 PLAIN = gravity_settings(State())
 
@@ -78,13 +78,13 @@ def test_a_bumped_pose_is_named_left_out_and_can_be_taken_back(work):
     outlier = next(row for row in rejected if row.changeable)
     (finding,) = [each for each in view.solved.findings if each.key == f"rejected {outlier.name}"]
     assert "Take it again" in finding.sentence
-    run.set_left_out([outlier], True)
+    run.set_left_out([outlier.time], True)
     run.wait()
     assert not run.view().solved.findings
     assert [row.name for row in run.view().rows if row.state is PoseState.LEFT_OUT] == [outlier.name]
     (moment,) = run.left_out
     assert moment == outlier.time
-    run.set_left_out([outlier], False)
+    run.set_left_out([outlier.time], False)
     run.wait()
     assert run.left_out == ()
 
@@ -126,7 +126,7 @@ def test_a_mount_is_estimated_also_from_inverse_orientations(work):
     given = {"calibration.inverse": True, "calibration.estimate_mount": True}
     run = work(gravity_settings(_state(given)))
     for each in (block(batch, turn) for batch in batches()):
-        run.feed(Block(each.times, each.wrenches, each.R_WS.swapaxes(1, 2), each.saturated))
+        run.feed(LiveBlock(each.times, each.wrenches, each.R_WS.swapaxes(1, 2), each.saturated))
     run.wait()
     assert run.view().solved.calibration.verdict.level is not Level.REFUSE
     assert run.view().solved.calibration.mass == pytest.approx(0.452, abs=0.02)
@@ -135,7 +135,7 @@ def test_a_mount_is_estimated_also_from_inverse_orientations(work):
 def test_without_orientations_it_says_what_is_missing(work):
     run = work(PLAIN)
     first = block(batches()[0])
-    run.feed(Block(first.times, first.wrenches, np.full_like(first.R_WS, np.nan), first.saturated))
+    run.feed(LiveBlock(first.times, first.wrenches, np.full_like(first.R_WS, np.nan), first.saturated))
     assert run.view().state is StillState.STALE
     assert "orientation" in run.view().sentence
 

@@ -16,9 +16,8 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.session.replay import Outcome, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
+from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.probe_alignment import (
-    PointPair,
     back_to_mesh,
     by_axes,
     by_file,
@@ -28,9 +27,9 @@ from contactbench.pipeline.workbench.probe_alignment import (
 )
 from contactbench.pipeline.workbench.probe_ladder import trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
-from contactbench.pipeline.workbench.undoing import observed
+from contactbench.pipeline.workbench.session_change import observed
 
-PLAN = Plan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
+PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 
 
 @pytest.fixture
@@ -192,12 +191,12 @@ def test_picked_places_give_the_mount_back(work, tmp_path):
     mount = from_angles([3, -4, 50], [10, 20, 100])
     picked_S = mount.place(work.take(egg(tmp_path)).original.probe).vertices[[0, 100, 300, 500]]
     picked_P = back_to_mesh(picked_S, mount)
-    found = by_points([PointPair(*pair) for pair in zip(picked_P, picked_S, strict=True)])
+    found = by_points(list(zip(picked_P, picked_S, strict=True)))
     assert np.allclose(found.T_SP, mount.T_SP, atol=1e-9)
     assert numbers_of(found) == pytest.approx((3, -4, 50, 10, 20, 100))
     assert np.array_equal(back_to_mesh(picked_S, None), picked_S)
     with pytest.raises(InputError, match="2 places are picked"):
-        by_points([PointPair(picked_P[0], picked_S[0])] * 2)
+        by_points([(picked_P[0], picked_S[0])] * 2)
 
 
 def test_the_shape_puts_the_lowest_point_at_its_height(work, tmp_path):

@@ -139,7 +139,7 @@ def test_a_stroke_without_a_region_is_refused(work):
 
 def test_a_step_that_changes_nothing_is_none(work):
     assert work.step(lambda model: model.rename(1, "Lens")) is None
-    assert work.clear(1) is None
+    assert work.give(work.finder(Clear(), 1)()) is None
     with pytest.raises(RegionError, match="rename"):
         work.step(lambda model: model.add("Lens"))
 
@@ -209,7 +209,7 @@ def test_grow_shrink_smooth_and_clear_change_the_whole_region(work):
     assert work.rows()[0].area < grown
     assert start < grown
     work.give(work.finder(Smooth(2), 1)())
-    assert work.clear(1) == "clear Lens"
+    assert work.give(work.finder(Clear(), 1)()) == "clear Lens"
     assert not work.model.labels.any()
 
 

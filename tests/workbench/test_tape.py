@@ -9,7 +9,7 @@ from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import Live
-from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.tape import SessionTape
 
 BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"
 PATIENCE = 30
@@ -31,7 +31,7 @@ def live():
 
 def start(desk, live, name="gravity-1.mcap"):
     desk.do(lambda session: session.set_parameter("devices.serial", "SN 7"))
-    return Tape.start(desk, live, name).result(PATIENCE)
+    return SessionTape.start(desk, live, name).result(PATIENCE)
 
 
 def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):

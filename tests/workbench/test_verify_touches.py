@@ -6,8 +6,8 @@ from verification.touch_cases import MODEL, NOISE, Push, markers, probe, stream
 
 from contactbench.pipeline.verification.protocol import ProtocolSettings, State
 from contactbench.pipeline.verification.verify import VerifySettings
-from contactbench.pipeline.workbench.live import Block
-from contactbench.pipeline.workbench.verify_touches import LiveTouches, Turns, live_noise
+from contactbench.pipeline.workbench.live import LiveBlock
+from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOrder, live_noise
 
 
 def following(**protocol):
@@ -23,7 +23,7 @@ def play(touches, *pushes, start=0.0, seed=0, poses=True):
     clear = np.zeros(len(times), dtype=bool)
     for row in range(0, len(times), 7):
         part = slice(row, row + 7)
-        touches.feed(Block(start + times[part], raw[part], R_WS[part], clear[part]))
+        touches.feed(LiveBlock(start + times[part], raw[part], R_WS[part], clear[part]))
     return start + times[-1] + 0.005
 
 
@@ -109,7 +109,7 @@ def test_in_a_given_order_a_touch_is_of_the_next_marker():
 
 
 def test_turns_go_round_once_per_repeat():
-    turns = Turns.of(("a", "b"), 2, 1)
+    turns = TouchOrder.of(("a", "b"), 2, 1)
     assert turns.names == ["a", "b", "a", "b"]
     assert turns.skip(3)
     assert turns.names == ["a", "b", "a"]
@@ -138,7 +138,7 @@ def test_a_press_that_goes_on_ends_with_the_stream():
     times, wrenches, R_WS = stream(Push(1, held=5.0))
     part = slice(0, 90)
     raw = wrenches[part] - MODEL.compensate(R_WS[part], 0 * wrenches[part])
-    touches.feed(Block(times[part], raw, R_WS[part], np.zeros(90, dtype=bool)))
+    touches.feed(LiveBlock(times[part], raw, R_WS[part], np.zeros(90, dtype=bool)))
     assert touches.view().state is State.SETTLED
     touches.end()
     assert touches.view().last.why
@@ -153,7 +153,7 @@ def test_what_is_in_the_way_is_said():
     R_WS = np.tile(np.eye(3), (60, 1, 1))
     wrench = np.tile([0.0, 0.0, 1.5, 0.0, 0.0, 0.0], (60, 1))
     raw = wrench - MODEL.compensate(R_WS, 0 * wrench)
-    leaning.feed(Block(times, raw, R_WS, np.zeros(60, dtype=bool)))
+    leaning.feed(LiveBlock(times, raw, R_WS, np.zeros(60, dtype=bool)))
     assert "1.5 N" in leaning.view().notice
     fresh = following()
     assert fresh.view().notice == ""

@@ -26,21 +26,13 @@ _CREASE = np.cos(np.radians(40.0))
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """
-    What was computed of a probe.
-
-    Attributes
-    ----------
-    probe : Probe
-    likeness : (vertices, faces, kept) or None
-        See `contactbench.widgets.scene.shapes.thinned`; None: it has few facets.
-    creases : (2 k, 3)
-        Ends of its sharp and open edges, S, m.
-    """
+    """What was computed of a probe."""
 
     probe: Probe
+    # (vertices, faces, kept) or None: See `contactbench.widgets.scene.shapes.thinned`; None: it has few
+    # facets
     likeness: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]] | None
-    creases: NDArray[np.float64]
+    creases: NDArray[np.float64]  # (2 k, 3): Ends of its sharp and open edges, S, m
 
 
 class Ahead(QObject):

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from contactbench.widgets.scene.shapes import circle, frame_on, segments
+from contactbench.widgets.scene.shapes import frame_on, rim
 from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
-    from contactbench.widgets.scene.picking import Pick
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.picker import Pick
+    from contactbench.widgets.scene.stage import SceneStage
 
 
 class BrushLayer:
     """Draws a white circle on a black one, which is seen on every colour."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._radius = 0.0
-        rim = circle()
-        ring = segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3))
-        self._rings = (Shape(stage, ring), Shape(stage, ring))
+        self._rings = (Shape(stage, rim()), Shape(stage, rim()))
         for shape, colour, lift in zip(self._rings, ("#000000", "#ffffff"), (2.0, 2.5), strict=True):
             shape.plain()
             shape.lift(lift)

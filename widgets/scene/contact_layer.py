@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.widgets.scene.label import Label
-from contactbench.widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
+from contactbench.widgets.scene.shapes import disc, frame_on, rim, ring_segments, segments
 from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.picking import Picker
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.picker import Picker
+    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
@@ -26,11 +26,10 @@ CHI2_95 = 5.991  # of two degrees of freedom
 class ContactLayer:
     """Draws the contact."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._disc = Shape(stage, disc())
-        rim = circle()
-        self._rim = Shape(stage, segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3)))
+        self._rim = Shape(stage, rim())
         self._dot = Shape(stage, disc())
         self._lost = Shape(stage, vtkPolyData())
         for shape, lift in ((self._disc, 1.0), (self._lost, 1.1), (self._rim, 1.2), (self._dot, 1.3)):

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.widgets.scene.views import Look, Screen, fitted, looking, moved
+from contactbench.widgets.scene.views import SceneLook, Screen, fitted, looking, moved
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtCore import QPointF
 
-    from contactbench.widgets.scene.picking import Pick
+    from contactbench.widgets.scene.picker import Pick
     from contactbench.widgets.scene.pose_layer import PoseLayer
     from contactbench.widgets.scene.probe_layer import ProbeLayer
-    from contactbench.widgets.scene.stage import Stage
-    from contactbench.widgets.scene.view import View
+    from contactbench.widgets.scene.stage import SceneStage
+    from contactbench.widgets.scene.view import SceneView
 
 _AROUND = 1.25  # room about the probe for the arrow of a force
 _COVERED = 64.0  # px along the lower edge: buttons and the scale bar
@@ -29,12 +29,12 @@ class Eye:
 
     Attributes
     ----------
-    look : Look
+    look : SceneLook
     reach : float
         How far from the origin there is anything, m; grows and shrinks in steps of two.
     """
 
-    def __init__(self, view: View, stage: Stage, probe: ProbeLayer, poses: PoseLayer) -> None:
+    def __init__(self, view: SceneView, stage: SceneStage, probe: ProbeLayer, poses: PoseLayer) -> None:
         self._view, self._stage, self._probe, self._poses = view, stage, probe, poses
         self.look = looking("oblique", (0.0, 0.0, 0.0), 0.08)
         self.reach = 0.1
@@ -71,7 +71,7 @@ class Eye:
         least = min(0.05 * end, 0.3 * distance) if look.perspective else 1e-6
         camera.SetClippingRange(max(near, least), end)
 
-    def fit(self, view: str | None) -> Look:
+    def fit(self, view: str | None) -> SceneLook:
         """Return the camera in which all of the probe is seen, from a named side or from where it is."""
         middle, radius = self._ball()
         high = max(self._view.height(), 1)
@@ -84,7 +84,7 @@ class Eye:
             found = looking(view, middle, radius, self.look.perspective)
         return moved(found, 0.0, -covered * radius)
 
-    def with_perspective(self, perspective: bool) -> Look:
+    def with_perspective(self, perspective: bool) -> SceneLook:
         """Return the camera in the other way of looking."""
         return replace(self.look, perspective=perspective)
 

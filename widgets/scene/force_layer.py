@@ -12,23 +12,17 @@ from contactbench.widgets.scene.stage import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
 
+_METRES_PER_NEWTON = 0.005
 _LEAST = 1e-4  # m: a shorter arrow is none
 
 
 class ForceLayer:
-    """
-    Draws the force.
+    """Draws the force."""
 
-    Attributes
-    ----------
-    metres_per_newton : float
-    """
-
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
-        self.metres_per_newton = 0.005
         self._shaft, self._head = Shape(stage, cylinder()), Shape(stage, cone())
         self.show(None, None)
         self.dress()
@@ -46,7 +40,7 @@ class ForceLayer:
 
     def show(self, force: NDArray[np.float64] | None, at: NDArray[np.float64] | None) -> None:
         """Show a force (3,), N, with its tip at a point (3,), m."""
-        length = 0.0 if force is None else float(np.linalg.norm(force)) * self.metres_per_newton
+        length = 0.0 if force is None else float(np.linalg.norm(force)) * _METRES_PER_NEWTON
         shown = bool(np.isfinite(length)) and length > _LEAST
         self._shaft.show(shown)
         self._head.show(shown)

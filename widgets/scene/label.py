@@ -15,7 +15,7 @@ from vtkmodules.vtkRenderingCore import vtkPolyDataMapper2D, vtkTexture, vtkText
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
 
 _POINTS = 11.0
 
@@ -34,7 +34,9 @@ class Label:
         Device pixels.
     """
 
-    def __init__(self, stage: Stage, offset: tuple[float, float] = (10.0, 0.0), plain: bool = False) -> None:
+    def __init__(
+        self, stage: SceneStage, offset: tuple[float, float] = (10.0, 0.0), plain: bool = False
+    ) -> None:
         self._stage, self.offset, self._plain = stage, offset, plain
         self.point: NDArray[np.float64] = np.zeros(3)
         self.wanted = True

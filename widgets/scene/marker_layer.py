@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 _SIGNS = {"open": "", "done": " ✓", "failed": " ✗"}
@@ -29,7 +29,7 @@ _LONGER = 10.0  # how much longer than the error its arrow is
 class MarkerLayer:
     """Draws markers."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._points: NDArray[np.float64] = np.zeros((0, 3))
         self._states: tuple[str, ...] = ()

@@ -9,12 +9,12 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.widgets.scene.label import Label
 from contactbench.widgets.scene.shapes import (
-    circle,
     cone,
     cylinder,
     disc,
     frame_on,
     homogeneous,
+    rim,
     segments,
     triangles,
 )
@@ -23,7 +23,7 @@ from contactbench.widgets.scene.stage import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 # Lighter on dark grounds: a pure blue letter is not read there.
@@ -36,7 +36,7 @@ _THROUGH = 60.0  # a lift that shows the axes through the probe: that of z lies 
 class Arrow:
     """A straight arrow of a length along an axis of its frame's z."""
 
-    def __init__(self, stage: Stage, turns: bool) -> None:
+    def __init__(self, stage: SceneStage, turns: bool) -> None:
         self._stage = stage
         self.shapes = (Shape(stage, cylinder(12), turns=turns), Shape(stage, cone(16), turns=turns))
 
@@ -52,7 +52,7 @@ class Arrow:
 class PoseLayer:
     """Draws frames and poses."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._frame = [Arrow(stage, turns=True) for _ in range(3)]
         self._letters = [Label(stage, offset=(-6.0, 0.0), plain=True) for _ in range(3)]
@@ -64,7 +64,7 @@ class PoseLayer:
         self._down = Arrow(stage, turns=False)
         self._down_word = Label(stage, offset=(8.0, 0.0))
         self._floor = Shape(stage, vtkPolyData(), live=False, turns=False)
-        self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, _rim())
+        self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, rim())
         self.dark = self.in_world = False
         self._ghost.look.BackfaceCullingOn()
         for arrow in self._frame:
@@ -211,8 +211,3 @@ def _tool(size: float) -> Any:
         low + _SIDES + here,
     ]
     return triangles(vertices, np.stack(np.broadcast_arrays(*corners), axis=-1).reshape(-1, 3))
-
-
-def _rim() -> Any:
-    rim = circle()
-    return segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3))

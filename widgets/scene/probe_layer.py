@@ -11,8 +11,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.widgets.scene.ahead import MANY
 from contactbench.widgets.scene.fields import cividis
-from contactbench.widgets.scene.hatching import crosses, hatches
-from contactbench.widgets.scene.picking import Picker
+from contactbench.widgets.scene.hatch import crosses, hatches
+from contactbench.widgets.scene.picker import Picker
 from contactbench.widgets.scene.shapes import segments, thinned, triangles
 from contactbench.widgets.scene.stage import Shape
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.widgets.scene.ahead import Prepared
-    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import SceneStage
 
 _NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness
 PLAIN = 205  # grey of facets without a region, of 255
@@ -40,7 +40,7 @@ class ProbeLayer:
         In S, m.
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self.probe: Probe | None = None
         self.picker: Picker | None = None
@@ -231,7 +231,7 @@ class ProbeLayer:
         mapper.SetUseLookupTableScalarRange(True)
 
 
-def _surface(stage: Stage) -> Shape:
+def _surface(stage: SceneStage) -> Shape:
     shape = Shape(stage, vtkPolyData(), live=False)
     shape.look.SetInterpolationToFlat()
     shape.look.SetAmbient(0.42)

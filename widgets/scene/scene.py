@@ -16,18 +16,18 @@ from contactbench.widgets.scene.contact_layer import ContactLayer
 from contactbench.widgets.scene.eye import Eye
 from contactbench.widgets.scene.fields import limits_of
 from contactbench.widgets.scene.force_layer import ForceLayer
+from contactbench.widgets.scene.frame_pacer import FramePacer
 from contactbench.widgets.scene.marker_layer import MarkerLayer
 from contactbench.widgets.scene.mouse import Mouse
 from contactbench.widgets.scene.overlays import ColourBar, ScaleBar, ViewButtons
-from contactbench.widgets.scene.pacing import Pacing
-from contactbench.widgets.scene.picking import Pick
+from contactbench.widgets.scene.picker import Pick
 from contactbench.widgets.scene.pose_layer import PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer
 from contactbench.widgets.scene.shapes import homogeneous
-from contactbench.widgets.scene.stage import Stage, rgb
+from contactbench.widgets.scene.stage import SceneStage, rgb
 from contactbench.widgets.scene.still import StillPicture
-from contactbench.widgets.scene.view import View
-from contactbench.widgets.scene.views import VIEWS, Look, Screen
+from contactbench.widgets.scene.view import SceneView
+from contactbench.widgets.scene.views import VIEWS, SceneLook, Screen
 from contactbench.widgets.theme import colours as theme_colours
 from contactbench.widgets.theme import is_dark
 
@@ -67,7 +67,7 @@ class Scene(QWidget):
         self.setAccessibleName(self.tr("3D view of the probe"))
         self._closed = False
         self._fitted = False
-        self.view = View(self)
+        self.view = SceneView(self)
         self._live = vtkRenderer()
         self._layers()
         self._children()
@@ -85,12 +85,12 @@ class Scene(QWidget):
         # Not in the first frame, which makes ready all that draws: in two halves the window stands still for less.
         self._live.DrawOff()
         window.AddRenderer(self._live)
-        self._pacing = Pacing(self.view, self)
+        self._pacing = FramePacer(self.view, self)
         self._pacing.drawn.connect(self.drawn)
         self._pacing.settled.connect(self._refine)
         self._pacing.beat.connect(self._beat)
         self.ahead = Ahead(self._prepared, self)
-        self.stage = Stage(still, self._live, self.redraw)
+        self.stage = SceneStage(still, self._live, self.redraw)
         self.probe_layer = ProbeLayer(self.stage)
         self._force = ForceLayer(self.stage)
         self._contact = ContactLayer(self.stage)
@@ -178,10 +178,6 @@ class Scene(QWidget):
         """Show the force on the probe as an arrow whose tip is at a point; without one, at the sensor's origin."""
         self._force.show(force, at)
         self.redraw()
-
-    def set_force_scale(self, metres_per_newton: float) -> None:
-        """Choose how long the arrow of 1 N is; used from the next force on."""
-        self._force.metres_per_newton = metres_per_newton
 
     def show_contact(
         self,
@@ -274,7 +270,7 @@ class Scene(QWidget):
     def set_camera(self, camera: tuple[tuple[float, float, float], ...]) -> None:
         """Look as `camera` said."""
         self._fitted = True
-        self._set_look(Look.of(camera, self._eye.look))
+        self._set_look(SceneLook.of(camera, self._eye.look))
 
     def set_dark(self, dark: bool) -> None:
         """Choose the theme."""
@@ -319,7 +315,7 @@ class Scene(QWidget):
         """Return what is seen at a place of the view, in pixels of Qt."""
         return self._eye.pick(place)
 
-    def move_camera(self, look: Look) -> None:
+    def move_camera(self, look: SceneLook) -> None:
         """Look otherwise, and tell it."""
         self._set_look(look)
         self._moves()
@@ -377,7 +373,7 @@ class Scene(QWidget):
             layer.dress()
         self.stage.stir()
 
-    def _set_look(self, look: Look) -> None:
+    def _set_look(self, look: SceneLook) -> None:
         self._eye.look = look
         self.buttons.buttons["perspective"].setChecked(look.perspective)
         self.redraw()

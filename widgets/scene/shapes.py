@@ -38,6 +38,12 @@ def circle() -> NDArray[np.float64]:
     return np.column_stack([np.cos(angle), np.sin(angle), np.zeros(_CIRCLE)])
 
 
+def rim() -> Any:
+    """Return the unit circle as a line."""
+    ends = circle()
+    return segments(np.stack([ends, np.roll(ends, -1, axis=0)], axis=1).reshape(-1, 3))
+
+
 def ring_segments(frames: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the unit circle in each of several frames (k, 4, 4), as segments (k * 128, 3)."""
     rim = circle()

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from contactbench.widgets.theme import Colours
 
 
-class Stage:
+class SceneStage:
     """
     What all layers share.
 
@@ -57,7 +57,7 @@ class Shape:
 
     Parameters
     ----------
-    stage : Stage
+    stage : SceneStage
     data : vtkPolyData
     live : bool
         Drawn above what stands still, with every redraw.
@@ -65,7 +65,7 @@ class Shape:
         Turns with the tool.
     """
 
-    def __init__(self, stage: Stage, data: Any, live: bool = True, turns: bool = True) -> None:
+    def __init__(self, stage: SceneStage, data: Any, live: bool = True, turns: bool = True) -> None:
         self.stage, self.turns, self._live = stage, turns, live
         self.mapper = vtkPolyDataMapper()
         self.mapper.SetInputData(data)

@@ -39,7 +39,7 @@ def log_vtk() -> None:
         window.AddObserver(event, heard)
 
 
-class View(QtInteractor):  # type: ignore[misc]
+class SceneView(QtInteractor):  # type: ignore[misc]
     """
     A QtInteractor that draws when Qt paints, and leaves mouse, keys and dropped files to the scene.
 
@@ -47,8 +47,6 @@ class View(QtInteractor):  # type: ignore[misc]
     """
 
     dropped = Signal(object)  # Path
-    began_gl = Signal()
-    resized_gl = Signal()
 
     def __init__(self, parent: QWidget) -> None:
         log_vtk()
@@ -70,7 +68,6 @@ class View(QtInteractor):  # type: ignore[misc]
         if self._RenderWindow is not None and not self.software:
             self._RenderWindow.SetMultiSamples(_SAMPLES)
         super().initializeGL()
-        self.began_gl.emit()
 
     def paintGL(self) -> None:
         """Draw a frame."""

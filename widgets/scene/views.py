@@ -25,23 +25,14 @@ _NEAREST, _FARTHEST = 2e-4, 5.0  # half of what is seen from bottom to top, m
 
 
 @dataclass(frozen=True)
-class Look:
-    """
-    A camera.
+class SceneLook:
+    """A camera."""
 
-    Attributes
-    ----------
-    position, focal, up : (x, y, z)
-        Where it is, what it looks at, and what points upwards on screen; m.
-    scale : float
-        Half of what is seen from bottom to top at the focal point, m.
-    perspective : bool
-    """
-
+    # position, focal, up: (x, y, z): Where it is, what it looks at, and what points upwards on screen; m
     position: Triple
     focal: Triple
     up: Triple
-    scale: float
+    scale: float  # Half of what is seen from bottom to top at the focal point, m
     perspective: bool = False
 
     @property
@@ -65,27 +56,27 @@ class Look:
         return self.position, self.focal, self.up, (self.scale, float(self.perspective), 0.0)
 
     @staticmethod
-    def of(tuples: tuple[Triple, ...], otherwise: Look) -> Look:
+    def of(tuples: tuple[Triple, ...], otherwise: SceneLook) -> SceneLook:
         """Return what `tuples` made; position, focal point and up alone leave the rest as it was."""
         position, focal, up = tuples[:3]
         scale, perspective = tuples[3][:2] if len(tuples) > 3 else (otherwise.scale, otherwise.perspective)
-        return Look(position, focal, up, scale, bool(perspective))
+        return SceneLook(position, focal, up, scale, bool(perspective))
 
 
-def looking(view: str, focal: Triple, radius: float, perspective: bool = False) -> Look:
+def looking(view: str, focal: Triple, radius: float, perspective: bool = False) -> SceneLook:
     """Return the camera of a named view in which a ball of a radius (m) about the focal point is seen."""
     toward, up = _DIRECTIONS[view]
     unit = np.divide(toward, np.linalg.norm(toward))
-    return Look(_triple(np.add(focal, 4.0 * radius * unit)), focal, up, radius, perspective)
+    return SceneLook(_triple(np.add(focal, 4.0 * radius * unit)), focal, up, radius, perspective)
 
 
-def fitted(look: Look, focal: Triple, radius: float) -> Look:
+def fitted(look: SceneLook, focal: Triple, radius: float) -> SceneLook:
     """Return the camera, in the same direction, in which a ball of a radius (m) about a point is seen."""
     position = _triple(focal - 4.0 * radius * look.axes[2])
     return replace(look, position=position, focal=focal, scale=radius)
 
 
-def turned(look: Look, right: float, down: float) -> Look:
+def turned(look: SceneLook, right: float, down: float) -> SceneLook:
     """Return the camera after the scene was dragged by angles, radians, about the focal point."""
     axes = look.axes
     R = _rotation(axes[1], -right) @ _rotation(axes[0], -down)
@@ -93,7 +84,7 @@ def turned(look: Look, right: float, down: float) -> Look:
     return replace(look, position=_triple(np.add(look.focal, R @ away)), up=_triple(R @ axes[1]))
 
 
-def moved(look: Look, right: float, down: float) -> Look:
+def moved(look: SceneLook, right: float, down: float) -> SceneLook:
     """Return the camera after the scene was dragged by lengths, m at the focal point."""
     axes = look.axes
     step = -right * axes[0] + down * axes[1]
@@ -102,7 +93,7 @@ def moved(look: Look, right: float, down: float) -> Look:
     )
 
 
-def scaled(look: Look, factor: float, right: float = 0.0, up: float = 0.0) -> Look:
+def scaled(look: SceneLook, factor: float, right: float = 0.0, up: float = 0.0) -> SceneLook:
     """Return the camera with all `factor` times as large; what is at (right, up), m from the middle, stays."""
     scale = float(np.clip(look.scale / factor, _NEAREST, _FARTHEST))
     share = 1.0 - scale / look.scale
@@ -122,17 +113,10 @@ def _triple(vector: NDArray[np.float64]) -> Triple:
 
 @dataclass(frozen=True)
 class Screen:
-    """
-    A camera and the picture it makes.
+    """A camera and the picture it makes."""
 
-    Attributes
-    ----------
-    look : Look
-    width, height : int
-        Device pixels.
-    """
-
-    look: Look
+    look: SceneLook
+    # width, height: Device pixels
     width: int
     height: int
 

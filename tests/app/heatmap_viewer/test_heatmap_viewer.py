@@ -76,7 +76,7 @@ def opened(qtbot, viewer, files, *names):
 
 
 def settled(viewer):
-    sides = viewer.sides[: viewer.visible_sides()]
+    sides = viewer.sides[: viewer.visible()]
     quiet = not viewer.jobs.running and not viewer._redraw.isActive()
     return quiet and all(side.playback is not None for side in sides)
 

@@ -18,7 +18,7 @@ from PySide6.QtCore import QEvent, QPointF, QTimer
 
 import contactbench.app.application
 from contactbench.app.settings import Settings
-from contactbench.app.undo import SetParameter
+from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
@@ -60,12 +60,14 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
         until(lambda: bool(page.work.model.labels.any()), "paint to be on the probe")
         until(lambda: not page.keeper.dirty and bench.desk.state.count > before, "the regions to be kept")
     elif step is Step.VERIFY:
-        until(lambda: page.tool is not None and page.panel_markers.spread.isEnabled(), "the markers' table")
+        until(
+            lambda: page.work.tool is not None and page.panel_markers.spread.isEnabled(), "the markers' table"
+        )
         page.panel_markers.count.setValue(3)
         page.panel_markers.spread.click()
         until(lambda: bench.desk.state.count > before, "the markers to be kept")
     else:
-        bench.undo.push(SetParameter(bench, f"study.{step.value}", 1.0, "set a number"))
+        bench.undo.push(SetParameters(bench, {f"study.{step.value}": 1.0}, "set a number"))
         until(lambda: bench.desk.state.count > before, "the setting to be kept")
     until(lambda: Settings().page_of(bench.desk.folder) == step.value, "the page to be remembered")
 

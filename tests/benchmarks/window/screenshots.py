@@ -142,7 +142,7 @@ class _Tour:
         from contactbench.app.pages.verify import VerifyPage
 
         assert isinstance(page, VerifyPage)
-        self._until(lambda: page.tool is not None and len(page.markers) > 0)
+        self._until(lambda: page.work.tool is not None and len(page.work.markers) > 0)
         page.start()
         self._until(lambda: page.work.touches is not None)
         touches = page.work.touches

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.app.pages.probe_housing import bench_address, take_housing
+from contactbench.app.pages.virtual_mesh import bench_address, take_housing
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
@@ -19,10 +19,10 @@ from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
+from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.regions_session import apply, open_work
 from contactbench.pipeline.workbench.regions_session import keep as keep_regions
-from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def touch_all(live: Live, touches: LiveTouches, most: int = _MOST) -> None:
 
 def _weigh(desk: Desk, live: Live) -> None:
     work = GravityWork(gravity_settings(desk.state), live_R_ES=live.R_ES)
-    tape = Tape.start(desk, live, gravity_results.next_name(desk.state, desk.folder)).result()
+    tape = SessionTape.start(desk, live, gravity_results.next_name(desk.state, desk.folder)).result()
     end = live.follow(work.feed)
     try:
         for _ in range(_MOST):
@@ -132,7 +132,9 @@ def _prepare(desk: Desk, _live: Live) -> None:
     work = ProbeWork(desk)
     try:
         housing = take_housing(work, address)
-        plan = Plan(units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment, facets=_FACETS)
+        plan = ProbePlan(
+            units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment, facets=_FACETS
+        )
         preview = work.preview(housing.mesh, plan)
         desk.do(lambda session: commit(session, preview)).result()
     finally:

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QWheelEvent
 
-from contactbench.widgets.scene.views import Look, Screen, looking, moved, scaled, turned
+from contactbench.widgets.scene.views import SceneLook, Screen, looking, moved, scaled, turned
 
 FRONT = np.array([0.01, -0.015, 0.02])
 
@@ -34,7 +34,7 @@ def wheel(bench, place, notches, modifiers=Qt.KeyboardModifier.NoModifier):
 
 @pytest.mark.parametrize("perspective", [False, True])
 def test_a_ray_goes_through_what_is_projected_onto_its_pixel(perspective):
-    look = Look((0.3, -0.2, 0.4), (0.01, 0.0, 0.05), (0.0, 0.1, 1.0), 0.08, perspective)
+    look = SceneLook((0.3, -0.2, 0.4), (0.01, 0.0, 0.05), (0.0, 0.1, 1.0), 0.08, perspective)
     screen = Screen(look, 640, 480)
     points = np.random.default_rng(0).uniform(-0.05, 0.05, (20, 3))
     for point, (x, y, _) in zip(points, screen.project(points), strict=True):

@@ -13,7 +13,7 @@ from benchmarks.window.balls import ball, measure
 
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.fields import cividis, round_length, ticks
-from contactbench.widgets.scene.hatching import hatch_segments
+from contactbench.widgets.scene.hatch import hatch_segments
 from contactbench.widgets.scene.shapes import thinned
 
 

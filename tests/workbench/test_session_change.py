@@ -1,7 +1,7 @@
 import pytest
 
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.undoing import change_between, observed, value_in
+from contactbench.pipeline.workbench.session_change import change_between, observed, value_in
 
 
 @pytest.fixture
@@ -23,12 +23,16 @@ def test_a_setting_goes_back_and_forth(session):
     assert values(session)["devices.sensor"] == "still"
 
 
-def test_a_setting_that_was_not_there_becomes_what_is_meant_without_it(session):
-    assert value_in(session.state, "calibration.inverse") is False
+@pytest.mark.parametrize(
+    ("key", "value", "meant"),
+    [("calibration.inverse", True, False), ("verification.windows", [[7.0, 9.0]], [[8.0, 10.0]])],
+)
+def test_a_setting_that_was_not_there_becomes_what_is_meant_without_it(session, key, value, meant):
+    assert value_in(session.state, key) == meant
     assert value_in(session.state, "devices.sensor") is None
-    _, change = observed(lambda s: s.set_parameter("calibration.inverse", True))(session)
+    _, change = observed(lambda s: s.set_parameter(key, value))(session)
     change.undo(session)
-    assert values(session)["calibration.inverse"] is False
+    assert values(session)[key] == meant
 
 
 def test_setting_the_same_value_is_nothing_to_undo(session):

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QGroupBox, QVBoxLayout, QWidget
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.workbench.probe_alignment import (
-    PointPair,
     back_to_mesh,
     by_axes,
     by_file,
@@ -18,38 +17,32 @@ from contactbench.pipeline.workbench.probe_alignment import (
     by_touches,
     numbers_of,
 )
+from contactbench.widgets.alignment_panel import AlignmentPanel
+from contactbench.widgets.mesh_report import MeshReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
-    from typing import Any
 
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.app.pages.probe_sections import NextBar, PlaceSection
     from contactbench.app.pages.probe_stages import ProbeStages
     from contactbench.app.pages.probe_view import Shown
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
 
 
-class Placing(QObject):
-    """
-    Answers the panel.
+class PlaceSection(QGroupBox):
+    """Where the mesh lies in the sensor frame."""
 
-    Parameters
-    ----------
-    stages : ProbeStages
-    bar : NextBar
-        Says what was wrong.
-    section : PlaceSection
-    """
-
-    def __init__(self, stages: ProbeStages, bar: NextBar, section: PlaceSection) -> None:
-        super().__init__(stages)
-        self._stages, self._bar, self._section = stages, bar, section
-        self.panel = section.panel
+    def __init__(self, stages: ProbeStages, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTitle(self.tr("3  Place on the sensor"))
+        self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.panel)
+        layout.addWidget(self.report)
         stages.begun.connect(self.panel.clear_picks)
         stages.aligned.connect(self.show_alignment)
         panel = self.panel
@@ -77,7 +70,7 @@ class Placing(QObject):
         if alignment is not None:
             said += [("doubt", each) for each in alignment.warnings]
             said += [("note", each) for each in (*notes, *alignment.how)]
-        self._section.report.show_sentences(said)
+        self.report.show_sentences(said)
 
     # ---- the ways --------------------------------------------------------------------------------
 
@@ -85,7 +78,7 @@ class Placing(QObject):
         self._try(lambda: from_angles(list(numbers[:3]), list(numbers[3:])))
 
     def _by_points(self, pairs: list[tuple[NDArray[np.float64], NDArray[np.float64]]]) -> None:
-        self._try(lambda: by_points([PointPair(*pair) for pair in pairs]))
+        self._try(lambda: by_points(pairs))
 
     def _by_shape(self, lowest_mm: float) -> None:
         mesh = self._mesh()
@@ -119,13 +112,11 @@ class Placing(QObject):
         try:
             self._stages.put(align())
         except InputError as error:
-            self._bar.say(str(error), bad=True)
+            self._stages.bar.say(str(error), bad=True)
 
     def _work(self, align: Callable[[Callable[[float], None]], tuple[Alignment, tuple[str, ...]]]) -> None:
-        def done(found: tuple[Alignment, tuple[str, ...]]) -> None:
-            self._stages.put(*found)
-
-        def work(progress: Callable[[float], None], _cancelled: Any) -> tuple[Alignment, tuple[str, ...]]:
-            return align(progress)
-
-        self._stages.worker.start(self.tr("Placing the mesh"), work, done)
+        self._stages.worker.start(
+            self.tr("Placing the mesh"),
+            lambda progress, _cancelled: align(progress),
+            lambda found: self._stages.put(*found),
+        )

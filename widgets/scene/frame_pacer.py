@@ -10,14 +10,14 @@ from PySide6.QtCore import QObject, QTimer, Signal
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.widgets.scene.view import View
+    from contactbench.widgets.scene.view import SceneView
 
 _FRAME_MS = 33
 _SETTLE_MS = 180
 _PULSE_MS = 80
 
 
-class Pacing(QObject):
+class FramePacer(QObject):
     """
     The scene's timers.
 
@@ -33,7 +33,7 @@ class Pacing(QObject):
     settled = Signal()  # nothing has moved for a moment
     beat = Signal()  # while it pulses
 
-    def __init__(self, view: View, parent: QObject) -> None:
+    def __init__(self, view: SceneView, parent: QObject) -> None:
         super().__init__(parent)
         self._view = view
         self._closed = self.brisk = self._drawing = False

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QSizePolicy, QStackedWidget, QTabBar, QToolBar, QWidget
 
+from contactbench.widgets.controls import PanelScroll
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QMainWindow
@@ -75,11 +75,11 @@ class ReadOnlyView(QObject):
         """Lock a widget, but leave what is needed to scroll and to turn to another tab."""
         if isinstance(widget, QTabBar):
             return
-        if widget.findChild(Scrolled) is None and not isinstance(widget, Scrolled):
+        if widget.findChild(PanelScroll) is None and not isinstance(widget, PanelScroll):
             widget.setEnabled(False)
             widget.installEventFilter(self)
             return
-        inside = widget.widget() if isinstance(widget, Scrolled) else None
+        inside = widget.widget() if isinstance(widget, PanelScroll) else None
         for child in [inside] if inside is not None else widget.findChildren(QWidget, options=_DIRECT):
             self._lock_in(child)
 

@@ -23,23 +23,12 @@ SENSOR = "devices.sensor"
 
 @dataclass(frozen=True, eq=False)
 class Housing:
-    """
-    A mesh with what is known about it.
-
-    Attributes
-    ----------
-    mesh : Mesh
-    alignment : Alignment or None
-        None: it is aligned.
-    units : str
-    alpha_mm : float or None
-        Size of the outer surface's facets.
-    """
+    """A mesh with what is known about it."""
 
     mesh: Mesh
-    alignment: Alignment | None
+    alignment: Alignment | None  # None: it is aligned
     units: str
-    alpha_mm: float | None
+    alpha_mm: float | None  # Size of the outer surface's facets
 
 
 def bench_address(state: State) -> DeviceAddress | None:

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 PAUSE = 1500  # ms after the last change
 
 
-class Keeper(QObject):
+class RegionAutosave(QObject):
     """
-    What keeps the regions of one page.
+    Saves the regions of one page.
 
     Attributes
     ----------

@@ -1,14 +1,15 @@
-"""A session whose last write failed: the window says so, looks at the disk, and goes on by itself when that does."""
+"""The disk under a session: a write that failed, and files that are not as they were written."""
 
 from __future__ import annotations
 
 import time
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 
 from contactbench.app.bench import Weight
 from contactbench.app.errors import in_words
+from contactbench.app.opening import damage
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -16,10 +17,11 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
 
 _EVERY_S = 2.0
+_AFTER_MS, _MOST = 2000, 5
 
 
 class DiskWatch(QObject):
-    """Looks after the disk of one session; belongs to its bench."""
+    """Says that the last write failed, and goes on by itself when the disk does; belongs to its bench."""
 
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
@@ -65,3 +67,42 @@ class DiskWatch(QObject):
         elif not isinstance(error.__cause__, OSError):  # it is not the disk: waiting mends nothing
             self._hopeless = True
             self._bench.tell(Weight.ERROR, *in_words(error)[:2])
+
+
+class DamageCheck(QObject):
+    """
+    Looks at every file of a session once, and tells what is not as it was written; belongs to its bench.
+
+    Some time after it was opened, in a worker: the window is drawn first.
+    """
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self._bench = bench
+        QTimer.singleShot(_AFTER_MS, self, self._look)
+
+    def _look(self) -> None:
+        if self._bench.ending:
+            return
+        folder = self._bench.desk.folder
+        self._bench.jobs.start(
+            self.tr("Checking the session's files"),
+            lambda _progress, cancelled: damage(folder, cancelled),
+            self._tell,
+        )
+
+    def _tell(self, problems: tuple[str, ...]) -> None:
+        for problem in reversed(problems[:_MOST]):
+            self._bench.tell(Weight.ERROR, problem)
+        if problems:
+            words = (
+                self.tr(
+                    "A file of this session is not as it was written, so nothing that rests on it counts."
+                )
+                if len(problems) == 1
+                else self.tr(
+                    "{} files of this session are not as they were written, so nothing that rests on them counts."
+                    " `contactbench session verify` lists them all."
+                )
+            )
+            self._bench.tell(Weight.ERROR, words.format(len(problems)))

@@ -15,18 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Pick:
-    """
-    A place on the probe under the mouse.
-
-    Attributes
-    ----------
-    face : int
-    point : (3,)
-        S, m.
-    """
+    """A place on the probe under the mouse."""
 
     face: int
-    point: NDArray[np.float64]
+    point: NDArray[np.float64]  # (3,): S, m
 
 
 def _number(value: float) -> Any:

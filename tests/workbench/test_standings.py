@@ -3,8 +3,7 @@ import json
 import pytest
 
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.export_checklist import results_of
-from contactbench.pipeline.workbench.statuses import Facts, read_facts, statuses
+from contactbench.pipeline.workbench.standings import read_facts, results_of, statuses
 from contactbench.pipeline.workbench.steps import Step, StepState
 
 
@@ -125,5 +124,5 @@ def test_files_that_cannot_be_read_are_left_out(session):
     add(session, "calibration", GOOD)
     found = session.state.current_results["calibration", "calibration.json"]
     (session.folder / found.file.path).write_bytes(b"{")
-    assert read_facts(session.folder, session.state) == Facts()
+    assert read_facts(session.folder, session.state) == {"calibration": {}}
     assert look(session)[Step.GRAVITY].state is StepState.DONE

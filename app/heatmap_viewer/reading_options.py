@@ -1,13 +1,26 @@
-"""The part of the viewer's panel that asks how recordings are read."""
+"""How recordings are read, beside the files that are given, and the part of the viewer's panel that asks."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFormLayout, QGroupBox, QHBoxLayout, QWidget
+from dataclasses import dataclass
 
-from contactbench.app.heatmap_viewer.how import HowRead
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGroupBox, QWidget
+
+from contactbench.widgets.controls import HIGH, form, named, row
 
 _PATIENCE = 600  # ms without a change before recordings are read again
+
+
+@dataclass(frozen=True)
+class HowRead:
+    """What a recording does not say itself; as the options of ``contactbench heatmap draw``."""
+
+    # (3,) or None: How the sensor is turned against the flange: degrees about the fixed axes x, y, z.
+    # None: as a session says, not at all without one
+    mount: tuple[float, float, float] | None = None
+    delay: float = 0.0  # How much later a wrench is heard than its pose, s
+    min_force: float = 0.5  # Touches are above this, N
 
 
 class ReadingBox(QGroupBox):
@@ -22,7 +35,7 @@ class ReadingBox(QGroupBox):
         self.own_mount.setToolTip(
             self.tr("Off: as the session says, or not turned. On: about the flange's fixed axes x, y, z.")
         )
-        self.own_mount.setMinimumHeight(36)
+        self.own_mount.setMinimumHeight(HIGH)
         self.mount = [
             self._field(
                 -360.0, 360.0, f"{axis} ", "°", self.tr("Mount about {axis}, degrees").format(axis=axis)
@@ -45,28 +58,17 @@ class ReadingBox(QGroupBox):
         self._show_mount(False)
 
     def _field(self, low: float, high: float, prefix: str, suffix: str, name: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox()
-        field.setRange(low, high)
-        field.setDecimals(1)
-        field.setPrefix(prefix)
-        field.setSuffix(suffix)
-        field.setMinimumSize(84, 36)
-        field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        field.setAccessibleName(name)
-        field.setToolTip(name)
+        field = QDoubleSpinBox(decimals=1, minimum=low, maximum=high, prefix=prefix, suffix=suffix)
+        named(field, name).setMinimumSize(84, HIGH)
         return field
 
     def _lay_out(self) -> None:
-        form = QFormLayout(self)
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        form.addRow(self.own_mount)
-        row = QHBoxLayout()
-        row.setSpacing(4)
-        for field in self.mount:
-            row.addWidget(field, 1)
-        form.addRow(row)
-        form.addRow(self.tr("Delay"), self.delay)
-        form.addRow(self.tr("Touched above"), self.least)
+        rows = form(self)
+        rows.setContentsMargins(9, 9, 9, 9)
+        rows.addRow(self.own_mount)
+        rows.addRow(row(*((field, 1) for field in self.mount), space=4))
+        rows.addRow(self.tr("Delay"), self.delay)
+        rows.addRow(self.tr("Touched above"), self.least)
 
     def how(self) -> HowRead:
         """Return what is chosen."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from pydantic_core import PydanticUndefined
+from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from contactbench.pipeline.session.recompute import PARAMETERS
 from contactbench.pipeline.session.state import MESH
@@ -22,7 +22,7 @@ UNDONE = "undone"
 
 
 @dataclass(frozen=True)
-class Change:
+class SessionChange:
     """What an action did to a session; by it, the action can be taken back and done again."""
 
     # Key -> value before and after; a setting that was not there has the value that it then stands for
@@ -65,10 +65,10 @@ class Change:
             put_result(session, after_result)
 
 
-def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, Change]]:
+def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, SessionChange]]:
     """Return an action that also tells what it did."""
 
-    def run(session: Session) -> tuple[T, Change]:
+    def run(session: Session) -> tuple[T, SessionChange]:
         before = session.state
         result = action(session)
         return result, change_between(before, session.state)
@@ -76,7 +76,7 @@ def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, Cha
     return run
 
 
-def change_between(before: State, after: State) -> Change:
+def change_between(before: State, after: State) -> SessionChange:
     """Return what is another in a session's state."""
     settings = {
         key: (value_in(before, key), setting.value)
@@ -94,7 +94,7 @@ def change_between(before: State, after: State) -> Change:
         for slot, new in after.current_results.items()
         if old_results.get(slot) != new
     }
-    return Change(settings, inputs, results)
+    return SessionChange(settings, inputs, results)
 
 
 def value_in(state: State, key: str) -> Any:
@@ -107,9 +107,7 @@ def value_in(state: State, key: str) -> Any:
     if known is None or parameter not in known.model_fields:
         return None
     default = known.model_fields[parameter].get_default(call_default_factory=True)
-    if default is PydanticUndefined:
-        return None
-    return list(default) if isinstance(default, tuple) else default
+    return None if default is PydanticUndefined else to_jsonable_python(default)
 
 
 def put_result(session: Session, result: Result) -> None:

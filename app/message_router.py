@@ -13,14 +13,14 @@ from contactbench.app.errors import LOG, in_words
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench, Message
+    from contactbench.app.bench import Bench, Notice
     from contactbench.app.jobs import Job
     from contactbench.app.window_docks import Docks
 
 
-class Told(QObject):
+class MessageRouter(QObject):
     """
-    Tells things.
+    Puts messages where they belong.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Told(QObject):
         if weight in (Weight.WARNING, Weight.ERROR) and self._docks.message_dock.isHidden():
             self._docks.message_dock.show()
 
-    def message(self, message: Message) -> None:
+    def message(self, message: Notice) -> None:
         """Put a page's message into the list."""
         self.tell(message.weight, message.text, message.details)
 

@@ -14,7 +14,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.heatmap_viewer.sources import Source
+    from contactbench.app.heatmap_viewer.sources import HeatmapSource
     from contactbench.app.heatmap_viewer.viewer import HeatmapViewer
     from contactbench.pipeline.heatmap.film import FilmSettings
     from contactbench.pipeline.heatmap.selection import Selection
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _SUFFIXES = (".png", ".ply", ".glb", ".mp4", ".gif")
 
 
-class Saving(QObject):
+class HeatmapExport(QObject):
     """Saves what a viewer shows; of two that are compared, both."""
 
     def __init__(self, viewer: HeatmapViewer) -> None:
@@ -49,7 +49,7 @@ class Saving(QObject):
         from contactbench.pipeline.heatmap.film import FilmSettings
 
         viewer, kind = self._viewer, file.suffix.lower()
-        sources = [viewer.source(number) for number in range(viewer.visible_sides())]
+        sources = [viewer.source(number) for number in range(viewer.visible())]
         names = (
             [file]
             if len(sources) == 1
@@ -79,7 +79,7 @@ class Saving(QObject):
         self._viewer.controls.say(said)
 
 
-def _still(source: Source, selection: Selection, file: Path, cancelled: Callable[[], bool]) -> None:
+def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: Callable[[], bool]) -> None:
     from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
     from contactbench.pipeline.heatmap.picture import encode_png
     from contactbench.pipeline.heatmap.selection import selected_heatmap
@@ -98,7 +98,7 @@ def _still(source: Source, selection: Selection, file: Path, cancelled: Callable
 
 
 def _film(
-    source: Source,
+    source: HeatmapSource,
     selection: Selection,
     settings: FilmSettings,
     file: Path,

@@ -1,0 +1,164 @@
+"""Dialogs that only show something: a help page, the log, the keys that there are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtGui import QAction, QFontDatabase, QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHeaderView,
+    QPlainTextEdit,
+    QTableWidget,
+    QTableWidgetItem,
+    QTextBrowser,
+    QVBoxLayout,
+)
+
+from contactbench.app.translation import in_use
+
+if TYPE_CHECKING:
+    from PySide6.QtWidgets import QWidget
+
+_MARGIN_PX = 16
+
+
+class ShowDialog(QDialog):
+    """
+    Shows widgets one below the other, the last one as large as there is room; goes when it is closed.
+
+    Parameters
+    ----------
+    title : str
+    size : (int, int)
+        Px.
+    parent : QWidget, optional
+    """
+
+    def __init__(self, title: str, size: tuple[int, int], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(title)
+        self.resize(*size)
+
+    def fill(self, *widgets: QWidget) -> None:
+        """Put widgets above the button that closes it."""
+        buttons = QDialogButtonBox()
+        close = buttons.addButton(self.tr("Close"), QDialogButtonBox.ButtonRole.RejectRole)
+        close.setDefault(True)
+        buttons.rejected.connect(self.close)
+        layout = QVBoxLayout(self)
+        for widget in widgets:
+            layout.addWidget(widget, int(widget is widgets[-1]))
+        layout.addWidget(buttons)
+
+
+class TextDialog(ShowDialog):
+    """
+    Shows text, which can be copied.
+
+    Parameters
+    ----------
+    title, text : str
+    parent : QWidget, optional
+    markdown : bool
+        Whether the text is Markdown; plain lines otherwise.
+    """
+
+    def __init__(
+        self, title: str, text: str, parent: QWidget | None = None, *, markdown: bool = False
+    ) -> None:
+        super().__init__(title, (720, 560), parent)
+        self.view: QTextBrowser | QPlainTextEdit
+        if markdown:
+            self.view = QTextBrowser(openExternalLinks=True)
+            self.view.setMarkdown(text)
+            self.view.document().setDocumentMargin(_MARGIN_PX)
+        else:
+            self.view = QPlainTextEdit(text, readOnly=True)
+            self.view.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.view.setAccessibleName(title)
+        self.fill(self.view)
+
+
+def page_text(name: str) -> str:
+    """Return a help page, Markdown, in the language of the window where there is one."""
+    folder = files("contactbench.app") / "help"
+    for file in (f"{name}.{in_use()}.md", f"{name}.md"):
+        page = folder / file
+        if page.is_file():
+            return page.read_text(encoding="utf-8")
+    return QCoreApplication.translate("Help", "There is no help on this page yet.")
+
+
+# ---- keys ------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Key:
+    """What a key does, for people."""
+
+    keys: str
+    words: str
+
+
+def keys_of(window: QWidget) -> tuple[Key, ...]:
+    """Return every key of a window: of its actions, and of shortcuts that say what they do (`whatsThis`)."""
+    found: dict[str, str] = {}
+    # The window's own first, then those of pages, which hold only there.
+    for action in sorted(window.findChildren(QAction), key=lambda each: each.parent() is not window):
+        words = action.text().replace("&", "").rstrip("…")
+        keys = [key.toString(QKeySequence.SequenceFormat.NativeText) for key in action.shortcuts()]
+        if keys and words:
+            found.setdefault(", ".join(keys), words)
+    for shortcut in window.findChildren(QShortcut):
+        keys_text = shortcut.key().toString(QKeySequence.SequenceFormat.NativeText)
+        if shortcut.whatsThis() and keys_text:
+            found.setdefault(keys_text, shortcut.whatsThis())
+    return tuple(Key(keys, words) for keys, words in found.items())
+
+
+class CheatSheet(ShowDialog):
+    """The keys that really are in the window, and what tables, charts and the scene take themselves."""
+
+    def __init__(self, window: QWidget) -> None:
+        super().__init__("", (560, 620), window)
+        self.setWindowTitle(self.tr("Shortcuts"))
+        keys = (*keys_of(window), *self._handled())
+        self.table = QTableWidget(len(keys), 2)
+        self.table.setHorizontalHeaderLabels([self.tr("Key"), self.tr("What it does")])
+        self.table.verticalHeader().hide()
+        self.table.setShowGrid(False)
+        self.table.setSelectionMode(QTableWidget.SelectionMode.NoSelection)
+        self.table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
+        self.table.setAccessibleName(self.tr("Shortcuts"))
+        for row, key in enumerate(keys):
+            self.table.setItem(row, 0, QTableWidgetItem(key.keys))
+            self.table.setItem(row, 1, QTableWidgetItem(key.words))
+        header = self.table.horizontalHeader()
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        header.setStretchLastSection(True)
+        self.fill(self.table)
+
+    def _handled(self) -> tuple[Key, ...]:
+        """Return what widgets take themselves where they have the focus or the pointer; no action stands for it."""
+        return (
+            Key(self.tr("Delete"), self.tr("Leave out the selected poses; remove the selected markers")),
+            Key(self.tr("Return"), self.tr("Take the selected poses back")),
+            Key(
+                self.tr("Arrow keys"),
+                self.tr("Choose a point of the chart of facets; move a handle of a range"),
+            ),
+            Key(self.tr("Left or right button, dragged"), self.tr("Turn the view")),
+            Key(self.tr("Middle button, dragged"), self.tr("Move the view")),
+            Key(self.tr("Wheel"), self.tr("Nearer or farther")),
+            Key(self.tr("Ctrl and wheel"), self.tr("Larger or smaller brush")),
+            Key(self.tr("Shift, held"), self.tr("The brush erases, the eraser paints")),
+            Key(self.tr("P"), self.tr("Play or pause (heatmap viewer)")),
+            Key(self.tr("Ctrl+S"), self.tr("Save a picture (heatmap viewer)")),
+        )

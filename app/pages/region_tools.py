@@ -1,0 +1,355 @@
+"""The tools of the Regions page: those that work in the scene, and those that change a region as a whole."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QCheckBox,
+    QDoubleSpinBox,
+    QGridLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QSlider,
+    QSpinBox,
+    QToolButton,
+    QWidget,
+)
+
+from contactbench.pipeline.workbench.regions import Box, Clear, Flood, Grow, Mirror, Plane, Shrink, Smooth
+from contactbench.widgets.controls import (
+    HIGH,
+    HeightStack,
+    add_key,
+    choice,
+    column,
+    named,
+    push_button,
+    row,
+    sentence_label,
+    show_quietly,
+)
+from contactbench.widgets.icons import icon
+from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
+
+if TYPE_CHECKING:
+    from contactbench.pipeline.workbench.regions import Tool, Vector
+    from contactbench.widgets.scene.scene import Pick
+
+LOOK, BRUSH, ERASER, FILL, BOX, PLANE = "look", "brush", "eraser", "fill", "box", "plane"
+_AXES = ("x", "y", "z")
+_MARGIN = 1.0  # mm around picked corners: two picks on a flat side span no box
+_PAGES = (LOOK, BRUSH, FILL, BOX, PLANE)
+
+
+class ToolPanel(QWidget):
+    """
+    Choosing a tool and what it does; it touches neither the scene nor the regions.
+
+    Attributes
+    ----------
+    tool : str
+        LOOK, BRUSH, ERASER, FILL, BOX or PLANE.
+    """
+
+    tool_changed = Signal(str)
+    radius_changed = Signal(float)  # m
+    asked = Signal(object, bool)  # Tool, whether to take away
+    planned = Signal(object)  # Tool whose numbers were changed, or None: nothing to show beforehand
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.tool = LOOK
+        self._buttons: dict[str, QToolButton] = {}
+        self._corner: tuple[float, float, float] | None = None
+        self.protect = QCheckBox(self.tr("Protect other regions"))
+        self.protect.setToolTip(self.tr("Facets that belong to another region stay there"))
+        self.protect.setMinimumHeight(32)
+        look = sentence_label(self.tr("Choose a tool. The right button always turns the view."), "muted")
+        buttons = self._make_buttons()
+        self._stack = HeightStack(
+            look, self._make_brush(), self._make_fill(), self._make_box(), self._make_plane()
+        )
+        column(self, buttons, self._stack, self.protect, space=6)
+        self.choose(LOOK)
+
+    # ---- choosing --------------------------------------------------------------------------------
+
+    def choose(self, tool: str, _checked: bool = True) -> None:
+        """Choose a tool."""
+        self.tool = tool
+        self._buttons[tool].setChecked(True)
+        self._stack.show_page(_PAGES.index(BRUSH if tool == ERASER else tool))
+        self._corner = None
+        self.tool_changed.emit(tool)
+        self.plan()
+
+    def show_radius(self, radius: float) -> None:
+        """Show the brush's radius, m."""
+        show_quietly(self.radius, 1000 * radius)
+        with QSignalBlocker(self.radius_slider):
+            self.radius_slider.setValue(round(100 * math.log(radius / SMALLEST)))
+
+    def show_plan(self, text: str) -> None:
+        """Say what the box or plane would take."""
+        for label in (self.box_plan, self.plane_plan):
+            label.setText(text)
+
+    def picked(self, pick: Pick) -> None:
+        """Take a place that was clicked on the probe."""
+        if self.tool == FILL:
+            self.asked.emit(Flood(pick.face, math.radians(self.crease.value())), self.fill_erase.isChecked())
+        elif self.tool == BOX:
+            self._corner_picked(1000 * float(pick.point[0]), *(1000 * float(x) for x in pick.point[1:]))
+        elif self.tool == PLANE:
+            axis = self.side.currentIndex() // 2
+            self.position.setValue(1000 * float(pick.point[axis]))
+
+    def _corner_picked(self, *corner: float) -> None:
+        x, y, z = corner
+        other, self._corner = self._corner, None if self._corner else (x, y, z)
+        first = other or corner
+        for axis in range(3):
+            low, high = sorted((first[axis], corner[axis]))
+            show_quietly(self.lows[axis], low - _MARGIN)
+            show_quietly(self.highs[axis], high + _MARGIN)
+        hint = self.tr("Now click the opposite corner.") if self._corner else self._box_words()
+        self.box_hint.setText(hint)
+        self.plan()
+
+    def planned_tool(self) -> Tool | None:
+        """Return the box or plane of the numbers as they are; None for other tools, or numbers that are no box."""
+        if self.tool == BOX:
+            low, high = ([field.value() / 1000 for field in fields] for fields in (self.lows, self.highs))
+            if all(one < other for one, other in zip(low, high, strict=True)):
+                return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+        if self.tool == PLANE:
+            axis, sign = divmod(self.side.currentIndex(), 2)
+            at = self.position.value() / 1000
+            return Plane(_along(axis, at), _along(axis, -1.0 if sign else 1.0))
+        return None
+
+    def plan(self) -> None:
+        """Ask for what the numbers would take to be shown."""
+        if self.tool in (BOX, PLANE):
+            planned = self.planned_tool()
+            self.planned.emit(planned)
+            if planned is None:
+                self.show_plan(self.tr("Each low number must be below the high one."))
+        else:
+            self.planned.emit(None)
+
+    def _give(self, erase: bool) -> None:
+        planned = self.planned_tool()
+        if planned is not None:
+            self.asked.emit(planned, erase)
+
+    # ---- its parts -------------------------------------------------------------------------------
+
+    def _make_buttons(self) -> QGridLayout:
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        group = QButtonGroup(self)
+        entries = (
+            (LOOK, "camera", self.tr("Look"), "L", self.tr("Turn the view with the left button")),
+            (BRUSH, "brush", self.tr("Brush"), "B", self.tr("Paint the chosen region")),
+            (ERASER, "eraser", self.tr("Eraser"), "E", self.tr("Take facets out of their region")),
+            (FILL, "flood", self.tr("Fill"), "F", self.tr("Fill up to sharp edges")),
+            (BOX, "box", self.tr("Box"), "X", self.tr("Everything between two corners")),
+            (PLANE, "down", self.tr("Half"), "H", self.tr("Everything on one side of a plane")),
+        )
+        for number, (tool, picture, text, key, tip) in enumerate(entries):
+            button = QToolButton()
+            button.setText(text)
+            button.setIcon(icon(picture))
+            button.setIconSize(QSize(20, 20))
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+            button.setCheckable(True)
+            button.setMinimumSize(96, HIGH)
+            button.setToolTip(f"{tip} ({key})")
+            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            button.clicked.connect(partial(self.choose, tool))
+            group.addButton(button)
+            grid.addWidget(button, number // 3, number % 3)
+            self._buttons[tool] = button
+            add_key(self, self.tr("{0} (regions)").format(text), key, partial(self.choose, tool))
+        return grid
+
+    def _make_brush(self) -> QWidget:
+        self.radius_slider = QSlider(Qt.Orientation.Horizontal)
+        self.radius_slider.setRange(0, round(100 * math.log(LARGEST / SMALLEST)))
+        self.radius_slider.setAccessibleName(self.tr("Radius of the brush"))
+        self.radius_slider.setToolTip(self.tr("[ and ], or Ctrl and the wheel"))
+        self.radius = _length(1000 * SMALLEST, 1000 * LARGEST, self.tr("Radius of the brush, mm"))
+        self.radius_slider.valueChanged.connect(
+            lambda value: self.radius_changed.emit(SMALLEST * math.exp(value / 100))
+        )
+        self.radius.valueChanged.connect(lambda value: self.radius_changed.emit(value / 1000))
+        self.show_radius(USUAL)
+        words = self.tr("Drag over the probe. Shift: the other way. Esc: take the stroke back.")
+        line = _labelled(self.tr("Radius"), self.radius_slider, self.radius)
+        return _page(line, sentence_label(words, "muted"))
+
+    def _make_fill(self) -> QWidget:
+        self.crease_slider = QSlider(Qt.Orientation.Horizontal)
+        self.crease_slider.setRange(1, 90)
+        self.crease_slider.setAccessibleName(self.tr("Sharpest edge that is crossed"))
+        self.crease = QDoubleSpinBox(minimum=1, maximum=90, decimals=0, suffix=" °")
+        self.crease.setMinimumHeight(HIGH)
+        self.crease.setAccessibleName(self.tr("Sharpest edge that is crossed, degrees"))
+        self.crease.setToolTip(self.tr("Edges sharper than this stop the fill, degrees"))
+        self.crease_slider.valueChanged.connect(lambda value: self.crease.setValue(value))
+        self.crease.valueChanged.connect(lambda value: self.crease_slider.setValue(round(value)))
+        self.crease.setValue(30)
+        self.fill_erase = QCheckBox(self.tr("Take away instead"))
+        self.fill_erase.setMinimumHeight(32)
+        words = self.tr("Click on the probe: everything up to such edges is filled.")
+        line = _labelled(self.tr("Edges over"), self.crease_slider, self.crease)
+        return _page(line, self.fill_erase, sentence_label(words, "muted"))
+
+    def _make_box(self) -> QWidget:
+        self.box_hint, self.box_plan = sentence_label(self._box_words(), "muted"), sentence_label("", "muted")
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        self.lows: list[QDoubleSpinBox] = []
+        self.highs: list[QDoubleSpinBox] = []
+        for axis, name in enumerate(_AXES):
+            grid.addWidget(QLabel(name), axis, 0)
+            for place, fields, end in ((1, self.lows, self.tr("low")), (2, self.highs, self.tr("high"))):
+                words = self.tr("{0} {1}, mm in the sensor frame S").format(name, end)
+                field = _length(-2000, 2000, words)
+                field.setValue(-10 if fields is self.lows else 10)
+                field.valueChanged.connect(self.plan)
+                fields.append(field)
+                grid.addWidget(field, axis, place)
+        for place in (1, 2):
+            grid.setColumnStretch(place, 1)
+        return _page(self.box_hint, grid, self.box_plan, self._make_giving())
+
+    def _make_plane(self) -> QWidget:
+        words = self.tr("Click on the probe to move the plane there, or type the number.")
+        sides = [
+            (text.format(name), None)
+            for name in _AXES
+            for text in (self.tr("{0} above"), self.tr("{0} below"))
+        ]
+        self.side = choice(sides, self.tr("Which side of the plane"), tip="")
+        self.side.setCurrentIndex(4)
+        self.position = _length(-2000, 2000, self.tr("Where the plane is, mm in the sensor frame S"))
+        self.side.currentIndexChanged.connect(self.plan)
+        self.position.valueChanged.connect(self.plan)
+        self.plane_plan = sentence_label("", "muted")
+        line = row((self.side, 1), (self.position, 1))
+        return _page(sentence_label(words, "muted"), line, self.plane_plan, self._make_giving())
+
+    def _make_giving(self) -> QHBoxLayout:
+        give, take = (
+            self.tr("Give these facets to the chosen region"),
+            self.tr("Take these facets out of the chosen region"),
+        )
+        return row(
+            push_button(self.tr("Add"), lambda: self._give(False), tip=give),
+            push_button(self.tr("Take away"), lambda: self._give(True), tip=take),
+        )
+
+    def _box_words(self) -> str:
+        return self.tr("Click two opposite corners on the probe, or type the numbers.")
+
+
+class ShapePanel(QGroupBox):
+    """Asks for what is to be done with the chosen region as a whole; does nothing itself."""
+
+    asked = Signal(object)  # Tool
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTitle(self.tr("The chosen region"))
+        self.across = choice(
+            [(self.tr("at {0} =").format(axis), None) for axis in _AXES],
+            self.tr("Plane to mirror at"),
+            tip="",
+        )
+        self.at = _length(-2000, 2000, self.tr("Where the mirror plane is, mm in the sensor frame S"))
+        self.amount = _length(0.1, 100, self.tr("How far to grow or shrink, mm along the surface"))
+        self.amount.setValue(1)
+        self.rings = QSpinBox(minimum=1, maximum=50, value=2, prefix=self.tr("Rings: "))
+        named(
+            self.rings,
+            self.tr("How many rings of facets to smooth over"),
+            tip=self.tr("What is narrower than about this many facets goes"),
+        ).setMinimumWidth(84)
+        self.mirror_button = push_button(
+            self.tr("Mirror"),
+            lambda: self.asked.emit(self._mirror()),
+            "mirror",
+            tip=self.tr("Also take what lies on the other side of the plane (M)"),
+        )
+        self.mirror_button.setIconSize(QSize(20, 20))
+        self.grow_button = push_button(
+            self.tr("Grow"),
+            lambda: self.asked.emit(Grow(self.amount.value() / 1000)),
+            tip=self.tr("Move the border outwards; other regions stay"),
+        )
+        self.shrink_button = push_button(
+            self.tr("Shrink"),
+            lambda: self.asked.emit(Shrink(self.amount.value() / 1000)),
+            tip=self.tr("Move the border inwards"),
+        )
+        self.smooth_button = push_button(
+            self.tr("Smooth"),
+            lambda: self.asked.emit(Smooth(self.rings.value())),
+            tip=self.tr("Straighten the border, fill holes, remove specks"),
+        )
+        self.clear_button = push_button(
+            self.tr("Clear"),
+            lambda: self.asked.emit(Clear()),
+            tip=self.tr("Take all facets out of the region"),
+        )
+        grid = QGridLayout(self)
+        grid.setSpacing(4)
+        grid.setContentsMargins(2, 2, 2, 2)
+        for line, widgets in enumerate(
+            (
+                (self.mirror_button, self.across, self.at),
+                (self.grow_button, self.shrink_button, self.amount),
+                (self.smooth_button, self.clear_button, self.rings),
+            )
+        ):
+            for place, widget in enumerate(widgets):
+                grid.addWidget(widget, line, place)
+        grid.setColumnStretch(2, 1)  # numbers need the room, words do not
+        add_key(self, self.tr("Mirror the chosen region"), "M", self.mirror_button.click)
+
+    def _mirror(self) -> Tool:
+        axis = self.across.currentIndex()
+        return Mirror(_along(axis, self.at.value() / 1000), _along(axis, 1.0))
+
+
+def _length(least: float, most: float, words: str) -> QDoubleSpinBox:
+    """Return a field for a length in mm."""
+    field = QDoubleSpinBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm")
+    named(field, words).setMinimumWidth(84)  # its own would be for the longest number that it could hold
+    return field
+
+
+def _labelled(words: str, slider: QSlider, field: QDoubleSpinBox) -> QHBoxLayout:
+    label = QLabel(words)
+    label.setBuddy(field)
+    return row(label, slider, field)
+
+
+def _page(*parts: QWidget | QHBoxLayout | QGridLayout) -> QWidget:
+    page = QWidget()
+    column(page, *parts, space=6)
+    return page
+
+
+def _along(axis: int, length: float) -> Vector:
+    """Return a vector along an axis."""
+    x, y, z = (length if each == axis else 0.0 for each in range(3))
+    return (x, y, z)

@@ -1,0 +1,397 @@
+"""How the results of a session stand: each step in a state and a sentence, and line by line what an export rests on."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.regions_session import Standing, standing
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from pathlib import Path
+
+    from contactbench.pipeline.session import State
+    from contactbench.pipeline.session.state import Input, Result
+
+    Content = dict[str, Any]
+    Facts = Mapping[str, Content]
+    Stale = Mapping[tuple[str, str], tuple[str, ...]]
+
+SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.serial", "devices.mount"
+RESULTS = "export.results"
+
+
+class CheckState(StrEnum):
+    """How a part of an export stands."""
+
+    DONE = "done"
+    STALE = "stale"
+    MISSING = "missing"
+    FAILED = "failed"
+    OPTIONAL = "left out"
+
+
+@dataclass(frozen=True)
+class CheckItem:
+    """One line of the checklist."""
+
+    name: str  # What it is
+    state: CheckState
+    sentence: str  # What came of it, or what to do
+    step: Step  # Where that is done
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing has to be done about it."""
+        return self.state in (CheckState.DONE, CheckState.OPTIONAL)
+
+
+# ---- what the results say --------------------------------------------------------------------------
+
+
+def read_facts(folder: Path, state: State) -> dict[str, Content]:
+    """
+    Return what the small JSON file of each kind's newest result says, of a probe the one beside it.
+
+    It reads files, so not in a window's thread. Empty where one cannot be read: whoever needs it says why.
+    """
+    files: dict[str, Path] = {}
+    for kind in ("calibration", "verification", *CHECK_KINDS):
+        if (found := state.newest(kind)) is not None:
+            files[kind] = folder / found.file.path
+    if (probe := state.newest("probe")) is not None:
+        beside = probe.companions if hasattr(probe, "companions") else probe.action.files
+        files.update(("probe", folder / file.path) for name, file in beside.items() if name.endswith(".json"))
+    return {kind: _json(file) for kind, file in files.items()}
+
+
+def _json(file: Path) -> Content:
+    try:
+        content = json.loads(file.read_bytes())
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+@dataclass(frozen=True)
+class Judged:
+    """How the newest result of a kind stands."""
+
+    found: Result | Input | None  # None: there is none, or somebody undid or rejected it
+    state: CheckState
+    why: str = ""  # Why it was rejected, is stale or failed
+    reasons: tuple[str, ...] = ()  # Of its verdict
+
+    @property
+    def day(self) -> str:
+        """When it was made, for people."""
+        return "" if self.found is None else self.found.at[:16].replace("T", " ") + " UTC"
+
+
+class Judge:
+    """
+    Says how results stand.
+
+    Parameters
+    ----------
+    state : State
+    stale : mapping
+        As `Session.stale` says.
+    facts : mapping
+        As `read_facts` says; a kind that is left out is taken to be good.
+    """
+
+    def __init__(self, state: State, stale: Stale, facts: Facts) -> None:
+        self.state, self._stale, self._facts = state, stale, facts
+
+    def of(self, kind: str) -> Judged:
+        """Return how the newest result of a kind stands."""
+        found = self.state.newest(kind)
+        if found is None:
+            return Judged(None, CheckState.MISSING)
+        if found.rejected:
+            return Judged(None, CheckState.FAILED, "" if found.mark is None else found.mark.reason)
+        if reasons := self._stale.get(found.slot, ()):
+            return Judged(found, CheckState.STALE, reasons[0])
+        verdict = self.verdict(kind)
+        given = verdict.get("reasons")
+        said = tuple(map(str, given)) if isinstance(given, list) else ()
+        failed = (
+            verdict.get("level") == "refuse"
+            if kind == "calibration"
+            else kind == "verification" and kind in self._facts and verdict.get("passed") is not True
+        )
+        why = said[0] if said else ""
+        return Judged(found, CheckState.FAILED if failed else CheckState.DONE, why, said)
+
+    def fact(self, kind: str, name: str) -> Any:
+        """Return what the file of a kind's newest result has under a name; None: nothing."""
+        return self._facts.get(kind, {}).get(name)
+
+    def verdict(self, kind: str) -> Content:
+        """Return the verdict of a calibration or a verification; empty: there is none."""
+        found = self.fact(kind, "verdict")
+        return found if isinstance(found, dict) else {}
+
+    @property
+    def figures(self) -> str:
+        """How far off the touches of the verification were, in words; empty: nobody knows."""
+        overall = self.fact("verification", "overall")
+        mean, most = (
+            overall.get(name) if isinstance(overall, dict) else None for name in ("mean_mm", "max_mm")
+        )
+        if not isinstance(mean, int | float) or not isinstance(most, int | float):
+            return ""
+        return f"{mean:.2f} mm on average, {most:.2f} mm at most"
+
+
+# ---- the steps -------------------------------------------------------------------------------------
+
+
+def statuses(
+    state: State,
+    stale: Stale,
+    running: Iterable[Step],
+    connected: bool,
+    failed: Mapping[Step, str],
+    facts: Facts | None = None,
+) -> dict[Step, StepStatus]:
+    """
+    Say how every step stands.
+
+    Parameters
+    ----------
+    state : State
+    stale : mapping
+        As `Session.stale` says.
+    running : set of Step
+        In which something goes on.
+    connected : bool
+        Whether the devices are open.
+    failed : mapping
+        Step -> what went wrong there last, in a sentence, until it is done again.
+    facts : mapping, optional
+        As `read_facts` says; left out, results are taken to be good.
+    """
+    judge = Judge(state, stale, facts or {})
+    missing = _missing(judge)
+    known = {
+        Step.DEVICES: StepStatus(*_devices(state, connected)),
+        Step.GRAVITY: StepStatus(*_gravity(judge)),
+        Step.PROBE: StepStatus(*_probe(judge)),
+        Step.REGIONS: StepStatus(*_regions(judge)),
+        Step.VERIFY: StepStatus(*((StepState.LOCKED, missing) if missing else _verify(judge))),
+        Step.EXPORT: StepStatus(*((StepState.LOCKED, missing) if missing else _export(judge))),
+    }
+    for step, why in failed.items():
+        # What is done holds, whatever went wrong afterwards; its page says so.
+        if known[step].state in {StepState.READY, StepState.LOCKED}:
+            known[step] = StepStatus(StepState.FAILED, why)
+    for step in running:
+        known[step] = StepStatus(StepState.RUNNING, _GOING_ON[step])
+    return known
+
+
+_GOING_ON = {
+    Step.DEVICES: "The devices are being tried.",
+    Step.GRAVITY: "A calibration is being recorded.",
+    Step.PROBE: "The probe is being prepared.",
+    Step.REGIONS: "The regions are being put on the probe.",
+    Step.VERIFY: "A verification is being recorded.",
+    Step.EXPORT: "A bundle is being written.",
+}
+
+
+def _devices(state: State, connected: bool) -> tuple[StepState, str]:
+    sensor = state.setting(SENSOR)
+    if not sensor:
+        words = "Choose the sensor and where its orientation comes from, then test the connection."
+        return StepState.READY, words
+    scheme, name = str(sensor).partition("://")[0], str(sensor).partition("?")[0]
+    name = {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, name)
+    if not connected:
+        return StepState.DONE, f"Chosen: {name}. It is not connected: connect it to measure."
+    words = f"Connected: {name}."
+    if not state.setting(POSES):
+        words += " Nothing tells its orientation: gravity cannot be calibrated without."
+    return StepState.DONE, words
+
+
+def _gravity(judge: Judge) -> tuple[StepState, str]:
+    judged = judge.of("calibration")
+    if judged.found is None:
+        if not judge.state.setting(SENSOR):
+            return StepState.LOCKED, "Choose the devices first."
+        return StepState.READY, "Hold the tool still in about six orientations; the next one is shown."
+    if judged.state is CheckState.STALE:
+        return StepState.STALE, f"{judged.why} Calibrate again."
+    if judged.state is CheckState.FAILED:
+        return StepState.FAILED, f"The calibration was refused. {judged.why} Calibrate again."
+    usable = " It is usable, not good." if judge.verdict("calibration").get("level") == "usable" else ""
+    return StepState.DONE, f"Calibrated on {judged.day}.{usable}"
+
+
+def _probe(judge: Judge) -> tuple[StepState, str]:
+    judged = judge.of("probe")
+    if judged.found is None:
+        return StepState.READY, "Choose the probe's mesh, put it where it is, and simplify it."
+    if judged.state is CheckState.STALE:
+        return StepState.STALE, f"{judged.why} Prepare it again."
+    return StepState.DONE, f"Prepared on {judged.day}."
+
+
+def _regions(judge: Judge) -> tuple[StepState, str]:
+    where = standing(judge.state)
+    if where is Standing.NONE:
+        if judge.of("probe").found is None:
+            return StepState.LOCKED, "Prepare the probe first."
+        return StepState.READY, "Not needed: paint where contacts are preferred, or go on to Verify."
+    if where is Standing.WAITING:
+        words = "The regions are painted, but the probe does not have them yet: apply them."
+        return StepState.STALE, words
+    if where is Standing.PLANNED:
+        return StepState.DONE, "Painted. The probe gets them when it is prepared."
+    return StepState.DONE, "Painted, and on the probe."
+
+
+def _verify(judge: Judge) -> tuple[StepState, str]:
+    judged = judge.of("verification")
+    if judged.found is None:
+        return StepState.READY, "Touch the markers: that shows whether contacts are right."
+    if judged.state is CheckState.STALE:
+        return StepState.STALE, f"{judged.why} Verify again."
+    why = judged.why or judge.figures
+    if judged.state is CheckState.FAILED:
+        return StepState.FAILED, f"It did not pass. {why} See what to mend, then verify again."
+    return StepState.DONE, f"Passed: {why}." if why else f"Verified on {judged.day}."
+
+
+def _export(judge: Judge) -> tuple[StepState, str]:
+    parts = [judge.of(kind) for kind in ("calibration", "probe", "verification")]
+    if parts[-1].found is None:
+        return StepState.LOCKED, "Verify first; for trials, an unverified bundle can be written."
+    exported = judge.state.setting(RESULTS)
+    if not exported:
+        return StepState.READY, "See what is in the bundle, then export it."
+    if exported != dict(results_of(judge.state)):
+        return StepState.STALE, "Something was computed anew since the last export: export again."
+    for part in parts:
+        if part.state is CheckState.STALE:
+            return StepState.STALE, f"{part.why} Do that again, then export again."
+    return StepState.DONE, "The newest results are exported."
+
+
+def _missing(judge: Judge) -> str:
+    """Return what has to be done before contacts can be found; empty: nothing."""
+    calibration, probe = judge.of("calibration"), judge.of("probe")
+    if calibration.found is None:
+        if probe.found is None:
+            return "Calibrate gravity and prepare the probe first."
+        return "Calibrate gravity first."
+    if judge.verdict("calibration").get("level") == "refuse":
+        return "The calibration was refused: calibrate gravity again first."
+    return "" if probe.found is not None else "Prepare the probe first."
+
+
+# ---- the checklist of an export --------------------------------------------------------------------
+
+
+def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
+    """Say how everything stands that a bundle rests on; reads files, see `read_facts`."""
+    judge = Judge(state, stale, read_facts(folder, state))
+    checks = [
+        _line(judge, "Known weight", "known_weight", Step.GRAVITY, "Hang a known weight on the tool."),
+        _line(judge, "Known touch", "known_touch", Step.VERIFY, "Press a known point of the probe."),
+    ]
+    if any(each.state is CheckState.DONE for each in checks):  # one of them is enough
+        checks = [
+            replace(each, state=CheckState.OPTIONAL) if each.state is CheckState.MISSING else each
+            for each in checks
+        ]
+    touch = "Touch the markers, so that somebody has shown that it is right."
+    report = "Finish a verification: its report goes into the bundle."
+    calibrate = "Calibrate the sensor with this tool."
+    return (
+        _sensor_line(state),
+        _line(judge, "Calibration", "calibration", Step.GRAVITY, calibrate),
+        _line(judge, "Probe", "probe", Step.PROBE, "Prepare the probe's mesh."),
+        _regions_line(judge),
+        _line(judge, "Verification", "verification", Step.VERIFY, touch),
+        *checks,
+        _line(judge, "Report", "report", Step.VERIFY, report),
+    )
+
+
+def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckItem:
+    """Return the line of the newest result of a kind."""
+    judged = judge.of(kind)
+    state = judged.state
+    if judged.found is None and state is CheckState.MISSING:
+        unseen = "Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. "
+        words = (unseen if kind in CHECK_KINDS else "") + remedy
+    elif judged.found is None:
+        words = f"It was rejected. {judged.why} {remedy}".strip()
+    elif state is CheckState.STALE:
+        words = f"{judged.why} Do it again."
+    elif kind in CHECK_KINDS:
+        outcome, words = judge.fact(kind, "outcome"), str(judge.fact(kind, "sentence") or "")
+        if outcome == "failed":
+            state, words = CheckState.FAILED, words or f"It failed. {remedy}"
+        elif outcome != "passed":
+            state = CheckState.MISSING
+    elif kind == "calibration" and state is CheckState.FAILED:
+        words = "The calibration was refused: calibrate again."
+    elif kind == "verification":
+        if state is CheckState.FAILED:
+            words = f"It did not pass: {'; '.join(judged.reasons) or 'see its report'}. Verify again."
+        else:
+            words = f"Passed: {judge.figures}." if judge.figures else "Passed."
+    else:
+        words = f"Made on {judged.day}."
+    return CheckItem(name, state, words, step)
+
+
+def _sensor_line(state: State) -> CheckItem:
+    known = [state.setting(key) for key in ("config.serial", SERIAL)]
+    known = [each for each in known if each]
+    known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
+    if known:
+        return CheckItem("Sensor", CheckState.DONE, f"Serial number {known[0]}.", Step.DEVICES)
+    words = "Nobody said the sensor's serial number: the bundle would say 'unknown'. Give it below."
+    return CheckItem("Sensor", CheckState.MISSING, words, Step.DEVICES)
+
+
+def _regions_line(judge: Judge) -> CheckItem:
+    given = judge.fact("probe", "regions")
+    count = len(given) if isinstance(given, list) else 0
+    state = CheckState.DONE
+    if count:
+        regions = "one priority region" if count == 1 else f"{count} priority regions"
+        words = f"The probe has {regions}."
+    elif judge.state.newest("regions") is not None:
+        state = CheckState.MISSING
+        words = "Regions are painted, but the probe does not have them yet: apply them."
+    else:
+        state = CheckState.OPTIONAL
+        words = "No priority regions: among candidates none is preferred. That is fine for most probes."
+    return CheckItem("Regions", state, words, Step.REGIONS)
+
+
+def results_of(state: State) -> Mapping[str, str]:
+    """Return kind -> content of the newest results that a bundle is made of: what an export is an export of."""
+    kinds = ("calibration", "probe", "verification", *CHECK_KINDS, "report")
+    found = {kind: state.newest(kind) for kind in kinds}
+    return {kind: each.content for kind, each in found.items() if each is not None}
+
+
+def refuse_without(state: State) -> None:
+    """InputError unless there is what no bundle can do without."""
+    for kind, what in (("calibration", "Calibrate first."), ("probe", "Prepare the probe first.")):
+        if state.newest(kind) is None:
+            raise InputError(f"There is no {kind} yet: nothing can be exported. {what}")

@@ -105,64 +105,35 @@ _FASTEST_STILL_HZ = 1000.0
 
 @dataclass(frozen=True)
 class DeviceAddress:
-    """One device.
-
-    Attributes
-    ----------
-    protocol : Protocol
-    carrier : Carrier
-    host : str
-        Name or IP address; empty where there is no socket.
-    port : int or None
-        TCP or UDP port; None where there is no socket.
-    path : str
-        Serial device, recording or file of poses; empty for sockets and typed poses.
-    baud : int or None
-        Of a serial line, bit/s.
-    rate : float or None
-        Samples per second to ask the device for; None: what the device is set to.
-    profile : str or None
-        Of RDT: "ati" or "onrobot".
-    counts_per_newton, counts_per_newton_metre : float or None
-        Of RDT: the profile's, unless the address gives others.
-    speed : float or None
-        Of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one. Of a
-        file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for real time.
-    topic : str or None
-        Of a replay that holds several devices of a kind: which one.
-    rpy_degrees : tuple of 3 floats or None
-        Of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that follows: an
-        address reads back to the last digit.
-    quaternion : tuple of 4 floats or None
-        Of a typed pose: scalar first, of unit length within 2 %.
-    joints_degrees : tuple of floats or None
-        Of a typed pose: joint angles of `robot`.
-    robot : str or None
-        Whose joints an address or a file of poses gives, as in contactbench.pipeline.robot.
-    tool : tuple of 6 floats or None
-        Of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in rad.
-    bench : BenchOptions or None
-        What a virtual bench is made of.
-    """
+    """One device."""
 
     protocol: Protocol
     carrier: Carrier
-    host: str = ""
-    port: int | None = None
-    path: str = ""
-    baud: int | None = None
-    rate: float | None = None
-    profile: str | None = None
+    host: str = ""  # name or IP address; empty where there is no socket
+    port: int | None = None  # TCP or UDP port; None where there is no socket
+    path: str = ""  # serial device, recording or file of poses; empty for sockets and typed poses
+    baud: int | None = None  # of a serial line, bit/s
+    rate: float | None = None  # samples per second to ask the device for; None: what the device is set to
+    profile: str | None = None  # of RDT: "ati" or "onrobot"
+    # counts_per_newton, counts_per_newton_metre: of RDT: the profile's, unless the address gives others
     counts_per_newton: float | None = None
     counts_per_newton_metre: float | None = None
+    # of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one.
+    # Of a file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for
+    # real time.
     speed: float | None = None
-    topic: str | None = None
+    topic: str | None = None  # of a replay that holds several devices of a kind: which one
+    # of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that
+    # follows: an address reads back to the last digit.
     rpy_degrees: tuple[float, ...] | None = None
-    quaternion: tuple[float, ...] | None = None
-    joints_degrees: tuple[float, ...] | None = None
+    quaternion: tuple[float, ...] | None = None  # of a typed pose: scalar first, of unit length within 2 %
+    joints_degrees: tuple[float, ...] | None = None  # of a typed pose: joint angles of `robot`
+    # whose joints an address or a file of poses gives, as in contactbench.pipeline.robot
     robot: str | None = None
+    # of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in
+    # rad
     tool: tuple[float, ...] | None = None
-    bench: BenchOptions | None = None
+    bench: BenchOptions | None = None  # what a virtual bench is made of
 
     @classmethod
     def parse(cls, text: str) -> DeviceAddress:

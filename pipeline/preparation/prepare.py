@@ -36,43 +36,21 @@ _READ, _WRAPPED = 0.02, 0.7
 
 @dataclass(frozen=True, eq=False)
 class Dense:
-    """
-    A mesh file's outer surface, before it is aligned and has fewer facets.
+    """A mesh file's outer surface, before it is aligned and has fewer facets."""
 
-    Attributes
-    ----------
-    content : ProbeFile
-        As it lies in the mesh's own frame.
-    shell : Shell
-        What was done.
-    """
-
-    content: ProbeFile
-    shell: Shell
+    content: ProbeFile  # as it lies in the mesh's own frame
+    shell: Shell  # what was done
 
 
 @dataclass(frozen=True, eq=False)
 class Preparation:
-    """
-    A prepared probe, and what was done.
+    """A prepared probe, and what was done."""
 
-    Attributes
-    ----------
-    content : ProbeFile
-        The probe, its regions and its history: for `save_probe_file`.
-    shell : Shell
-    simplified : Simplified
-    soundness : Soundness
-        Of the result, compared with the shell, as if it came from a stranger.
-    carried : tuple of RegionReport
-        What simplification did to the area of each region.
-    """
-
-    content: ProbeFile
+    content: ProbeFile  # the probe, its regions and its history: for `save_probe_file`
     shell: Shell
     simplified: Simplified
-    soundness: Soundness
-    carried: tuple[RegionReport, ...] = ()
+    soundness: Soundness  # of the result, compared with the shell, as if it came from a stranger
+    carried: tuple[RegionReport, ...] = ()  # what simplification did to the area of each region
 
     @property
     def ready(self) -> bool:

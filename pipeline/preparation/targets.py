@@ -24,22 +24,16 @@ class ContactTarget:
     """
     The fewest facets that hardly move a contact.
 
-    Attributes
-    ----------
-    limit : float
-        How far 95 % of the contacts may move, m. By default a tenth of a millimetre: a fifth or less of what noise
-        does to a touch of 10 N, so that nobody will see it.
-    expected : ExpectedTouches
-        Noise, forces and friction to expect.
-
     Raises
     ------
     LadderError
         A limit that makes no sense.
     """
 
+    # how far 95 % of the contacts may move, m. By default a tenth of a millimetre: a fifth or less of
+    # what noise does to a touch of 10 N, so that nobody will see it.
     limit: float = DEFAULT_LIMIT
-    expected: ExpectedTouches = field(default_factory=ExpectedTouches)
+    expected: ExpectedTouches = field(default_factory=ExpectedTouches)  # noise, forces and friction to expect
 
     def __post_init__(self) -> None:
         Goal(self.limit)  # refuses what is no limit

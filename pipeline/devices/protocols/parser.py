@@ -29,38 +29,20 @@ class Counters:
     What a parser has seen since it was made.
 
     Every byte is in a frame, skipped, or still waiting for the rest of its frame.
-
-    Attributes
-    ----------
-    frames : int
-        Frames with the right header, length and checksum, duplicates included.
-    bad_checksums : int
-        Places that began like a frame and failed the check: damaged frames, and header bytes by chance.
-    skipped_bytes : int
-        Bytes outside every frame.
-    lost : int
-        Samples missing by the device's own count or, for Bota, by its clock.
-    duplicates : int
-        Frames repeated byte for byte, or overtaken by later ones: dropped, never given again as new.
-    wraps : int
-        Times the device's count or clock went through zero.
-    restarts : int
-        Times the count or clock went anywhere else: the device was restarted, or its clock was set.
-    bad_numbers : int
-        Single sequence numbers that fitted neither what came before nor what came after.
-    invalid : int
-        Samples with a number that is not finite; they carry `Status.INVALID`.
     """
 
-    frames: int = 0
+    frames: int = 0  # frames with the right header, length and checksum, duplicates included
+    # places that began like a frame and failed the check: damaged frames, and header bytes by chance
     bad_checksums: int = 0
-    skipped_bytes: int = 0
-    lost: int = 0
+    skipped_bytes: int = 0  # bytes outside every frame
+    lost: int = 0  # samples missing by the device's own count or, for Bota, by its clock
+    # frames repeated byte for byte, or overtaken by later ones: dropped, never given again as new
     duplicates: int = 0
-    wraps: int = 0
+    wraps: int = 0  # times the device's count or clock went through zero
+    # times the count or clock went anywhere else: the device was restarted, or its clock was set
     restarts: int = 0
-    bad_numbers: int = 0
-    invalid: int = 0
+    bad_numbers: int = 0  # single sequence numbers that fitted neither what came before nor what came after
+    invalid: int = 0  # samples with a number that is not finite; they carry `Status.INVALID`
 
 
 class SensorParser(Protocol):

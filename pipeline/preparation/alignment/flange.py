@@ -33,32 +33,17 @@ _NO_DIRECTION = 0.05
 
 @dataclass(frozen=True, eq=False)
 class MountingFace:
-    """
-    A plane patch of the mesh.
+    """A plane patch of the mesh."""
 
-    Attributes
-    ----------
-    facets : (m,) bool
-        Which facets of the mesh belong to it.
-    normal_P : (3,) float64
-        Outward unit normal of the plane fitted to it.
-    centre_P : (3,) float64
-        On the plane, m: of the circle if the rim is round, or else of the area inside the rim.
-    area_m2 : float
-        Of its facets.
-    planarity_rms, planarity_max : float
-        Distances of its vertices from the plane, m.
-    rim : Rim
-        Its outer outline, and the circle fitted to it.
-    """
-
-    facets: NDArray[np.bool_]
-    normal_P: Floats
+    facets: NDArray[np.bool_]  # (m,) which facets of the mesh belong to it
+    normal_P: Floats  # (3,) outward unit normal of the plane fitted to it
+    # (3,) on the plane, m: of the circle if the rim is round, or else of the area inside the rim
     centre_P: Floats
-    area_m2: float
+    area_m2: float  # of its facets
+    # planarity_rms, planarity_max: distances of its vertices from the plane, m
     planarity_rms: float
     planarity_max: float
-    rim: Rim
+    rim: Rim  # its outer outline, and the circle fitted to it
 
     @property
     def round(self) -> bool:

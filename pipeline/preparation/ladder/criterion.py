@@ -20,19 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class FewestFacets:
-    """
-    The fewest facets found that keep the contact error under a limit.
+    """The fewest facets found that keep the contact error under a limit."""
 
-    Attributes
-    ----------
-    simplified : Simplified
-        The mesh, how far it is from the full one, and what was tried.
-    errors : tuple of PartErrors
-        Its added contact errors, the part that was judged first.
-    """
-
-    simplified: Simplified
-    errors: tuple[PartErrors, ...]
+    simplified: Simplified  # the mesh, how far it is from the full one, and what was tried
+    errors: tuple[PartErrors, ...]  # its added contact errors, the part that was judged first
 
 
 def contact_error_criterion(

@@ -47,47 +47,24 @@ _LARGEST_PLACEMENT_M = 0.05
 
 @dataclass(frozen=True, eq=False)
 class TouchAlignment:
-    """
-    What touches say of the mount, and whether to believe it.
+    """What touches say of the mount, and whether to believe it."""
 
-    Attributes
-    ----------
-    fitted : Alignment
-        By the touches, with its covariance about the touches' centroid.
-    before : (4, 4)
-        The mount it started from, T_SP; of several, the one that explained the touches best.
-    advice : Advice
-        Whether `fitted` predicts touches that it has not seen clearly better than `before`.
-    reasons : tuple of str
-        Why.
-    check : CrossValidation
-    rank : int
-        Of six: how many combinations of shift and rotation the touches show. The others stayed at `before`.
-    unseen : tuple of str
-        What they do not show, a few words for each.
-    names : tuple of str
-        Of the touches.
-    kept : (n,) bool
-        Which touches were used; the others are named in the warnings.
-    deviates : (n,)
-        How far each touch is from what the others say, in sigmas.
-    scatter : float
-        By how much the residuals widened the covariance; 1 if noise and placement explain them.
-    bias_effect : (6, 6)
-        Motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every touch.
-    """
-
-    fitted: Alignment
+    fitted: Alignment  # by the touches, with its covariance about the touches' centroid
+    # (4, 4) the mount it started from, T_SP; of several, the one that explained the touches best
     before: Floats
-    advice: Advice
-    reasons: tuple[str, ...]
+    advice: Advice  # whether `fitted` predicts touches that it has not seen clearly better than `before`
+    reasons: tuple[str, ...]  # why
     check: CrossValidation
+    # of six: how many combinations of shift and rotation the touches show. The others stayed at
+    # `before`.
     rank: int
-    unseen: tuple[str, ...]
-    names: tuple[str, ...]
-    kept: NDArray[np.bool_]
-    deviates: Floats
-    scatter: float
+    unseen: tuple[str, ...]  # what they do not show, a few words for each
+    names: tuple[str, ...]  # of the touches
+    kept: NDArray[np.bool_]  # (n,) which touches were used; the others are named in the warnings
+    deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
+    scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
+    # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
+    # touch
     bias_effect: Floats
 
     @property

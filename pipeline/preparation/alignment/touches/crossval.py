@@ -46,30 +46,19 @@ class CrossValidation:
     Each touch of a fold is left out, the mount fitted to the others, and the solver asked where the wrench
     that was left out touches the mesh with that mount. Where it has no answer, the marker's tangent plane
     stands in for the mesh, so that a bad mount cannot look good by missing the probe.
-
-    Attributes
-    ----------
-    in_sample, out_of_sample, before : (n,) float64
-        Distance from the marker, m: with the fit to all touches, with the fit that did not see the touch,
-        and with the first mount.
-    bound : (n,) float64
-        Root mean square distance that noise and placement alone make with the true mount, m.
-    kept : (n,) bool
-        Touches that the fit to all of them used.
-    missed : int
-        Touches left out for which the solver had no answer.
-    folds : int
-    p_value : float
-        Chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks, one-sided).
     """
 
+    # in_sample, out_of_sample, before: (n,) distance from the marker, m: with the fit to all touches,
+    # with the fit that did not see the touch, and with the first mount
     in_sample: Floats
     out_of_sample: Floats
     before: Floats
-    bound: Floats
-    kept: NDArray[np.bool_]
-    missed: int
+    bound: Floats  # (n,) root mean square distance that noise and placement alone make with the true mount, m
+    kept: NDArray[np.bool_]  # (n,) touches that the fit to all of them used
+    missed: int  # touches left out for which the solver had no answer
     folds: int
+    # chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks,
+    # one-sided)
     p_value: float
 
     @property

@@ -35,45 +35,24 @@ _FEWEST = 3
 
 @dataclass(frozen=True, eq=False)
 class MountFit:
-    """
-    What touches say of the mount.
+    """What touches say of the mount."""
 
-    Attributes
-    ----------
-    T_SP : (4, 4)
-    start : (4, 4)
-        The mount that was started from; what the touches do not show is as it is there.
-    about_S : (3,)
-        What the unknowns are about: the touches' centroid under `start`, m.
-    covariance : (6, 6)
-        Of shift (m) and rotation (rad) about `about_S`; along unseen directions that of the belief.
-    information : (6, 6)
-        Inverse covariance by the touches alone, in units of the belief.
-    seen, unseen : (6, r), (6, 6 - r)
-        Orthonormal directions in units of the belief, that the touches know better or worse than it.
-    kept : (n,) bool
-        Touches that were used.
-    deviates : (n,)
-        How far each touch is from what the others say, in sigmas: sqrt of a chi-square of two.
-    chi_square : float
-        Of the touches kept.
-    freedom : int
-    scatter : float
-        Factor by which the covariance was widened, at least 1.
-    """
-
-    T_SP: Floats
-    start: Floats
-    about_S: Floats
+    T_SP: Floats  # (4, 4)
+    start: Floats  # (4, 4) the mount that was started from; what the touches do not show is as it is there
+    about_S: Floats  # (3,) what the unknowns are about: the touches' centroid under `start`, m
+    # (6, 6) of shift (m) and rotation (rad) about `about_S`; along unseen directions that of the belief
     covariance: Floats
-    information: Floats
+    information: Floats  # (6, 6) inverse covariance by the touches alone, in units of the belief
+    # seen, unseen: (6, r) orthonormal directions in units of the belief, that the touches know better
+    # or worse than it
     seen: Floats
     unseen: Floats
-    kept: NDArray[np.bool_]
+    kept: NDArray[np.bool_]  # (n,) touches that were used
+    # (n,) how far each touch is from what the others say, in sigmas: sqrt of a chi-square of two
     deviates: Floats
-    chi_square: float
+    chi_square: float  # of the touches kept
     freedom: int
-    scatter: float
+    scatter: float  # factor by which the covariance was widened, at least 1
 
     @property
     def rank(self) -> int:

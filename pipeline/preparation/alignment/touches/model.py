@@ -34,26 +34,14 @@ _DIFFERENCE = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class TouchModel:
-    """
-    Touches, ready to be compared with a mount.
+    """Touches, ready to be compared with a mount."""
 
-    Attributes
-    ----------
-    points_P, normals_P : (n, 3)
-        On the mesh, m; outward unit normals.
-    wrenches : (n, 6)
-        In S, N and N·m.
-    covariance : (6, 6)
-        Of a wrench's noise, independent from touch to touch.
-    placement : float
-        Standard deviation of where a marker is hit, in each direction of the surface, m.
-    """
-
+    # points_P, normals_P: (n, 3) on the mesh, m; outward unit normals
     points_P: Floats
     normals_P: Floats
-    wrenches: Floats
-    covariance: Floats
-    placement: float
+    wrenches: Floats  # (n, 6) in S, N and N·m
+    covariance: Floats  # (6, 6) of a wrench's noise, independent from touch to touch
+    placement: float  # standard deviation of where a marker is hit, in each direction of the surface, m
 
     def __len__(self) -> int:
         return len(self.points_P)

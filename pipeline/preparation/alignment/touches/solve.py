@@ -33,21 +33,14 @@ class MountBelief:
     Touches that know a combination of shift and rotation less well than this do not show it: it stays as it
     was. The ratio of the two is also the length by which rotations and shifts are compared: 95 mm by default.
 
-    Parameters
-    ----------
-    shift : float
-        Of the touched points' centroid, m.
-    rotation : float
-        In radians.
-
     Raises
     ------
     AlignmentError
         Not above 0, or beyond 1 m or pi.
     """
 
-    shift: float = 0.005
-    rotation: float = float(np.radians(3.0))
+    shift: float = 0.005  # of the touched points' centroid, m
+    rotation: float = float(np.radians(3.0))  # in radians
 
     def __post_init__(self) -> None:
         for name, most in (("shift", 1.0), ("rotation", np.pi)):
@@ -65,20 +58,11 @@ class MountBelief:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """
-    What is minimised: the touches' residuals, plus the belief about the mount where it is asked for.
-
-    Attributes
-    ----------
-    model : TouchModel
-    start : (4, 4) T_SP to start from, which the belief is about
-    about_S : (3,) what steps turn about, m
-    belief : MountBelief
-    """
+    """What is minimised: the touches' residuals, plus the belief about the mount where it is asked for."""
 
     model: TouchModel
-    start: Floats
-    about_S: Floats
+    start: Floats  # (4, 4) T_SP to start from, which the belief is about
+    about_S: Floats  # (3,) what steps turn about, m
     belief: MountBelief
 
     def mount(self, z: Floats) -> Floats:

@@ -24,8 +24,9 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.report.making import check_sources, sha256_of
 from contactbench.pipeline.report.reading import read_verification
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.making import mount_of, mount_rotation
+from contactbench.pipeline.session.making import mount_of
 from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.settings import mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:

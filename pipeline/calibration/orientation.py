@@ -15,9 +15,6 @@ from contactbench.pipeline.robot import Robot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# How well orientations are known by what gives them, degrees: 1 sigma about each axis.
-ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
-
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 
 
@@ -87,28 +84,6 @@ class Convention:
             Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
             Kind.JOINTS: tuple(f"j{number}" for number in range(1, 7)),
         }[self.kind]
-
-
-def convention_of(
-    euler: str | None, rotation_vector: bool, robot: str | None, *, radians: bool, inverse: bool
-) -> Convention | None:
-    """Return how orientations are written, from what was said of it; None: as the file's columns say.
-
-    Raises
-    ------
-    InputError
-        Two things were said that contradict each other, or there is no such order.
-    """
-    if sum(map(bool, (euler, rotation_vector, robot))) > 1:
-        raise InputError("euler, rotation_vector and robot contradict each other: give one.")
-    degrees = not radians
-    if euler:
-        return Convention(Kind.EULER, order=euler, degrees=degrees, inverse=inverse)
-    if rotation_vector:
-        return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
-    if robot:
-        return Convention(Kind.JOINTS, degrees=degrees, robot=robot, inverse=inverse)
-    return Convention(inverse=True) if inverse else None
 
 
 def rotations(values: NDArray[np.float64], convention: Convention) -> NDArray[np.float64]:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import MountOption, numbers
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say, show_tables
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import MountSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -148,6 +148,7 @@ def tune(
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
     robot: Annotated[str, typer.Option(metavar="ADDRESS", help="virtual://arm or virtual://platform.")],
+    turned: MountSettings,
     motion: Annotated[
         str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Of the phantom.")
     ] = "in-plane",
@@ -165,7 +166,6 @@ def run(
         float | None, typer.Option(help="Of the phantom at the wanted force, N/m [soft tissue].")
     ] = None,
     friction: Annotated[float, typer.Option(help="Of the phantom.")] = 0.1,
-    mount: MountOption = None,
     seed: Annotated[int, typer.Option(help="Of noise, and of what the calibration leaves.")] = 0,
     real_time: Annotated[bool, typer.Option("--real-time", help="No faster than the clock.")] = False,
     unverified: Annotated[
@@ -209,7 +209,7 @@ def run(
         motion=_motion(motion, size, period),
         stiffness=stiffness,
         friction=friction,
-        quaternion_ES=mount_of_angles(None if mount is None else numbers(mount, 3, "--mount")),
+        quaternion_ES=mount_of_angles(turned.mount),
         seed=seed,
     )
     show = Frames(robot) if frames else None

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import MountOption, mount_rotation, refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.settings import MountSettings, mount_rotation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -88,7 +89,7 @@ def found_contacts(
     files: Files,
     content: ProbeFile,
     wrenches: Path | None,
-    mount: str | None,
+    turned: MountSettings,
     delay: float,
     min_force: float,
 ) -> Contacts:
@@ -99,7 +100,7 @@ def found_contacts(
     if is_recording(files.contacts):
         if wrenches is not None:
             raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording has them itself.")
-        return _located(files, content, mount, delay, min_force)
+        return _located(files, content, turned, delay, min_force)
     if files.calibration is not None:
         raise typer.BadParameter("--calibration is for a recording; here contacts are located already.")
     if not _is_json(files.contacts):
@@ -116,7 +117,9 @@ def found_contacts(
     return touches_of(verification)
 
 
-def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, min_force: float) -> Contacts:
+def _located(
+    files: Files, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
+) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(
             "a recording needs --calibration: the weight of the probe is in its readings."
@@ -124,10 +127,9 @@ def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, 
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.contact import Gates
     from contactbench.pipeline.heatmap.contacts import locate_recording
-    from contactbench.pipeline.session.making import mount_rotation as of_degrees
 
     model = load_calibration(files.calibration).model
-    R_ES = mount_rotation(mount) if mount is not None else of_degrees(files.mount)
+    R_ES = mount_rotation(turned.mount or files.mount)
     with Bar("reading") as bar:
         return locate_recording(
             files.contacts,
@@ -191,6 +193,7 @@ def draw(
             help="File to write: .png, .ply or .glb with the value at each vertex, or a film: .mp4 or .gif."
         ),
     ],
+    turned: MountSettings,
     probe: Annotated[
         Path | None,
         typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
@@ -219,7 +222,6 @@ def draw(
     marker_distance: Annotated[
         float, typer.Option(help="A contact further than this from every marker touched none, mm.")
     ] = 10.0,
-    mount: MountOption = None,
     delay: Annotated[float, typer.Option(help="How much later a wrench is heard than its pose, s.")] = 0.0,
     min_force: Annotated[float, typer.Option(help="A recording's touches are above this, N.")] = 0.5,
     start: Annotated[
@@ -274,7 +276,7 @@ def draw(
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = probe_in_sensor_frame(files.probe)
-        found = found_contacts(files, content, wrenches, mount, delay, min_force)
+        found = found_contacts(files, content, wrenches, turned, delay, min_force)
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, marker_distance)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import Noun, as_json, numbers, print_json, running_command, say
 
 if TYPE_CHECKING:
     import numpy as np

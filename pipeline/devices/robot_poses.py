@@ -10,7 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
-from contactbench.pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers
+from contactbench.pipeline.devices.protocols.elfin import REQUEST, ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
 from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
@@ -157,7 +157,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
         if now >= self._next and self._asked is None:
             self._malformed = self._replies.malformed
             self._asked = time.monotonic()  # before it is sent: no answer can be older
-            self._line.write(Question.POSITION.request())
+            self._line.write(REQUEST)
             # At its own pace: what came late is not asked for twice as fast.
             self._next = max(self._next + self._period, now)
         return READ_S if self._asked is not None else min(READ_S, max(self._next - now, 0.0))
@@ -179,7 +179,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
                 self._refused += 1
                 continue
             try:
-                numbers = read_numbers(reply, Question.POSITION)[:12]
+                numbers = read_position(reply)
             except ElfinError as error:  # the line is well: the next answer may be
                 self._trouble = str(error)
                 self._refused += 1

@@ -22,6 +22,7 @@ from contactbench.pipeline.devices.protocols.parser import (
     Counters,
     ProtocolError,
     SensorDriver,
+    SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -86,9 +87,9 @@ ATI_TYPICAL = CountScale(1e6, 1e6)
 ONROBOT_SCALE = CountScale(1e4, 1e5)
 
 
-class RdtParser:
+class RdtParser(SensorParser):
     """
-    `SensorParser` for RDT records; each `feed` takes one datagram.
+    For RDT records; each `feed` takes one datagram.
 
     A status other than 0 makes a sample ERROR and INVALID: the word covers saturation and faults, and the
     numbers are then no measurement.
@@ -121,11 +122,6 @@ class RdtParser:
             bad_numbers=sequence.bad_numbers,
         )
 
-    @property
-    def pending(self) -> int:
-        """Return 0: a datagram is whole."""
-        return 0
-
     def feed(self, data: bytes, time: float) -> list[WrenchSample]:
         """As `SensorParser`; `data` is one datagram."""
         if len(data) != RECORD_BYTES:
@@ -139,9 +135,6 @@ class RdtParser:
         raw, _, status, *counts = _RECORD.unpack(data)
         number = self._sequence.number(raw)
         return [] if number is None else [self._sample(time, number, status, counts)]
-
-    def reset(self) -> None:
-        """As `SensorParser`."""
 
     def _sample(self, time: float, number: int, status: int, counts: list[int]) -> WrenchSample:
         fx, fy, fz = (count / self.scale.per_newton for count in counts[:3])

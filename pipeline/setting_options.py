@@ -12,6 +12,7 @@ import typer
 from pydantic import ValidationError
 
 from contactbench.pipeline.console import numbers
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import first_fault
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def _option_name(name: str, field: FieldInfo) -> str:
 
 
 def _chosen(model: type[Settings], **given: Any) -> Settings:
-    """Return settings from options; typer.BadParameter if one is wrong."""
+    """Return settings from options; InputError if one is wrong."""
     values: dict[str, Any] = {}
     for name, value in given.items():
         field = model.model_fields[name]
@@ -97,4 +98,5 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
     except ValidationError as error:
         where, what = first_fault(error)
         name = where.partition(".")[0]
-        raise typer.BadParameter(f"{_option_name(name, model.model_fields[name])}: {what}.") from None
+        option = _option_name(name, model.model_fields[name])
+        raise InputError(f"{option}: {what}: correct it.") from None

@@ -15,12 +15,7 @@ from contactbench.pipeline.preparation.alignment.touches import (
     TouchAlignment,
     align_touches,
 )
-from contactbench.pipeline.preparation.alignment.typed import (
-    from_angles,
-    from_matrix,
-    from_quaternion,
-    from_transform,
-)
+from contactbench.pipeline.preparation.alignment.typed import from_angles, from_transform
 
 __all__ = [
     "Advice",
@@ -43,8 +38,6 @@ __all__ = [
     "find_mounting_face",
     "from_angles",
     "from_json",
-    "from_matrix",
-    "from_quaternion",
     "from_transform",
     "read_touches",
 ]

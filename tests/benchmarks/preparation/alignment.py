@@ -55,9 +55,9 @@ class Setup:
 
     def fit(self) -> MountFit:
         """Fit the mount to the touches, without the judgement."""
-        on_mesh = put_on_mesh(self.touches, self.probe_P)
+        points, normals, _ = put_on_mesh(self.touches, self.probe_P)
         wrenches = self.touches.wrenches
-        model = TouchModel(on_mesh.points_P, on_mesh.normals_P, wrenches, NOISE.covariance, _PLACEMENT)
+        model = TouchModel(points, normals, wrenches, NOISE.covariance, _PLACEMENT)
         return fit_mount(model, [self.T_before], MountBelief())
 
 

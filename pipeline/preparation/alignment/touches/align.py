@@ -81,8 +81,6 @@ def align_touches(
     *,
     placement: float = _PLACEMENT_M,
     belief: MountBelief | None = None,
-    robust: bool = True,
-    bias_covariance: ArrayLike | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> TouchAlignment:
     """
@@ -97,16 +95,11 @@ def align_touches(
     mounts : (4, 4) or (k, 4, 4) array_like
         T_SP to start from: the present mount, or several candidates such as those of `align_axes`.
     noise : WrenchNoise, optional
-        Of each wrench, independent from touch to touch. What all touches share belongs in `bias_covariance`.
+        Of each wrench, independent from touch to touch.
     placement : float
         Standard deviation of where a marker is hit, in each direction of the surface, m.
     belief : MountBelief, optional
         How far the mounts may be off.
-    robust : bool
-        Leave out, and name, touches that the others deny.
-    bias_covariance : (6, 6) array_like, optional
-        Of a wrench error common to all touches: what the calibration leaves, N and N·m. It widens the
-        covariance; touches cannot tell it from the mount.
     progress : callable, optional
         Gets the share that is done.
 
@@ -122,27 +115,25 @@ def align_touches(
     """
     noise, belief = noise or WrenchNoise(), belief or MountBelief()
     starts = _starts(mounts)
-    on_mesh = put_on_mesh(touches, probe_P)
+    points_P, normals_P, off_mesh = put_on_mesh(touches, probe_P)
     _check_noise(noise, placement)
-    model = TouchModel(on_mesh.points_P, on_mesh.normals_P, touches.wrenches, noise.covariance, placement)
-    fit = fit_mount(model, starts, belief, robust=robust)
+    model = TouchModel(points_P, normals_P, touches.wrenches, noise.covariance, placement)
+    fit = fit_mount(model, starts, belief)
     pressed = model.pressed(fit.T_SP)
     _refuse_pulling(pressed)
-    check = cross_validate(probe_P, model, on_mesh.points_P, fit, belief, robust=robust, progress=progress)
+    check = cross_validate(probe_P, model, fit, belief, progress=progress)
     advice, reasons = advise(fit, check)
     effect, _ = bias_effect(fit, model, belief)
     shared = bias_sentence(fit, model, belief)
     warnings = (
-        *on_mesh.warnings,
+        *off_mesh,
         *fit_sentences(fit, touches.names, pressed),
         *unseen_sentences(fit, belief),
         *weak_sentences(fit, belief),
         *implausible_start(fit, belief),
     )
     return TouchAlignment(
-        fitted=_alignment(
-            fit, (check.sentence, shared), check, warnings, _shared_covariance(effect, bias_covariance)
-        ),
+        fitted=_alignment(fit, (check.sentence, shared), check, warnings),
         before=fit.start,
         advice=advice,
         reasons=reasons,
@@ -193,15 +184,8 @@ def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
         )
 
 
-def _shared_covariance(effect: Floats, bias_covariance: ArrayLike | None) -> Floats:
-    if bias_covariance is None:
-        return np.zeros((6, 6))
-    shared = WrenchNoise(0.0, 0.0, bias_covariance).covariance  # checks that it is one
-    return np.asarray(effect @ shared @ effect.T)
-
-
 def _alignment(
-    fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...], shared: Floats
+    fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...]
 ) -> Alignment:
     # The covariance is about where the touches' centroid was with the first mount: it moves with the fit.
     centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
@@ -213,7 +197,7 @@ def _alignment(
         ),
         *told,
     )
-    covariance = _about(fit.covariance + shared, centre - fit.about_S)
+    covariance = _about(fit.covariance, centre - fit.about_S)
     return Alignment(fit.T_SP, Method.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample))
 
 

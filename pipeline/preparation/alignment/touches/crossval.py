@@ -67,11 +67,6 @@ class CrossValidation:
         return rms(self.out_of_sample) / rms(self.bound)
 
     @property
-    def ratio_before(self) -> float:
-        """The first mount's error over what noise and placement alone make."""
-        return rms(self.before) / rms(self.bound)
-
-    @property
     def sentence(self) -> str:
         """The figures, in one sentence."""
         before, after, inside = (
@@ -91,11 +86,9 @@ class CrossValidation:
 def cross_validate(
     probe_P: Probe,
     model: TouchModel,
-    markers_P: Floats,
     fit: MountFit,
     belief: MountBelief,
     *,
-    robust: bool = True,
     progress: Callable[[float], None] | None = None,
 ) -> CrossValidation:
     """
@@ -109,17 +102,13 @@ def cross_validate(
     probe_P : Probe
         In P.
     model : TouchModel
-    markers_P : (n, 3)
-        Where the touches are held to be, m.
     fit : MountFit
         To all touches.
     belief : MountBelief
-    robust : bool
-        As for `fit_mount`.
     progress : callable, optional
         Gets the share that is done.
     """
-    judge = _Judge(probe_P, model, markers_P, fit.start)
+    judge = _Judge(probe_P, model, fit.start)
     n = len(model)
     folds = n if n <= _ONE_BY_ONE else _FOLDS
     out, missed = np.empty(n), 0
@@ -127,7 +116,7 @@ def cross_validate(
         left = np.arange(fold, n, folds)  # neighbours in the file are often neighbours on the probe
         others = np.ones(n, dtype=bool)
         others[left] = False
-        T_SP = fit_mount(model.chosen(others), [fit.start], belief, robust=robust).T_SP
+        T_SP = fit_mount(model.chosen(others), [fit.start], belief).T_SP
         out[left], misses = judge.errors(T_SP, left)
         missed += misses
         if progress is not None:
@@ -175,7 +164,7 @@ def rms(errors: Floats) -> float:
 class _Judge:
     """Contact errors at markers for any mount, by one solver."""
 
-    def __init__(self, probe_P: Probe, model: TouchModel, markers_P: Floats, T_SP: Floats) -> None:
+    def __init__(self, probe_P: Probe, model: TouchModel, T_SP: Floats) -> None:
         # To move the wrench into P is the same as to move the mesh into S, and the solver is built once.
         # What is uncertain of a wrench is taken as it is with the first mount.
         W = wrench_transform(T_SP)
@@ -185,7 +174,6 @@ class _Judge:
         )
         self._solver = contact.ContactSolver(probe_P, noise, model=contact.TouchModel(model_error=error))
         self._model = model
-        self._markers = markers_P
 
     def errors(self, T_SP: Floats, rows: Sequence[int] | NDArray[np.intp]) -> tuple[Floats, int]:
         """Return the distance (k,) from the marker of each touch, m, and how many had no answer."""
@@ -193,7 +181,7 @@ class _Judge:
         wrenches_P = np.ascontiguousarray(model.wrenches @ wrench_transform(T_SP).T)
         batch = self._solver.locate_batch(wrenches_P)
         answered = np.array(batch.accepted)
-        distance = np.linalg.norm(batch.points - self._markers[rows], axis=1)
+        distance = np.linalg.norm(batch.points - self._model.points_P[rows], axis=1)
         errors: Floats = np.where(answered, distance, model.plane_errors(T_SP))
         return errors, int((~answered).sum())
 

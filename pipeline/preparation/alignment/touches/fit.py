@@ -60,11 +60,9 @@ class MountFit:
         return int(self.seen.shape[1])
 
 
-def fit_mount(
-    model: TouchModel, starts: Sequence[Floats], belief: MountBelief, *, robust: bool = True
-) -> MountFit:
+def fit_mount(model: TouchModel, starts: Sequence[Floats], belief: MountBelief) -> MountFit:
     """
-    Fit the mount by maximum likelihood.
+    Fit the mount by maximum likelihood; touches that the others deny are left out.
 
     Parameters
     ----------
@@ -72,24 +70,21 @@ def fit_mount(
     starts : sequence of (4, 4)
         Mounts to begin from; the one that explains the touches best is taken, and is what the belief is about.
     belief : MountBelief
-    robust : bool
-        Leave out touches that the others deny. Off, all touches count.
 
     Returns
     -------
     MountFit
     """
     problem, T_SP = _best_start(model, starts, belief)
-    kept = np.ones(len(model), dtype=bool)
-    if robust:
-        sound = _sound(np.sqrt(problem.squares(T_SP))) & model.pressed(T_SP)
-        kept = sound if sound.sum() >= _FEWEST else kept
+    kept = _sound(np.sqrt(problem.squares(T_SP))) & model.pressed(T_SP)
+    if kept.sum() < _FEWEST:
+        kept = np.ones(len(model), dtype=bool)
     for _ in range(_ROUNDS):
         part = replace(problem, model=model.chosen(kept))
         T_SP, seen, unseen = _fit_seen(part, T_SP)
         deviates = _deviates(problem, T_SP, seen, kept)
         sound = _sound(deviates) & model.pressed(T_SP)
-        if not robust or (sound == kept).all() or sound.sum() < _FEWEST:
+        if (sound == kept).all() or sound.sum() < _FEWEST:
             break
         kept = sound
     else:  # the last choice was not fitted yet

@@ -65,20 +65,16 @@ class MarkerTouches:
         return len(self.points_P)
 
 
-@dataclass(frozen=True, eq=False)
-class OnMesh:
-    """The touches on their mesh."""
-
-    # points_P, normals_P: (n, 3) the nearest points of the surface, m, and the outward unit normals
-    # there
-    points_P: Floats
-    normals_P: Floats
-    warnings: tuple[str, ...]  # about markers that lie off the surface, or whose normal disagrees with it
-
-
-def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> OnMesh:
+def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats, tuple[str, ...]]:
     """
     Move each marker to the nearest point of the mesh, and take the normal there if none was given.
+
+    Returns
+    -------
+    points, normals : (n, 3) float64
+        The nearest points of the surface, m, and the outward unit normals there.
+    warnings : tuple of str
+        About markers that lie off the surface, or whose normal disagrees with it.
 
     Raises
     ------
@@ -108,7 +104,7 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> OnMesh:
             if a < _NORMAL_AGREES
         ]
         normals = touches.normals_P
-    return OnMesh(np.asarray(foot), normals, tuple(warnings))
+    return np.asarray(foot), normals, tuple(warnings)
 
 
 def _check_sizes(points: Floats, wrenches: Floats, names: tuple[str, ...]) -> None:

@@ -31,7 +31,7 @@ _HEAD = 4096  # bytes that tell a verification from a table
 
 
 @dataclass(frozen=True)
-class Files:
+class HeatmapFiles:
     """What a heatmap is made from; `mount` as a session says, degrees about x, y, z."""
 
     contacts: Path
@@ -41,7 +41,9 @@ class Files:
 
 
 @contextmanager
-def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judged: bool) -> Iterator[Files]:
+def chosen(
+    contacts: Path, probe: Path | None, calibration: Path | None, *, judged: bool
+) -> Iterator[HeatmapFiles]:
     """
     Give the files; a session's newest ones where `contacts` is its folder.
 
@@ -53,7 +55,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
     if not contacts.is_dir():
         if probe is None:
             raise typer.BadParameter("give the probe that was touched: --probe PROBE.ply.")
-        yield Files(contacts, probe, calibration)
+        yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.making import mount_of
@@ -66,7 +68,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
         say(f"from the session: {said}")
         main = found["verification" if judged else "recording"]
         own = None if judged else found["calibration"]
-        yield Files(main, probe or found["probe"], calibration or own, mount_of(session.state))
+        yield HeatmapFiles(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
 def probe_in_sensor_frame(file: Path) -> ProbeFile:
@@ -86,7 +88,7 @@ def probe_in_sensor_frame(file: Path) -> ProbeFile:
 
 
 def found_contacts(
-    files: Files,
+    files: HeatmapFiles,
     content: ProbeFile,
     wrenches: Path | None,
     turned: MountSettings,
@@ -118,7 +120,7 @@ def found_contacts(
 
 
 def _located(
-    files: Files, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
+    files: HeatmapFiles, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
 ) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(

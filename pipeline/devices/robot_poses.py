@@ -12,7 +12,7 @@ from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
 from contactbench.pipeline.devices.protocols.elfin import REQUEST, ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
-from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
@@ -85,7 +85,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         self._clock.forget()
 
     def _troubles(self) -> dict[str, str]:
-        if self._talk.stage is not Stage.STREAMING or self._talk.knows_flange:
+        if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
             return {}
         return {
             "tool": "The tool of the robot's pendant is not known, for its controller does not tell: the orientation is"
@@ -93,7 +93,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         }
 
     def _end(self) -> None:
-        if self._talk.stage is Stage.STREAMING:
+        if self._talk.stage is UrStage.STREAMING:
             self._line.write(ur_rtde.pause_request())
 
     def _counters(self) -> Counters:

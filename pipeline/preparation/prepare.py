@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
-from contactbench.pipeline.preparation.painted import put_on
+from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import (
     align_step,
     import_mesh,

@@ -19,8 +19,8 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
-from contactbench.pipeline.preparation.painted import put_on
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, part_of, place, prepared
+from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
 from contactbench.pipeline.session.files import chunks_of

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     FrameParser,
@@ -32,7 +32,7 @@ from contactbench.pipeline.devices.sample import Status, WrenchSample
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 37
@@ -200,7 +200,7 @@ class BotaModel(Model):
         """Return the last line of what it prints while it starts."""
         return b"App Init\r\n"
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one frame."""
         return bota_frame(
             reading.values,

@@ -17,13 +17,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
-from contactbench.pipeline.devices.protocols.emulated import JOINTS, WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 
 _POSITION = "ReadActPos"
 REQUEST = f"{_POSITION},0,;".encode()
@@ -194,7 +194,7 @@ class ElfinModel(Model):
         super().__init__(rate, quirks)
         self._asked = "ReadActPos"
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:  # noqa: ARG002 - it has no clock
         """Return the answer to the pose request that came last."""
         R_BE, p_BE_B = flange_pose(ELFIN3_TABLE, reading.values)
         joints = np.degrees(reading.values).tolist()

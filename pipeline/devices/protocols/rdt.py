@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     Counters,
@@ -32,7 +32,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 RECORD_BYTES = 36
@@ -306,7 +306,7 @@ class RdtModel(Model):
         self._obey(data)
         return []
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one record; it stops by itself after as many as were asked for."""
         if self._left is not None:
             self._left -= 1

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
-from contactbench.pipeline.devices.protocols.emulated import Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
@@ -23,7 +23,7 @@ from contactbench.pipeline.devices.sample import WrenchSample
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 16
@@ -137,7 +137,7 @@ class RobotiqModel(Model):
         super().restart()
         self._stopping = False
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:  # noqa: ARG002 - it has no clock
         """Return one frame."""
         return robotiq_frame(reading.values)
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     FrameParser,
@@ -36,7 +36,7 @@ from contactbench.pipeline.devices.sample import Status, WrenchSample
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _SYNC = b"\xaa\x55"
@@ -302,7 +302,7 @@ class SriModel(Model):
         self._crc32 = self._never_sum
         self.busy = 0.0 if Quirk.FORGIVING in self.quirks else _BUSY_S
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one frame; a jump of the clock is one of the package number."""
         return sri_frame(reading.values, moment.number + round(moment.jump * self.rate), crc32=self._crc32)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform
 
@@ -102,7 +102,7 @@ def align_axes(
             " as well."
         ),
     )
-    alignment = Alignment(chosen[0], Method.AXES, how, tuple(warnings))
+    alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
     return AxesAlignment(alignment, np.stack(chosen), spreads, determined, weight)
 
 

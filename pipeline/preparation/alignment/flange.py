@@ -10,7 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
 from contactbench.pipeline.preparation.alignment.rim import Rim, find_rim
@@ -163,7 +163,11 @@ def align_flange(
         f" {centre}, on the axis."
     )
     return Alignment(
-        make_transform(R_SP, p_SP_S), Method.FLANGE, (how,), tuple(warnings), residual_m=face.planarity_rms
+        make_transform(R_SP, p_SP_S),
+        AlignmentMethod.FLANGE,
+        (how,),
+        tuple(warnings),
+        residual_m=face.planarity_rms,
     )
 
 

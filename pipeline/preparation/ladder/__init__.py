@@ -1,6 +1,6 @@
 """Quality against speed: what fewer facets cost in contact error, what they save in time, and how many to take."""
 
-from contactbench.pipeline.preparation.ladder.compare import ContactReference, Difference, PartErrors
+from contactbench.pipeline.preparation.ladder.compare import ContactDifference, ContactReference, PartErrors
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.files import save_ladder
 from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
@@ -10,8 +10,8 @@ from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
 
 __all__ = [
     "DEFAULT_FACETS",
+    "ContactDifference",
     "ContactReference",
-    "Difference",
     "ExpectedTouches",
     "Goal",
     "Ladder",

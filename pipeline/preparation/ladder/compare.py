@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Reason
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.touches import (
     FEWEST,
@@ -31,7 +31,7 @@ _FOUR_SIGMA = 4.0
 
 
 @dataclass(frozen=True)
-class Difference:
+class ContactDifference:
     """
     How the answers on a simplified mesh differ from those on the full one.
 
@@ -67,8 +67,8 @@ class PartErrors:
 
     part: Part  # the priority regions, what is outside them, or the whole probe when it has none
     touches: int  # how many were located
-    noisy: Difference  # with the sensor's noise: what a user will see
-    noise_free: Difference  # without: what the shape alone does
+    noisy: ContactDifference  # with the sensor's noise: what a user will see
+    noise_free: ContactDifference  # without: what the shape alone does
     # noise bound: root mean square error that the sensor's noise alone gives on the full mesh, where it
     # settles a touch and nothing is known of the torsion, m
     bound: float
@@ -168,7 +168,7 @@ class ContactReference:
 def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
     noisy = solver.locate_batch(drawn.noisy)
     found = _settled(noisy)
-    model = TouchModel(
+    model = MarkerModel(
         noisy.points[found], noisy.normals[found], drawn.noisy[found], solver.noise.covariance, 0.0
     )
     smallest = model.sigmas(np.eye(4))
@@ -187,7 +187,7 @@ def _reasons(batch: Batch) -> str:
     )
 
 
-def _difference(full: Batch, other: Batch, jump: float) -> Difference:
+def _difference(full: Batch, other: Batch, jump: float) -> ContactDifference:
     before, after = _settled(full), _settled(other)
     both = before & after
     apart = np.linalg.norm(full.points[both] - other.points[both], axis=1)
@@ -195,7 +195,7 @@ def _difference(full: Batch, other: Batch, jump: float) -> Difference:
     # Whether a facet or a vertex answers is a matter of the mesh, not of the touch.
     reasons = [np.where(_settled(batch), Reason.OK, batch.reasons) for batch in (full, other)]
     some = len(apart) > 0
-    return Difference(
+    return ContactDifference(
         settled=int(np.count_nonzero(before)),
         compared=len(apart),
         mean=float(apart.mean()) if some else None,

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.preparation.ladder.compare import Difference, PartErrors
+    from contactbench.pipeline.preparation.ladder.compare import ContactDifference, PartErrors
     from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation
     from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
     from contactbench.pipeline.timing import Timing
@@ -133,7 +133,7 @@ def _plain(rung: Rung, full: Rung) -> dict[str, Any]:
 
 
 def _csv_row(rung: Rung, errors: PartErrors) -> dict[str, object]:
-    def lengths(difference: Difference, prefix: str) -> dict[str, object]:
+    def lengths(difference: ContactDifference, prefix: str) -> dict[str, object]:
         named = {"mean": difference.mean, "p95": difference.p95, "max": difference.largest}
         return {f"{prefix}{name}_mm": None if m is None else 1e3 * m for name, m in named.items()}
 

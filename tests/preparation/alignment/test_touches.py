@@ -17,14 +17,14 @@ from contactbench.pipeline.preparation.alignment import (
 from contactbench.pipeline.preparation.alignment.rigid import difference
 from contactbench.pipeline.preparation.alignment.touches.fit import fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 
 NOISE = WrenchNoise(0.05, 0.002)
 
 
 def model_of(case, placement=0.0003):
     points, normals, _ = put_on_mesh(case.touches, case.probe_P)
-    return TouchModel(points, normals, case.touches.wrenches, NOISE.covariance, placement)
+    return MarkerModel(points, normals, case.touches.wrenches, NOISE.covariance, placement)
 
 
 def flat_touches(rng, *, angle=0.0, count=15):
@@ -37,7 +37,7 @@ def flat_touches(rng, *, angle=0.0, count=15):
     forces *= rng.uniform(8, 10, count)[:, None]
     wrenches = np.hstack([forces, np.cross(points, forces)])
     wrenches += np.sqrt(np.diag(NOISE.covariance)) * rng.standard_normal(wrenches.shape)
-    return TouchModel(points, np.tile([0.0, 0.0, 1.0], (count, 1)), wrenches, NOISE.covariance, 0.0003)
+    return MarkerModel(points, np.tile([0.0, 0.0, 1.0], (count, 1)), wrenches, NOISE.covariance, 0.0003)
 
 
 @pytest.mark.parametrize("name", ["linear", "t-shape"])

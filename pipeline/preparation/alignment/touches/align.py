@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_transform
 from contactbench.pipeline.preparation.alignment.touches.crossval import (
@@ -20,7 +20,7 @@ from contactbench.pipeline.preparation.alignment.touches.crossval import (
 )
 from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 from contactbench.pipeline.preparation.alignment.touches.words import (
     bias_effect,
@@ -117,7 +117,7 @@ def align_touches(
     starts = _starts(mounts)
     points_P, normals_P, off_mesh = put_on_mesh(touches, probe_P)
     _check_noise(noise, placement)
-    model = TouchModel(points_P, normals_P, touches.wrenches, noise.covariance, placement)
+    model = MarkerModel(points_P, normals_P, touches.wrenches, noise.covariance, placement)
     fit = fit_mount(model, starts, belief)
     pressed = model.pressed(fit.T_SP)
     _refuse_pulling(pressed)
@@ -198,7 +198,9 @@ def _alignment(
         *told,
     )
     covariance = _about(fit.covariance, centre - fit.about_S)
-    return Alignment(fit.T_SP, Method.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample))
+    return Alignment(
+        fit.T_SP, AlignmentMethod.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample)
+    )
 
 
 def _about(covariance: Floats, lever: Floats) -> Floats:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment.touches.fit import MountFit
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
     from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
@@ -85,7 +85,7 @@ class CrossValidation:
 
 def cross_validate(
     probe_P: Probe,
-    model: TouchModel,
+    model: MarkerModel,
     fit: MountFit,
     belief: MountBelief,
     *,
@@ -101,7 +101,7 @@ def cross_validate(
     ----------
     probe_P : Probe
         In P.
-    model : TouchModel
+    model : MarkerModel
     fit : MountFit
         To all touches.
     belief : MountBelief
@@ -164,7 +164,7 @@ def rms(errors: Floats) -> float:
 class _Judge:
     """Contact errors at markers for any mount, by one solver."""
 
-    def __init__(self, probe_P: Probe, model: TouchModel, T_SP: Floats) -> None:
+    def __init__(self, probe_P: Probe, model: MarkerModel, T_SP: Floats) -> None:
         # To move the wrench into P is the same as to move the mesh into S, and the solver is built once.
         # What is uncertain of a wrench is taken as it is with the first mount.
         W = wrench_transform(T_SP)

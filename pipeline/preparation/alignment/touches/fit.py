@@ -9,14 +9,14 @@ import numpy as np
 from scipy.special import chdtrc, chdtri
 
 from contactbench.pipeline.preparation.alignment.rigid import apply
-from contactbench.pipeline.preparation.alignment.touches.solve import Problem, loss, minimise
+from contactbench.pipeline.preparation.alignment.touches.solve import MountProblem, loss, minimise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
     from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
@@ -60,13 +60,13 @@ class MountFit:
         return int(self.seen.shape[1])
 
 
-def fit_mount(model: TouchModel, starts: Sequence[Floats], belief: MountBelief) -> MountFit:
+def fit_mount(model: MarkerModel, starts: Sequence[Floats], belief: MountBelief) -> MountFit:
     """
     Fit the mount by maximum likelihood; touches that the others deny are left out.
 
     Parameters
     ----------
-    model : TouchModel
+    model : MarkerModel
     starts : sequence of (4, 4)
         Mounts to begin from; the one that explains the touches best is taken, and is what the belief is about.
     belief : MountBelief
@@ -93,10 +93,12 @@ def fit_mount(model: TouchModel, starts: Sequence[Floats], belief: MountBelief) 
     return _summary(problem, part, T_SP, seen, unseen, kept)
 
 
-def _best_start(model: TouchModel, starts: Sequence[Floats], belief: MountBelief) -> tuple[Problem, Floats]:
+def _best_start(
+    model: MarkerModel, starts: Sequence[Floats], belief: MountBelief
+) -> tuple[MountProblem, Floats]:
     found = []
     for start in starts:
-        problem = Problem(model, start, apply(start, model.points_P).mean(axis=0), belief)
+        problem = MountProblem(model, start, apply(start, model.points_P).mean(axis=0), belief)
         T_SP = minimise(problem, start, _ALL, robust=True, believing=True)
         # The equations cannot tell a push from a pull; of flipped starts only one is pushed on.
         pulled = float((~model.pressed(T_SP)).sum())
@@ -105,7 +107,7 @@ def _best_start(model: TouchModel, starts: Sequence[Floats], belief: MountBelief
     return problem, T_SP
 
 
-def _fit_seen(problem: Problem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
+def _fit_seen(problem: MountProblem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the mount, and what is seen and unseen, by touches that are all trusted."""
     seen, unseen = _sight(_information(problem, T_SP))
     if unseen.shape[1]:
@@ -124,7 +126,7 @@ def _fit_seen(problem: Problem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
     return T_SP, seen, unseen
 
 
-def _information(problem: Problem, T_SP: Floats) -> Floats:
+def _information(problem: MountProblem, T_SP: Floats) -> Floats:
     J = problem.jacobian(T_SP).reshape(-1, 6)
     information: Floats = J.T @ J
     return information
@@ -136,7 +138,7 @@ def _sight(information: Floats) -> tuple[Floats, Floats]:
     return vectors[:, values >= 1.0], vectors[:, values < 1.0]
 
 
-def _deviates(problem: Problem, T_SP: Floats, seen: Floats, kept: NDArray[np.bool_]) -> Floats:
+def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: NDArray[np.bool_]) -> Floats:
     """Return each touch's distance from what the touches kept, without it, predict."""
     r, J = problem.model.residuals(T_SP), problem.jacobian(T_SP) @ seen
     used = J[kept].reshape(-1, seen.shape[1])
@@ -160,7 +162,12 @@ def _sound(deviates: Floats) -> NDArray[np.bool_]:
 
 
 def _summary(
-    problem: Problem, part: Problem, T_SP: Floats, seen: Floats, unseen: Floats, kept: NDArray[np.bool_]
+    problem: MountProblem,
+    part: MountProblem,
+    T_SP: Floats,
+    seen: Floats,
+    unseen: Floats,
+    kept: NDArray[np.bool_],
 ) -> MountFit:
     chi_square = float(part.squares(T_SP).sum())
     freedom = 2 * len(part.model) - seen.shape[1]

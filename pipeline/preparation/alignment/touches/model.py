@@ -33,7 +33,7 @@ _DIFFERENCE = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class TouchModel:
+class MarkerModel:
     """Touches, ready to be compared with a mount."""
 
     # points_P, normals_P: (n, 3) on the mesh, m; outward unit normals
@@ -51,9 +51,9 @@ class TouchModel:
         """(n, 2, 3) two unit tangents per touch: they turn with the mesh, so the residual is smooth."""
         return across(self.normals_P)
 
-    def chosen(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> TouchModel:
+    def chosen(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> MarkerModel:
         """Return some of the touches."""
-        return TouchModel(
+        return MarkerModel(
             self.points_P[rows], self.normals_P[rows], self.wrenches[rows], self.covariance, self.placement
         )
 

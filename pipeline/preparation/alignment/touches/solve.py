@@ -13,7 +13,7 @@ from contactbench.pipeline.preparation.alignment.rigid import difference, step
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 
     Floats = NDArray[np.float64]
 
@@ -57,10 +57,10 @@ class MountBelief:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class MountProblem:
     """What is minimised: the touches' residuals, plus the belief about the mount where it is asked for."""
 
-    model: TouchModel
+    model: MarkerModel
     start: Floats  # (4, 4) T_SP to start from, which the belief is about
     about_S: Floats  # (3,) what steps turn about, m
     belief: MountBelief
@@ -82,13 +82,13 @@ class Problem:
         return np.asarray((self.model.residuals(T_SP) ** 2).sum(axis=1))
 
 
-def minimise(problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool) -> Floats:
+def minimise(problem: MountProblem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool) -> Floats:
     """
     Descend from a mount to the nearest minimum.
 
     Parameters
     ----------
-    problem : Problem
+    problem : MountProblem
     T_SP : (4, 4)
         Where to begin.
     free : (6, r)
@@ -123,7 +123,7 @@ def minimise(problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, beli
     return T_SP
 
 
-def loss(problem: Problem, T_SP: Floats, *, robust: bool, believing: bool) -> float:
+def loss(problem: MountProblem, T_SP: Floats, *, robust: bool, believing: bool) -> float:
     """Return what `minimise` lowers."""
     squares = problem.squares(T_SP)
     total = float((_HALF**2 * np.log1p(squares / _HALF**2) if robust else squares).sum())
@@ -131,7 +131,7 @@ def loss(problem: Problem, T_SP: Floats, *, robust: bool, believing: bool) -> fl
 
 
 def _normal(
-    problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool
+    problem: MountProblem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool
 ) -> tuple[Floats, Floats]:
     """Return the gradient (r,) and the normal matrix (r, r) along the free directions."""
     r, J = problem.model.residuals(T_SP), problem.jacobian(T_SP)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import (
     check_numbers,
@@ -75,4 +75,4 @@ def _typed(R_SP: Floats, xyz_mm: ArrayLike, how: str, warnings: tuple[str, ...] 
     p = check_numbers(xyz_mm, (3,), "translation")
     x, y, z = p
     sentence = f"Typed: the mesh's origin at ({x:g}, {y:g}, {z:g}) mm in the sensor frame, the mesh {how}."
-    return Alignment(make_transform(R_SP, p / 1e3), Method.TYPED, (sentence,), warnings)
+    return Alignment(make_transform(R_SP, p / 1e3), AlignmentMethod.TYPED, (sentence,), warnings)

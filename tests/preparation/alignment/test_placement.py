@@ -9,7 +9,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.preparation.alignment import (
     Alignment,
     AlignmentError,
-    Method,
+    AlignmentMethod,
     check_transform,
     from_angles,
     from_transform,
@@ -24,7 +24,7 @@ def test_fixed_axes_turn_about_x_first():
     found = from_angles([10, 20, 30], [90, 0, 90])
     assert np.allclose(found.R_SP @ [0, 0, 1], [1, 0, 0], atol=1e-15)
     assert np.allclose(found.p_SP_S, [0.01, 0.02, 0.03])
-    assert found.method is Method.TYPED
+    assert found.method is AlignmentMethod.TYPED
     assert not found.warnings
     assert "90°, 0° and 90°" in found.how[0]
 
@@ -72,7 +72,7 @@ def test_what_is_no_mount_is_refused(make, words):
 
 def test_an_alignment_cannot_be_changed_and_places_a_probe(bench, move):
     case = bench("linear", 0)
-    found = Alignment(case.T_true, Method.TYPED)
+    found = Alignment(case.T_true, AlignmentMethod.TYPED)
     placed = found.place(case.probe_P)
     assert np.allclose(placed.vertices, move(case.T_true, case.probe_P.vertices), rtol=0, atol=1e-15)
     assert np.array_equal(placed.faces, case.probe_P.faces)
@@ -88,9 +88,9 @@ def test_a_rounded_matrix_becomes_orthogonal():
 
 def test_a_covariance_needs_its_point_and_must_be_one():
     with pytest.raises(AlignmentError, match="both or neither"):
-        Alignment(np.eye(4), Method.TYPED, covariance=np.eye(6))
+        Alignment(np.eye(4), AlignmentMethod.TYPED, covariance=np.eye(6))
     with pytest.raises(AlignmentError, match="negative eigenvalue"):
-        Alignment(np.eye(4), Method.TYPED, covariance=-np.eye(6), about_S=np.zeros(3))
-    found = Alignment(np.eye(4), Method.TYPED, covariance=1e-6 * np.eye(6), about_S=np.zeros(3))
+        Alignment(np.eye(4), AlignmentMethod.TYPED, covariance=-np.eye(6), about_S=np.zeros(3))
+    found = Alignment(np.eye(4), AlignmentMethod.TYPED, covariance=1e-6 * np.eye(6), about_S=np.zeros(3))
     assert np.allclose(found.sigmas_mm, 1.0)
     assert np.allclose(found.sigmas_deg, np.degrees(1e-3))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.check import check_app
-from contactbench.pipeline.commands.options import RobotPosesOption, refuse_overwriting, written
+from contactbench.pipeline.commands.options import RobotPosesOption, refuse_overwriting, write_file, written
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import (
@@ -621,8 +621,6 @@ def captures(
 
 
 def _write(out: Path, planned: Plan) -> None:
-    from contactbench.pipeline.durable import write_durably
-
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")
     names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []
@@ -632,10 +630,7 @@ def _write(out: Path, planned: Plan) -> None:
         zip(_quaternions(planned.R_WS).tolist(), joints, planned.errors.tolist(), strict=True), 1
     ):
         rows.writerow([f"pose {number}", *map(repr, quaternion), *map(repr, angles), repr(1e3 * error)])
-    try:
-        write_durably(out, text.getvalue().encode())
-    except (OSError, ValueError) as error:
-        raise InputError(f"{out}: the plan cannot be written ({error}): choose another --out") from error
+    write_file(out, text.getvalue().encode())
 
 
 def _quaternions(R_WS: NDArray[np.float64]) -> NDArray[np.float64]:

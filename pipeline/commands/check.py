@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting, written
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
 from contactbench.pipeline.console import Noun, answer, numbers, say
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
@@ -127,15 +127,10 @@ def _now() -> str:
 
 def _finish(content: Mapping[str, Any], out: Path | None) -> None:
     """Write, show, and end with the exit code."""
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.verification.known import to_bytes
 
     if out is not None:
-        try:
-            write_durably(out, to_bytes(content))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
+        write_file(out, to_bytes(content))
     for sentence in content["warnings"]:
         say(f"warning: {sentence}", "yellow")
     say(f"{content['outcome'].upper()}: {content['sentence']}", _STYLES[content["outcome"]])

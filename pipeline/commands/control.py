@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from contactbench.pipeline.commands.options import write_file
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say, show_tables
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
@@ -190,7 +191,6 @@ def run(
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles
     from contactbench.pipeline.control.loop import run_loop
     from contactbench.pipeline.control.virtual import check_address, virtual_robot
-    from contactbench.pipeline.durable import write_durably
     from contactbench.pipeline.runtime.run import check_runnable
 
     check_address(robot)
@@ -229,10 +229,7 @@ def run(
             made.scene, made.controller, made.sensor, seconds + _END_S, stop_after=seconds, watch=paced
         )
     if out is not None:
-        try:
-            write_durably(out, trace.csv().encode())
-        except (OSError, ValueError) as error:
-            raise InputError(f"{out}: cannot be written ({error}); choose another --out") from error
+        write_file(out, trace.csv().encode())
     facts = _facts(config, trace)
     _tell(facts)
     if show is not None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.console import Bar, Noun, answer, say
 from contactbench.pipeline.settings import MountSettings, mount_rotation
 
@@ -435,8 +435,6 @@ def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None
 
 
 def _write(made: Heatmap, out: Path) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
 
     kind = out.suffix.lower()
@@ -446,9 +444,4 @@ def _write(made: Heatmap, out: Path) -> None:
         data = encode_png(made)
     else:
         data = encode_glb(made) if kind == ".glb" else encode_ply(made)
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{out}: the heatmap cannot be written ({error}): choose a folder that exists and is writable."
-        ) from error
+    write_file(out, data)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.markers import markers_app
-from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, numbers, say, show_tables
 from contactbench.pipeline.durable import make_folder
@@ -194,7 +194,7 @@ def align(
     if adopted:
         save_probe_file(align_step(content, found, again=again), out)
         if save is not None:
-            _write(save, found)
+            write_file(save, found.to_json().encode())
         say(f"Wrote {out}.")
     else:
         say("Nothing was written: the present mount stays.", "yellow")
@@ -329,18 +329,6 @@ def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
         say(f"warning: {sentence}", "yellow")
     for reason in () if by_touch is None else by_touch.reasons:
         say(reason)
-
-
-def _write(file: Path, found: Alignment) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.preparation.alignment import AlignmentError
-
-    try:
-        write_durably(file, found.to_json().encode())
-    except (OSError, ValueError) as error:
-        raise AlignmentError(
-            f"{file}: the alignment cannot be written ({error}): check the folder."
-        ) from error
 
 
 def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting, written
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
 from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
 from contactbench.pipeline.settings import VerificationSettings
 
@@ -87,7 +87,7 @@ def touches(
     )
     found = verify_files(inputs, given, timed=True)
     if out is not None:
-        _write(out, found.to_bytes())
+        write_file(out, found.to_bytes())
     _show(found)
     answer(found.to_json())
     if not found.verdict.passed:
@@ -104,16 +104,6 @@ def _left_out(text: str) -> tuple[str, str]:
 def _in_order(order: str, left_out: dict[str, str]) -> list[str]:
     names = [name.strip() for name in order.split(",")]
     return [name for name in names if name not in left_out]
-
-
-def _write(out: Path, data: bytes) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
-
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
 
 
 def _show(found: Verification) -> None:
@@ -211,19 +201,12 @@ def report(
     if not all(device and number for device, _, number in pairs):
         raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.report.making import report as make
 
     serials = {device: number for device, _, number in pairs}
     name = f"report{out.suffix.lower()}"
     parameters = {"name": name, "operator": operator, "serials": serials}
     data = make(inputs, parameters, creation_time().isoformat())[name]
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{out}: the report cannot be written ({error}): choose a folder that exists and is writable."
-        ) from error
+    write_file(out, data)
     say(f"{out}: {len(data):,} bytes")
     answer({"out": str(out), "bytes": len(data)})

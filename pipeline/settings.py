@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration import ContactTask, PoseNoise
-    from contactbench.pipeline.calibration.orientation import Convention
-
 # Kilometres and whole turns are mistakes, and squares of much more overflow.
 Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
@@ -139,34 +136,6 @@ class OrientationSettings(MountSettings):
     radians: bool = knob(False, "Angles are in rad, not degrees.")
     inverse: bool = knob(False, "Orientations turn world into sensor components (R_SW).")
 
-    def convention(self) -> Convention | None:
-        """
-        Return how orientations are written; None: as the file's columns say.
-
-        Raises
-        ------
-        InputError
-            Two things were said that contradict each other, or there is no such order or robot.
-        """
-        from contactbench.pipeline.calibration.orientation import Convention, Kind
-
-        robot = getattr(self, "robot", None)
-        degrees, inverse = not self.radians, self.inverse
-        ways = {"euler": self.euler, "rotation-vector": self.rotation_vector, "robot": robot}
-        chosen = [f"--{name}" for name, given in ways.items() if given]
-        if len(chosen) > 1:
-            raise InputError(f"{' and '.join(chosen)} contradict each other: give one.")
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
-        if robot:
-            from contactbench.pipeline.robot import Robot
-
-            Robot.named(robot)  # an unknown name is said before the file is read
-            return Convention(Kind.JOINTS, degrees=degrees, robot=robot, inverse=inverse)
-        return Convention(inverse=True) if inverse else None
-
 
 class PosesSettings(OrientationSettings):
     """How orientations in a table are written, also as the joints of a robot."""
@@ -224,16 +193,6 @@ class NoiseSettings(Settings):
     )
 
     @property
-    def noise(self) -> PoseNoise | None:
-        """Of a pose's mean; None: it is estimated from the poses. InputError where one of the two is missing."""
-        from contactbench.pipeline.calibration import PoseNoise
-
-        force, torque = self.noise_force, self.noise_torque
-        if (force is None) != (torque is None):
-            raise InputError("--noise-force and --noise-torque: give both or none.")
-        return None if force is None or torque is None else PoseNoise(force, torque)
-
-    @property
     def orientation_sigma(self) -> float | None:
         """About each axis, rad; None: it is estimated from the poses."""
         return None if self.orientation_noise is None else math.radians(self.orientation_noise)
@@ -267,16 +226,6 @@ class TaskSettings(Settings):
     )
     contact_force: Number = knob(10.0, "Force of those touches, N.")
 
-    @property
-    def task(self) -> ContactTask:
-        """The touches; the probe is touched at its end: the normal points along z, to the side of the tip."""
-        import numpy as np
-
-        from contactbench.pipeline.calibration import ContactTask
-
-        tip = np.array(self.tip) / 1000
-        return ContactTask(tip, np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0]), self.contact_force)
-
 
 class CalibrationSettings(PosesSettings, NoiseSettings, DownSettings, TaskSettings):
     """How a calibration is made from still poses."""
@@ -291,16 +240,6 @@ class CalibrationSettings(PosesSettings, NoiseSettings, DownSettings, TaskSettin
         if self.mount is not None and self.estimate_mount:
             raise InputError("--mount and --estimate-mount contradict each other: give one.")
         return super().R_ES
-
-    @property
-    def assumed(self) -> dict[str, Any]:
-        """What `calibrate` and `estimate_mount` are told beside the poses."""
-        return {
-            "noise": self.noise,
-            "orientation_sigma": self.orientation_sigma,
-            "down_W": self.down,
-            "task": self.task,
-        }
 
 
 # ---- checks of a calibration -------------------------------------------------------------------

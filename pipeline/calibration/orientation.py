@@ -15,6 +15,8 @@ from contactbench.pipeline.robot import Robot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.settings import OrientationSettings
+
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 
 
@@ -84,6 +86,30 @@ class Convention:
             Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
             Kind.JOINTS: tuple(f"j{number}" for number in range(1, 7)),
         }[self.kind]
+
+
+def convention_of(given: OrientationSettings) -> Convention | None:
+    """Return how orientations are written, from what was said of it; None: as the file's columns say.
+
+    Raises
+    ------
+    InputError
+        Two things were said that contradict each other, or there is no such order or robot.
+    """
+    robot = getattr(given, "robot", None)
+    degrees, inverse = not given.radians, given.inverse
+    ways = {"euler": given.euler, "rotation-vector": given.rotation_vector, "robot": robot}
+    chosen = [f"--{name}" for name, said in ways.items() if said]
+    if len(chosen) > 1:
+        raise InputError(f"{' and '.join(chosen)} contradict each other: give one.")
+    if given.euler:
+        return Convention(Kind.EULER, order=given.euler, degrees=degrees, inverse=inverse)
+    if given.rotation_vector:
+        return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
+    if robot:
+        Robot.named(robot)  # an unknown name is said before the file is read
+        return Convention(Kind.JOINTS, degrees=degrees, robot=robot, inverse=inverse)
+    return Convention(inverse=True) if inverse else None
 
 
 def rotations(values: NDArray[np.float64], convention: Convention) -> NDArray[np.float64]:

@@ -97,8 +97,9 @@ def fit(
     """
     for file in (out, report):
         refuse_overwriting(file, [each for each in (poses, robot_poses) if each is not None])
-    R_ES, assumed = given.R_ES, given.assumed
+    R_ES = given.R_ES
     from contactbench.pipeline.calibration import calibrate
+    from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import (
         Source,
@@ -106,15 +107,16 @@ def fit(
         save_calibration,
     )
 
+    said = assumed(given)
     table = _poses(poses, given, R_ES, robot_poses, heard)
     mounted = None
     if given.estimate_mount:
         from contactbench.pipeline.calibration.mount import estimate_mount
 
-        mounted = estimate_mount(table.poses, **assumed)
+        mounted = estimate_mount(table.poses, **said)
         calibration = mounted.calibration
     else:
-        calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **assumed)
+        calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
     source = Source.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
@@ -297,11 +299,12 @@ def diagnose(
 
     Exit code 1: something is not as it was said to be.
     """
+    from contactbench.pipeline.calibration.assumptions import pose_noise
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose as run
     from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
-    noise, sigma = known.noise, known.orientation_sigma
+    noise, sigma = pose_noise(known), known.orientation_sigma
     if sigma is not None:
         if noise is None:
             raise typer.BadParameter(
@@ -516,6 +519,7 @@ def plan_poses(
     import numpy as np
 
     from contactbench.pipeline.calibration import PoseNoise
+    from contactbench.pipeline.calibration.assumptions import contact_task
     from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
     from contactbench.pipeline.calibration.suggest import USUAL_LOAD
     from contactbench.pipeline.calibration.suggest import plan_poses as plan
@@ -525,7 +529,7 @@ def plan_poses(
     down_W = world.down_W
     choice = reach.choice(down_W)
     load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
-    task = replace(touched.task, down_W=np.array(down_W))
+    task = replace(contact_task(touched), down_W=np.array(down_W))
     noise = PoseNoise(noise_force, noise_torque)
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)

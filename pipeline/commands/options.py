@@ -40,7 +40,9 @@ def written(given: OrientationSettings) -> Convention | None:
         raise typer.BadParameter(
             "--radians is about angles: it goes with --euler, --rotation-vector or --robot."
         )
-    found = given.convention()
+    from contactbench.pipeline.calibration.orientation import convention_of
+
+    found = convention_of(given)
     axes = (given.euler or "").lower()
     if axes != "xyz" and set(axes) == set("xyz") and len(axes) == 3:
         first, second, third = tuple(axes)

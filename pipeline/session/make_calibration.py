@@ -49,13 +49,14 @@ def captures(
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.orientation import convention_of
 
     given = read_parameters(CapturesParameters, parameters)
     recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
     found = capture_any(
         recording,
-        given.convention(),
+        convention_of(given),
         robot_poses=inputs.get("robot_poses"),
         R_ES=given.R_ES,
         model=model,
@@ -113,11 +114,13 @@ def calibration(
 ) -> dict[str, bytes]:
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
     from contactbench.pipeline.calibration import calibrate
+    from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
     from contactbench.pipeline.calibration.mount import estimate_mount
+    from contactbench.pipeline.calibration.orientation import convention_of
 
     given = read_parameters(CalibrationParameters, parameters)
     poses = check_roles(inputs, "poses")
@@ -126,14 +129,14 @@ def calibration(
             f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
             " captures from it first."
         )
-    R_ES, assumed = given.R_ES, given.assumed
-    table = read_poses(poses, given.convention(), R_ES=R_ES)
+    R_ES, said = given.R_ES, assumed(given)
+    table = read_poses(poses, convention_of(given), R_ES=R_ES)
     mount = None if R_ES is None else Mount.of(R_ES.T)
     if given.estimate_mount:
-        mounted = estimate_mount(table.poses, **assumed)
+        mounted = estimate_mount(table.poses, **said)
         found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
     else:
-        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **assumed)
+        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     time = None if created is None else datetime.fromisoformat(created)
     with folder_for(given.name, ".json") as out:
         save_calibration(found, out, source=poses, created=time, mount=mount)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import Three, TouchSettings
 from contactbench.pipeline.verification.known import (
@@ -404,7 +405,7 @@ def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: s
     roles_of(inputs, TOUCH_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
     probe = load_surface(inputs["probe"])
-    recording = read_touch_recording(inputs["touch"], given.convention(), R_ES)
+    recording = read_touch_recording(inputs["touch"], convention_of(given), R_ES)
     found = check_touch(
         probe,
         calibration.model,

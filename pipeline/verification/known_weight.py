@@ -14,6 +14,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG, WeightSettings
 from contactbench.pipeline.verification.known import (
@@ -493,7 +494,7 @@ def weight_content(
 
     roles_of(inputs, WEIGHT_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
-    tables = [read_any_poses(inputs[role], given.convention(), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
+    tables = [read_any_poses(inputs[role], convention_of(given), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
     unloaded, loaded = (table.poses for table in tables)
     found = check_weight(
         calibration,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import Positive, VerificationSettings
 from contactbench.pipeline.verification.figures import Limits, Times
@@ -129,7 +130,7 @@ def verify_files(
     )
     if calibration.verdict.level is Level.REFUSE:
         faults.append("the calibration was refused: calibrate again")
-    recording = read_touch_recording(inputs["recording"], given.convention(), R_ES)
+    recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)
     return verify(
         probe,
         calibration.model,

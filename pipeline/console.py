@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import inspect
 import json
+import math
 import sys
 import time
 from contextvars import ContextVar
 from dataclasses import MISSING, fields, is_dataclass
 from functools import wraps
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin, get_type_hints
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -90,7 +91,7 @@ class Noun(typer.Typer):
     """
     Commands about one thing: their help is their docstring, and each has ``--json``, ``--quiet`` and an example.
 
-    A parameter of a command that is a dataclass becomes the options that its fields declare.
+    A parameter of a command that is a dataclass, or settings, becomes the options that its fields declare.
 
     Parameters
     ----------
@@ -124,24 +125,24 @@ def _nothing() -> None:
 
 
 def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[..., None]:
-    """Return a command whose options are its own, those of its dataclasses, and the common ones."""
+    """Return a command whose options are its own, those of its settings and dataclasses, and the common ones."""
     parameters: list[inspect.Parameter] = []
-    models: dict[str, tuple[Any, list[str]]] = {}
+    models: dict[str, tuple[Callable[..., Any], list[str]]] = {}
     for parameter in inspect.signature(function, eval_str=True).parameters.values():
-        model = parameter.annotation
-        if not is_dataclass(model):
+        told = parameter.annotation
+        bare, *notes = get_args(told) if get_origin(told) is Annotated else (told,)
+        model: Callable[..., Any]
+        if is_dataclass(bare):
+            model, options = cast("Any", bare), _dataclass_options(bare)
+        elif hasattr(bare, "model_fields"):
+            from contactbench.pipeline.setting_options import options_of  # not for those who need none
+
+            model, options = options_of(bare, *notes)
+        else:
             parameters.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
             continue
-        hints = get_type_hints(model, include_extras=True)
-        given = fields(model)
-        models[parameter.name] = model, [each.name for each in given]
-        for each in given:
-            default = inspect.Parameter.empty if each.default is MISSING else each.default
-            parameters.append(
-                inspect.Parameter(
-                    each.name, parameter.KEYWORD_ONLY, default=default, annotation=hints[each.name]
-                )
-            )
+        models[parameter.name] = model, [each.name for each in options]
+        parameters += options
     common = {"as_json": JsonOption, "quiet": QuietOption} if as_json else {"quiet": QuietOption}
     own = {parameter.name for parameter in parameters}
     parameters += [
@@ -164,6 +165,36 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return command
+
+
+def _dataclass_options(model: Any) -> list[inspect.Parameter]:
+    hints = get_type_hints(model, include_extras=True)
+    return [
+        inspect.Parameter(
+            each.name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=inspect.Parameter.empty if each.default is MISSING else each.default,
+            annotation=hints[each.name],
+        )
+        for each in fields(model)
+    ]
+
+
+def numbers(text: str, count: int, option: str) -> list[float]:
+    """Return `count` finite numbers from an option's comma separated text.
+
+    Raises
+    ------
+    typer.BadParameter
+        There are others.
+    """
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != count or not all(math.isfinite(value) for value in values):
+        raise typer.BadParameter(f"{option} needs {count} finite numbers separated by commas, not {text!r}.")
+    return values
 
 
 def wants_json(ctx: Any) -> bool:

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.calibration import Limits
-from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (
     PanelScroll,

@@ -15,8 +15,7 @@ from contactbench.pipeline.robot import Robot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# How well orientations are known by what gives them, degrees: 1 sigma about each axis.
-ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
+    from contactbench.pipeline.settings import OrientationSettings
 
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 
@@ -89,24 +88,26 @@ class Convention:
         }[self.kind]
 
 
-def convention_of(
-    euler: str | None, rotation_vector: bool, robot: str | None, *, radians: bool, inverse: bool
-) -> Convention | None:
+def convention_of(given: OrientationSettings) -> Convention | None:
     """Return how orientations are written, from what was said of it; None: as the file's columns say.
 
     Raises
     ------
     InputError
-        Two things were said that contradict each other, or there is no such order.
+        Two things were said that contradict each other, or there is no such order or robot.
     """
-    if sum(map(bool, (euler, rotation_vector, robot))) > 1:
-        raise InputError("euler, rotation_vector and robot contradict each other: give one.")
-    degrees = not radians
-    if euler:
-        return Convention(Kind.EULER, order=euler, degrees=degrees, inverse=inverse)
-    if rotation_vector:
+    robot = getattr(given, "robot", None)
+    degrees, inverse = not given.radians, given.inverse
+    ways = {"euler": given.euler, "rotation-vector": given.rotation_vector, "robot": robot}
+    chosen = [f"--{name}" for name, said in ways.items() if said]
+    if len(chosen) > 1:
+        raise InputError(f"{' and '.join(chosen)} contradict each other: give one.")
+    if given.euler:
+        return Convention(Kind.EULER, order=given.euler, degrees=degrees, inverse=inverse)
+    if given.rotation_vector:
         return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
     if robot:
+        Robot.named(robot)  # an unknown name is said before the file is read
         return Convention(Kind.JOINTS, degrees=degrees, robot=robot, inverse=inverse)
     return Convention(inverse=True) if inverse else None
 

@@ -32,8 +32,8 @@ from contactbench.pipeline.calibration.fit import (
     two_stage,
     whitener,
 )
-from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import MountOption, numbers
-from contactbench.pipeline.console import Noun, answer, say, show_tables
+from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
+from contactbench.pipeline.settings import MountSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,6 +29,7 @@ BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder o
 @bundle_app.command(example="bundle export bench-1 --model M8128 --rate 1000 --out runtime.zip")
 def export(
     out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
+    turned: MountSettings,
     session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
     calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate fit.")] = None,
     probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
@@ -41,7 +42,6 @@ def export(
     rate: Annotated[
         float | None, typer.Option(help="Readings a second, Hz [as verified, if the verification says it].")
     ] = None,
-    mount: MountOption = None,
     settings_file: Annotated[
         Path | None,
         typer.Option("--settings", help="JSON file with any of controller, limits, gates, filters."),
@@ -117,7 +117,7 @@ def export(
         "accept_by_region": accept_by_region, "torsion_arm_mm": torsion_arm_mm, "max_force": max_force,
         "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame,
         "sensor_name": sensor_name, "operator": operator,
-        "mount": None if mount is None else numbers(mount, 3, "--mount"),
+        "mount": turned.mount,
         "saturation": None if saturation is None else numbers(saturation, 6, "--saturation"),
     }  # fmt: skip
     said = {name: value for name, value in given.items() if value is not None}

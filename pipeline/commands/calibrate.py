@@ -12,50 +12,31 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.check import check_app
-from contactbench.pipeline.commands.options import (
-    AllJointsOption,
-    DelayOption,
-    DownOption,
-    EulerOption,
-    FloorOption,
-    ForceOption,
-    InverseOption,
-    JointsOption,
-    MountOption,
-    NoiseForceOption,
-    NoiseTorqueOption,
-    OrientationNoiseOption,
-    RadiansOption,
-    RobotOption,
-    RobotPosesOption,
-    TiltOption,
-    TipOption,
-    ToolOption,
-    VectorOption,
-    contact_task,
-    convention,
-    delay_seconds,
-    down_direction,
-    mount_rotation,
-    numbers,
-    orientation_sigma,
-    pose_noise,
-    reachable,
-    refuse_overwriting,
-)
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.commands.options import RobotPosesOption, refuse_overwriting, write_file, written
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import (
+    CalibrationSettings,
+    CapturesSettings,
+    DownSettings,
+    MountSettings,
+    NoiseSettings,
+    Only,
+    PosesSettings,
+    TaskSettings,
+    knob,
+)
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
     from rich.table import Table
 
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
-    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration.reachable import Reachable
     from contactbench.pipeline.calibration.suggest import Plan
 
 
@@ -82,6 +63,8 @@ CalibrationArgument = Annotated[
     Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate fit wrote.")
 ]
 
+Delay = Annotated[CapturesSettings, Only("delay")]
+
 
 @calibrate_app.command(
     example=(
@@ -92,28 +75,10 @@ CalibrationArgument = Annotated[
 def fit(
     poses: PosesArgument,
     out: Annotated[Path, typer.Option(help="Calibration file to write, JSON.")],
+    given: CalibrationSettings,
+    heard: Delay,
     report: Annotated[Path | None, typer.Option(help="Also write a report for people, HTML.")] = None,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
-    estimate_mount: Annotated[
-        bool,
-        typer.Option(
-            "--estimate-mount",
-            help="Orientations are those of the flange, and how the sensor is turned on it is unknown.",
-        ),
-    ] = False,
     robot_poses: RobotPosesOption = None,
-    delay: DelayOption = None,
-    noise_force: NoiseForceOption = None,
-    noise_torque: NoiseTorqueOption = None,
-    orientation_noise: OrientationNoiseOption = None,
-    down: DownOption = "0,0,-1",
-    tip: TipOption = None,
-    contact_force: ForceOption = 10.0,
 ) -> None:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
 
@@ -130,19 +95,11 @@ def fit(
     Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all
     the same, so that calibrate next can tell which pose to take.
     """
-    if mount is not None and estimate_mount:
-        raise typer.BadParameter("--mount and --estimate-mount contradict each other: give one.")
-    for written in (out, report):
-        refuse_overwriting(written, [file for file in (poses, robot_poses) if file is not None])
-    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    R_ES = mount_rotation(mount)
-    said: dict[str, Any] = {
-        "noise": pose_noise(noise_force, noise_torque),
-        "orientation_sigma": orientation_sigma(orientation_noise),
-        "down_W": down_direction(down),
-        "task": contact_task(tip, contact_force),
-    }
+    for file in (out, report):
+        refuse_overwriting(file, [each for each in (poses, robot_poses) if each is not None])
+    R_ES = given.R_ES
     from contactbench.pipeline.calibration import calibrate
+    from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import (
         Source,
@@ -150,12 +107,13 @@ def fit(
         save_calibration,
     )
 
-    table = _poses(poses, written_as, R_ES, robot_poses, delay)
+    said = assumed(given)
+    table = _poses(poses, given, R_ES, robot_poses, heard)
     mounted = None
-    if estimate_mount:
-        from contactbench.pipeline.calibration.mount import estimate_mount as fit_mount
+    if given.estimate_mount:
+        from contactbench.pipeline.calibration.mount import estimate_mount
 
-        mounted = fit_mount(table.poses, **said)
+        mounted = estimate_mount(table.poses, **said)
         calibration = mounted.calibration
     else:
         calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
@@ -173,18 +131,19 @@ def fit(
 
 
 def _poses(
-    file: Path, written_as: Convention | None, R_ES: Any, robot_poses: Path | None, delay: str | None
+    file: Path, given: PosesSettings, R_ES: Any, robot_poses: Path | None, heard: CapturesSettings
 ) -> PoseTable:
     """Read poses or find them in a recording, and tell how, with what was left out."""
+    convention = written(given)
     from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(
             file,
-            written_as,
+            convention,
             robot_poses=robot_poses,
             R_ES=R_ES,
-            delay=delay_seconds(delay),
+            delay=heard.delay,
             progress=bar,
         )
     for sentence in table.notes:
@@ -322,18 +281,10 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 )
 def diagnose(
     poses: PosesArgument,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
+    given: CapturesSettings,
+    known: NoiseSettings,
+    world: DownSettings,
     robot_poses: RobotPosesOption = None,
-    delay: DelayOption = None,
-    noise_force: NoiseForceOption = None,
-    noise_torque: NoiseTorqueOption = None,
-    orientation_noise: OrientationNoiseOption = None,
-    down: DownOption = "0,0,-1",
     mass: Annotated[float | None, typer.Option(help="Mass of all that hangs on the sensor, kg.")] = None,
     tool_length: Annotated[
         float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
@@ -348,12 +299,12 @@ def diagnose(
 
     Exit code 1: something is not as it was said to be.
     """
-    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from contactbench.pipeline.calibration.assumptions import pose_noise
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose as run
     from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
-    noise, sigma = pose_noise(noise_force, noise_torque), orientation_sigma(orientation_noise)
+    noise, sigma = pose_noise(known), known.orientation_sigma
     if sigma is not None:
         if noise is None:
             raise typer.BadParameter(
@@ -361,8 +312,8 @@ def diagnose(
                 " of all together."
             )
         noise = replace(noise, orientation=sigma)
-    prior = Prior(down_W=down_direction(down), mass=mass, tool_length=tool_length / 1000)
-    table = _poses(poses, written_as, mount_rotation(mount), robot_poses, delay)
+    prior = Prior(down_W=world.down_W, mass=mass, tool_length=tool_length / 1000)
+    table = _poses(poses, given, given.R_ES, robot_poses, given)
     raw = RawOrientations(table.raw, table.convention)
     with Bar("comparing conventions", counted=True) as bar:
         found = run(table.poses, noise, prior=prior, raw=raw, progress=bar)
@@ -392,25 +343,18 @@ def _show_diagnosis(found: Diagnosis) -> None:
 def still(
     calibration: CalibrationArgument,
     poses: PosesArgument,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
+    given: CapturesSettings,
     robot_poses: RobotPosesOption = None,
-    delay: DelayOption = None,
 ) -> None:
     """Check a calibration on still, contact-free poses that it has not seen.
 
     POSES is written as for calibrate fit. Exit code 1: the residuals are too large for contact sensing, or
     larger than the calibration's uncertainty and the noise explain.
     """
-    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.verify import verify_still
 
-    fitted, R_ES = _calibration(calibration, mount)
-    table = _poses(poses, written_as, R_ES, robot_poses, delay)
+    fitted, R_ES = _calibration(calibration, given)
+    table = _poses(poses, given, R_ES, robot_poses, given)
     found = verify_still(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
@@ -428,12 +372,7 @@ def compensate(
         Path, typer.Argument(metavar="RECORDING", help="CSV file, or - for standard input.")
     ],
     out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
+    given: PosesSettings,
     allow_nan: Annotated[
         bool, typer.Option("--allow-nan", help="Pass on NaN, infinity and empty cells.")
     ] = False,
@@ -449,16 +388,16 @@ def compensate(
     if as_json() and out == dash:
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
     refuse_overwriting(out, [calibration])
-    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    convention = written(given)
     from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 
-    fitted, R_ES = _calibration(calibration, mount)
+    fitted, R_ES = _calibration(calibration, given)
     with Bar("compensating") as bar:
         summary = compensate_file(
             fitted,
             sys.stdin.buffer if recording == dash else recording,
             sys.stdout.buffer if out == dash else out,
-            written_as,
+            convention,
             allow_nan=allow_nan,
             R_ES=R_ES,
             progress=bar,
@@ -472,18 +411,60 @@ def compensate(
     answer({"out": str(out), **summary.facts()})
 
 
-def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
+def _calibration(file: Path, given: MountSettings) -> tuple[Calibration, Any]:
     """Return a calibration, and R_ES: as the option says, or as it was estimated with the calibration."""
     from contactbench.pipeline.calibration.files.calibration_file import load_record
 
     record = load_record(file)
-    if mount is not None:
-        numbers(mount, 3, "--mount")
-        return record.calibration, mount_rotation(mount)
+    if given.mount is not None:
+        return record.calibration, given.R_ES
     return record.calibration, None if record.mount is None else record.mount.R_SE.T
 
 
 _FEWEST_POSES = 3
+
+
+class ReachSettings(MountSettings):
+    """Which poses can be taken: what a robot reaches from where it is, or anything by hand."""
+
+    robot: str | None = knob(
+        None, "Orientation is that of a robot's flange, by joints j1..j6: elfin3.", metavar="NAME"
+    )
+    joints: str | None = knob(None, "Where the robot is now, degrees.", metavar="J1,...,J6")
+    all_joints: bool = knob(False, "Move the arm too, not only the wrist: longer moves.")
+    tool_length: float = knob(200.0, "From the flange to the tip of what it carries, mm.")
+    floor: float = knob(0.0, "Height above the base's foot that nothing may go below, mm.")
+    max_tilt: float = knob(180.0, "Without a robot: largest tilt of the sensor from down, degrees.")
+
+    def choice(self, down_W: ArrayLike) -> Reachable:
+        """Return the poses to choose from; by hand, tilts are counted from `down_W`.
+
+        Raises
+        ------
+        typer.BadParameter
+            Of --robot and --joints only one was given.
+        """
+        import numpy as np
+
+        from contactbench.pipeline.calibration.reachable import by_hand, by_robot
+
+        if (self.robot is None) != (self.joints is None):
+            raise typer.BadParameter("--robot and --joints go together: which robot, and where it is now.")
+        if self.robot is None or self.joints is None:
+            return by_hand(max_tilt=np.radians(self.max_tilt), down_W=down_W)
+        from contactbench.pipeline.robot import Clearance, Robot
+
+        arm = Robot.named(self.robot)
+        q_now = np.radians(numbers(self.joints, len(arm.lower), "--joints"))
+        clearance = Clearance((0.0, 0.0, self.tool_length / 1000), z_min=self.floor / 1000)
+        return by_robot(
+            arm,
+            q_now,
+            R_ES=self.R_ES,
+            wrist_only=not self.all_joints,
+            clearance=clearance,
+            down_W=down_W,
+        )
 
 
 @calibrate_app.command(
@@ -492,13 +473,7 @@ _FEWEST_POSES = 3
 )
 def next_pose(
     calibration: CalibrationArgument,
-    robot: RobotOption = None,
-    joints: JointsOption = None,
-    mount: MountOption = None,
-    all_joints: AllJointsOption = False,
-    tool_length: ToolOption = 200.0,
-    floor: FloorOption = 0.0,
-    max_tilt: TiltOption = 180.0,
+    reach: ReachSettings,
 ) -> None:
     """Say which pose would improve a calibration most, and by how much, before it is taken.
 
@@ -509,17 +484,7 @@ def next_pose(
     from contactbench.pipeline.calibration.suggest import suggest_pose
 
     fitted = load_calibration(calibration)
-    choice = reachable(
-        robot,
-        joints,
-        mount,
-        max_tilt=max_tilt,
-        all_joints=all_joints,
-        tool_length=tool_length,
-        floor=floor,
-        down_W=fitted.down_W,
-    )
-    suggestion = suggest_pose(fitted, choice)
+    suggestion = suggest_pose(fitted, reach.choice(fitted.down_W))
     say(suggestion.sentence)
     answer(
         {
@@ -539,19 +504,12 @@ def next_pose(
 def plan_poses(
     count: Annotated[int, typer.Argument(metavar="COUNT", help="How many, at least 3.")],
     out: Annotated[Path, typer.Option(help="CSV file to write.")],
-    robot: RobotOption = None,
-    joints: JointsOption = None,
-    mount: MountOption = None,
-    all_joints: AllJointsOption = False,
-    tool_length: ToolOption = 200.0,
-    floor: FloorOption = 0.0,
-    max_tilt: TiltOption = 180.0,
-    tip: TipOption = None,
-    contact_force: ForceOption = 10.0,
+    reach: ReachSettings,
+    touched: TaskSettings,
+    world: DownSettings,
     mass: Annotated[float, typer.Option(help="About what hangs on the sensor, kg.")] = 0.5,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="The same of its torque, N·m.")] = 0.002,
-    down: DownOption = "0,0,-1",
 ) -> None:
     """Plan COUNT poses that together leave the least error at the contact.
 
@@ -561,25 +519,17 @@ def plan_poses(
     import numpy as np
 
     from contactbench.pipeline.calibration import PoseNoise
+    from contactbench.pipeline.calibration.assumptions import contact_task
     from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
     from contactbench.pipeline.calibration.suggest import USUAL_LOAD
     from contactbench.pipeline.calibration.suggest import plan_poses as plan
 
     if not 0 < mass < 1000:
         raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
-    down_W = down_direction(down)
-    choice = reachable(
-        robot,
-        joints,
-        mount,
-        max_tilt=max_tilt,
-        all_joints=all_joints,
-        tool_length=tool_length,
-        floor=floor,
-        down_W=down_W,
-    )
+    down_W = world.down_W
+    choice = reach.choice(down_W)
     load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
-    task = replace(contact_task(tip, contact_force), down_W=np.array(down_W))
+    task = replace(contact_task(touched), down_W=np.array(down_W))
     noise = PoseNoise(noise_force, noise_torque)
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
@@ -611,17 +561,11 @@ def captures(
         Path, typer.Argument(metavar="RECORDING", help="MCAP or CSV file, or - for standard input.")
     ],
     out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
+    given: CapturesSettings,
     calibration: Annotated[
         Path | None, typer.Option(help="Preliminary calibration, to see steady touches.")
     ] = None,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
     robot_poses: RobotPosesOption = None,
-    delay: DelayOption = None,
 ) -> None:
     """Find in a recording where the sensor stood still, and write the poses for calibrate fit.
 
@@ -637,7 +581,7 @@ def captures(
     Exit code 1: fewer than three poses were found.
     """
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
-    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    convention = written(given)
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
@@ -646,11 +590,11 @@ def captures(
     with Bar("looking for still poses") as bar:
         found = capture_any(
             sys.stdin.buffer if recording == Path("-") else recording,
-            written_as,
-            R_ES=mount_rotation(mount),
+            convention,
+            R_ES=given.R_ES,
             robot_poses=robot_poses,
             model=model,
-            delay=delay_seconds(delay),
+            delay=given.delay,
             progress=bar,
         )
     for sentence in found.warnings:
@@ -681,8 +625,6 @@ def captures(
 
 
 def _write(out: Path, planned: Plan) -> None:
-    from contactbench.pipeline.durable import write_durably
-
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")
     names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []
@@ -692,10 +634,7 @@ def _write(out: Path, planned: Plan) -> None:
         zip(_quaternions(planned.R_WS).tolist(), joints, planned.errors.tolist(), strict=True), 1
     ):
         rows.writerow([f"pose {number}", *map(repr, quaternion), *map(repr, angles), repr(1e3 * error)])
-    try:
-        write_durably(out, text.getvalue().encode())
-    except (OSError, ValueError) as error:
-        raise InputError(f"{out}: the plan cannot be written ({error}): choose another --out") from error
+    write_file(out, text.getvalue().encode())
 
 
 def _quaternions(R_WS: NDArray[np.float64]) -> NDArray[np.float64]:

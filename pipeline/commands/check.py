@@ -7,18 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import (
-    EulerOption,
-    InverseOption,
-    MountOption,
-    RadiansOption,
-    RobotOption,
-    VectorOption,
-    convention,
-    numbers,
-    refuse_overwriting,
-)
-from contactbench.pipeline.console import Noun, answer, say
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
+from contactbench.pipeline.console import Noun, answer, numbers, say
+from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,24 +38,7 @@ def weight(
     calibration: CalibrationOption,
     unloaded: Annotated[Path, typer.Option(help="Readings without the weight: .csv or .mcap.")],
     loaded: Annotated[Path, typer.Option(help="Readings with the weight: .csv or .mcap.")],
-    mass: Annotated[float, typer.Option(help="Mass of the weight, kg.")],
-    mass_sigma: Annotated[
-        float, typer.Option(help="Standard uncertainty of the mass, kg; half of a certificate's U (k = 2).")
-    ] = 0.0,
-    certificate: Annotated[str, typer.Option(help="Number of the weight's certificate.")] = "",
-    gravity: Annotated[
-        float | None, typer.Option(help="Local acceleration of free fall, m/s² [9.80665 ± 0.015].")
-    ] = None,
-    limit: Annotated[float, typer.Option(help="Largest error of scale that passes, %.")] = 1.0,
-    reach: Annotated[
-        float, typer.Option(help="Largest plausible distance of the weight's string from the sensor, mm.")
-    ] = 500.0,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    robot: RobotOption = None,
-    mount: MountOption = None,
+    said: WeightSettings,
     out: OutOption = None,
 ) -> None:
     """Hang a known weight on the tool, and compare it with what the sensor reads.
@@ -77,21 +51,11 @@ def weight(
     """
     inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
     refuse_overwriting(out, list(inputs.values()))
-    convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    written(said)
     from contactbench.pipeline.verification.known_weight import WeightParameters, weight_content
 
-    given = WeightParameters.checked(
-        {
-            "name": "known_weight.json" if out is None else out.name,
-            "mass": mass,
-            "mass_sigma": mass_sigma,
-            "certificate": certificate,
-            "gravity": gravity,
-            "limit": limit,
-            "reach": reach,
-            **_orientations(euler, rotation_vector, robot, mount, radians=radians, inverse=inverse),
-        }
-    )
+    name = "known_weight.json" if out is None else out.name
+    given = WeightParameters.checked({**said.model_dump(), "name": name})
     _finish(weight_content(inputs, given, _now()), out)
 
 
@@ -105,6 +69,7 @@ def touch(
     recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="The press: .mcap or .csv.")],
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
     calibration: CalibrationOption,
+    said: TouchSettings,
     point: Annotated[
         str | None,
         typer.Option(
@@ -113,13 +78,6 @@ def touch(
     ] = None,
     markers: Annotated[Path | None, typer.Option(help="Instead: table of markers, with --marker.")] = None,
     marker: Annotated[str | None, typer.Option(metavar="NAME", help="The marker that was pressed.")] = None,
-    point_sigma: Annotated[float, typer.Option(help="How well the point is hit, 1 sigma, mm.")] = 2.0,
-    limit: Annotated[float, typer.Option(help="Largest error that passes, mm.")] = 5.0,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    mount: MountOption = None,
     out: OutOption = None,
 ) -> None:
     """Press one known point of the probe, and compare it with where the contact is located.
@@ -133,17 +91,12 @@ def touch(
     """
     inputs = {"calibration": calibration, "probe": probe, "touch": recording}
     refuse_overwriting(out, list(inputs.values()))
-    convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
+    written(said)
     from contactbench.pipeline.verification.known_touch import TouchParameters, touch_content
 
+    name = "known_touch.json" if out is None else out.name
     given = TouchParameters.checked(
-        {
-            "name": "known_touch.json" if out is None else out.name,
-            "point": _point(point, markers, marker),
-            "point_sigma": point_sigma,
-            "limit": limit,
-            **_orientations(euler, rotation_vector, None, mount, radians=radians, inverse=inverse),
-        }
+        {**said.model_dump(), "name": name, "point": _point(point, markers, marker)}
     )
     _finish(touch_content(inputs, given, _now()), out)
 
@@ -166,25 +119,6 @@ def _point(point: str | None, markers: Path | None, marker: str | None) -> list[
     return found
 
 
-def _orientations(
-    euler: str | None,
-    rotation_vector: bool,
-    robot: str | None,
-    mount: str | None,
-    *,
-    radians: bool,
-    inverse: bool,
-) -> dict[str, Any]:
-    return {
-        "euler": euler,
-        "rotation_vector": rotation_vector,
-        "robot": robot,
-        "radians": radians,
-        "inverse": inverse,
-        "mount": None if mount is None else numbers(mount, 3, "--mount"),
-    }
-
-
 def _now() -> str:
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
 
@@ -193,15 +127,10 @@ def _now() -> str:
 
 def _finish(content: Mapping[str, Any], out: Path | None) -> None:
     """Write, show, and end with the exit code."""
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.verification.known import to_bytes
 
     if out is not None:
-        try:
-            write_durably(out, to_bytes(content))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
+        write_file(out, to_bytes(content))
     for sentence in content["warnings"]:
         say(f"warning: {sentence}", "yellow")
     say(f"{content['outcome'].upper()}: {content['sentence']}", _STYLES[content["outcome"]])

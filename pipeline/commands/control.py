@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import MountOption, numbers
+from contactbench.pipeline.commands.options import write_file
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say, show_tables
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import MountSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -148,6 +149,7 @@ def tune(
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
     robot: Annotated[str, typer.Option(metavar="ADDRESS", help="virtual://arm or virtual://platform.")],
+    turned: MountSettings,
     motion: Annotated[
         str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Of the phantom.")
     ] = "in-plane",
@@ -165,7 +167,6 @@ def run(
         float | None, typer.Option(help="Of the phantom at the wanted force, N/m [soft tissue].")
     ] = None,
     friction: Annotated[float, typer.Option(help="Of the phantom.")] = 0.1,
-    mount: MountOption = None,
     seed: Annotated[int, typer.Option(help="Of noise, and of what the calibration leaves.")] = 0,
     real_time: Annotated[bool, typer.Option("--real-time", help="No faster than the clock.")] = False,
     unverified: Annotated[
@@ -190,7 +191,6 @@ def run(
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles
     from contactbench.pipeline.control.loop import run_loop
     from contactbench.pipeline.control.virtual import check_address, virtual_robot
-    from contactbench.pipeline.durable import write_durably
     from contactbench.pipeline.runtime.run import check_runnable
 
     check_address(robot)
@@ -209,7 +209,7 @@ def run(
         motion=_motion(motion, size, period),
         stiffness=stiffness,
         friction=friction,
-        quaternion_ES=mount_of_angles(None if mount is None else numbers(mount, 3, "--mount")),
+        quaternion_ES=mount_of_angles(turned.mount),
         seed=seed,
     )
     show = Frames(robot) if frames else None
@@ -229,10 +229,7 @@ def run(
             made.scene, made.controller, made.sensor, seconds + _END_S, stop_after=seconds, watch=paced
         )
     if out is not None:
-        try:
-            write_durably(out, trace.csv().encode())
-        except (OSError, ValueError) as error:
-            raise InputError(f"{out}: cannot be written ({error}); choose another --out") from error
+        write_file(out, trace.csv().encode())
     facts = _facts(config, trace)
     _tell(facts)
     if show is not None:

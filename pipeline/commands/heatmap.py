@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import MountOption, mount_rotation, refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.settings import MountSettings, mount_rotation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,7 +31,7 @@ _HEAD = 4096  # bytes that tell a verification from a table
 
 
 @dataclass(frozen=True)
-class Files:
+class HeatmapFiles:
     """What a heatmap is made from; `mount` as a session says, degrees about x, y, z."""
 
     contacts: Path
@@ -40,7 +41,9 @@ class Files:
 
 
 @contextmanager
-def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judged: bool) -> Iterator[Files]:
+def chosen(
+    contacts: Path, probe: Path | None, calibration: Path | None, *, judged: bool
+) -> Iterator[HeatmapFiles]:
     """
     Give the files; a session's newest ones where `contacts` is its folder.
 
@@ -52,7 +55,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
     if not contacts.is_dir():
         if probe is None:
             raise typer.BadParameter("give the probe that was touched: --probe PROBE.ply.")
-        yield Files(contacts, probe, calibration)
+        yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.making import mount_of
@@ -65,7 +68,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
         say(f"from the session: {said}")
         main = found["verification" if judged else "recording"]
         own = None if judged else found["calibration"]
-        yield Files(main, probe or found["probe"], calibration or own, mount_of(session.state))
+        yield HeatmapFiles(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
 def probe_in_sensor_frame(file: Path) -> ProbeFile:
@@ -85,10 +88,10 @@ def probe_in_sensor_frame(file: Path) -> ProbeFile:
 
 
 def found_contacts(
-    files: Files,
+    files: HeatmapFiles,
     content: ProbeFile,
     wrenches: Path | None,
-    mount: str | None,
+    turned: MountSettings,
     delay: float,
     min_force: float,
 ) -> Contacts:
@@ -99,7 +102,7 @@ def found_contacts(
     if is_recording(files.contacts):
         if wrenches is not None:
             raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording has them itself.")
-        return _located(files, content, mount, delay, min_force)
+        return _located(files, content, turned, delay, min_force)
     if files.calibration is not None:
         raise typer.BadParameter("--calibration is for a recording; here contacts are located already.")
     if not _is_json(files.contacts):
@@ -116,7 +119,9 @@ def found_contacts(
     return touches_of(verification)
 
 
-def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, min_force: float) -> Contacts:
+def _located(
+    files: HeatmapFiles, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
+) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(
             "a recording needs --calibration: the weight of the probe is in its readings."
@@ -124,10 +129,9 @@ def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, 
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.contact import Gates
     from contactbench.pipeline.heatmap.contacts import locate_recording
-    from contactbench.pipeline.session.making import mount_rotation as of_degrees
 
     model = load_calibration(files.calibration).model
-    R_ES = mount_rotation(mount) if mount is not None else of_degrees(files.mount)
+    R_ES = mount_rotation(turned.mount or files.mount)
     with Bar("reading") as bar:
         return locate_recording(
             files.contacts,
@@ -191,6 +195,7 @@ def draw(
             help="File to write: .png, .ply or .glb with the value at each vertex, or a film: .mp4 or .gif."
         ),
     ],
+    turned: MountSettings,
     probe: Annotated[
         Path | None,
         typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
@@ -219,7 +224,6 @@ def draw(
     marker_distance: Annotated[
         float, typer.Option(help="A contact further than this from every marker touched none, mm.")
     ] = 10.0,
-    mount: MountOption = None,
     delay: Annotated[float, typer.Option(help="How much later a wrench is heard than its pose, s.")] = 0.0,
     min_force: Annotated[float, typer.Option(help="A recording's touches are above this, N.")] = 0.5,
     start: Annotated[
@@ -274,7 +278,7 @@ def draw(
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = probe_in_sensor_frame(files.probe)
-        found = found_contacts(files, content, wrenches, mount, delay, min_force)
+        found = found_contacts(files, content, wrenches, turned, delay, min_force)
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, marker_distance)
@@ -431,8 +435,6 @@ def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None
 
 
 def _write(made: Heatmap, out: Path) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
 
     kind = out.suffix.lower()
@@ -442,9 +444,4 @@ def _write(made: Heatmap, out: Path) -> None:
         data = encode_png(made)
     else:
         data = encode_glb(made) if kind == ".glb" else encode_ply(made)
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{out}: the heatmap cannot be written ({error}): choose a folder that exists and is writable."
-        ) from error
+    write_file(out, data)

@@ -2,59 +2,23 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from contactbench.pipeline.commands.markers import markers_app
-from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
-from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, numbers, say, show_tables
 from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.settings import Only, ProbeSettings, metres
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.mesh.shell import Closing
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.mesh.simplify import Target
-
-    Plan = Callable[[ProbeFile], tuple[Target, dict[str, Any] | None]]
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
-
-
-class UnitsOrAuto(StrEnum):
-    """What the numbers in a mesh file are."""
-
-    auto = "auto"
-    mm = "mm"
-    m = "m"
-    cm = "cm"
-    inch = "in"
-
-
-class ClosingName(StrEnum):
-    """How to close an opening."""
-
-    auto = "auto"
-    fair = "fair"
-    ruled = "ruled"
-    hull = "hull"
-    open = "open"
-
-
-class EngineName(StrEnum):
-    """Who simplified in earlier versions; all the same now."""
-
-    auto = "auto"
-    fast = "fast-simplification"
-    meshlab = "meshlab"
-    best = "best"
 
 
 probe_app = Noun(
@@ -66,45 +30,15 @@ probe_app.add_typer(markers_app, name="markers")
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
 ]
-UnitsOption = Annotated[
-    UnitsOrAuto, typer.Option(help="Unit of the file's numbers; auto guesses from its size and says why.")
-]
 OutOption = Annotated[Path, typer.Option(help="Probe to write, .ply; its history goes beside it as .json.")]
-CloseOption = Annotated[
-    list[ClosingName] | None,
-    typer.Option(
-        "--close",
-        help="How to close the openings, largest first, once for each; the last one counts for the others."
-        " fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]",
-    ),
-]
-AlphaOption = Annotated[
-    float | None, typer.Option(help="Size of the shell's facets, mm [1/190 of the size].")
-]
-GapOption = Annotated[
-    float | None, typer.Option(help="Gaps narrower than this are bridged, mm [1/65 of the size].")
-]
-FacetsOption = Annotated[int | None, typer.Option(help="Facets to keep.")]
-DeviationOption = Annotated[
-    float | None, typer.Option("--max-deviation", help="Or: as few as stay within this of the shell, mm.")
-]
-ContactErrorOption = Annotated[
-    float | None,
-    typer.Option(
-        "--max-contact-error",
-        help="Or: as few as move 95 % of contacts by less than this, mm [0.1].",
-    ),
-]
-ForcesOption = Annotated[
-    str, typer.Option("--forces", metavar="LOW,HIGH", help="Forces of touches to expect, N.")
-]
-EngineOption = Annotated[EngineName, typer.Option(help="Of earlier versions; without effect.", hidden=True)]
-RatioOption = Annotated[
-    float, typer.Option("--region-ratio", help="Facets per area in regions, over that in the rest.")
+Units = Annotated[ProbeSettings, Only("units")]
+Simplified = Annotated[
+    ProbeSettings,
+    Only("units", "facets", "max_deviation", "max_contact_error", "forces", "engine", "region_ratio"),
 ]
 
 
-def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeFile:
+def open_mesh(file: Path, given: ProbeSettings, out: Path | None = None) -> ProbeFile:
     """Read a mesh and say what was noticed; refuse to write over it, or where nothing can be written."""
     refuse_overwriting(out, [file])
     if out is not None:
@@ -113,30 +47,21 @@ def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeF
         check_target(out)
     from contactbench.pipeline.preparation.steps import import_mesh
 
-    refuse_to_guess(file, units)
-    content = import_mesh(file, units.value)
+    refuse_to_guess(file, given)
+    content = import_mesh(file, given.units)
     for note in content.notes:
         say(f"warning: {note}", "yellow")
     return content
 
 
-def refuse_to_guess(file: Path, units: UnitsOrAuto) -> None:
+def refuse_to_guess(file: Path, given: ProbeSettings) -> None:
     """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
     from contactbench.pipeline.mesh import MeshError
     from contactbench.pipeline.mesh.load import read_mesh
 
-    guess = None if units is not UnitsOrAuto.auto else read_mesh(file).guess
+    guess = None if given.units != "auto" else read_mesh(file).guess
     if guess is not None and guess.must_be_given:
         raise MeshError(f"{file}: the unit cannot be told. {guess.reason}")
-
-
-def closings(names: list[ClosingName] | None) -> Closing | list[Closing]:
-    """Return what ``--close`` asks for: one for all, or one after the other."""
-    from contactbench.pipeline.mesh.shell import Closing
-
-    if not names:
-        return Closing.AUTO
-    return Closing(names[0].value) if len(names) == 1 else [Closing(name.value) for name in names]
 
 
 def counts(text: str) -> list[int]:
@@ -153,45 +78,6 @@ def counts(text: str) -> list[int]:
     return [int(part) for part in parts]
 
 
-def metres(millimetres: float | None) -> float | None:
-    """Convert a length, if there is one."""
-    return None if millimetres is None else millimetres / 1000
-
-
-def planned(
-    facets: int | None,
-    max_deviation: float | None,
-    max_contact_error: float | None,
-    forces: str,
-    region_ratio: float,
-) -> Plan:
-    """Return what makes the target of a probe; what makes no sense is refused here, before the work.
-
-    Raises
-    ------
-    typer.BadParameter
-        More than one target was asked for, or --forces are not two numbers.
-    InputError
-        A number is out of its range.
-    """
-    from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, check_ratio
-
-    if sum(each is not None for each in (facets, max_deviation, max_contact_error)) > 1:
-        raise typer.BadParameter("--facets, --max-deviation and --max-contact-error: give one of them.")
-    check_ratio(region_ratio)
-    target: Target
-    if facets is not None or max_deviation is not None:
-        target = Count(facets) if facets is not None else MaxDeviation((max_deviation or 0.0) / 1000)
-        return lambda _: (target, None)
-    from contactbench.pipeline.preparation.ladder import ExpectedTouches
-    from contactbench.pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
-
-    low, high = numbers(forces, 2, "--forces")
-    limit = DEFAULT_LIMIT if max_contact_error is None else max_contact_error / 1000
-    wanted = ContactTarget(limit, ExpectedTouches(force=(low, high)))
-    return lambda content: wanted.of(content.probe)
-
-
 def share(bar: Bar) -> Callable[[float], None]:
     """Let a bar show a share from 0 to 1."""
     return lambda share: bar(round(1000 * share), 1000)
@@ -201,7 +87,7 @@ def share(bar: Bar) -> Callable[[float], None]:
 def align(
     file: MeshArgument,
     out: OutOption,
-    units: UnitsOption = UnitsOrAuto.auto,
+    read: Units,
     place: Annotated[
         str | None,
         typer.Option(
@@ -286,7 +172,7 @@ def align(
             "--placement": (placement, ("--touches",)),
         },
     )
-    content = open_mesh(file, units, out)
+    content = open_mesh(file, read, out)
     refuse_aligned(content, again=again)
     by_touch: TouchAlignment | None = None
     found: Alignment | None
@@ -308,7 +194,7 @@ def align(
     if adopted:
         save_probe_file(align_step(content, found, again=again), out)
         if save is not None:
-            _write(save, found)
+            write_file(save, found.to_json().encode())
         say(f"Wrote {out}.")
     else:
         say("Nothing was written: the present mount stays.", "yellow")
@@ -370,20 +256,12 @@ def chosen_place(place: str | None, alignment: Path | None) -> Alignment | None:
     typer.BadParameter
         Both were.
     """
-    from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+    from contactbench.pipeline.preparation.prepare import alignment_of
 
     if place is not None and alignment is not None:
         raise typer.BadParameter("--place and --alignment contradict each other: give one.")
-    if place is not None:
-        values = numbers(place, 6, "--place")
-        return from_angles(values[:3], values[3:])
-    if alignment is None:
-        return None
-    try:
-        data = alignment.read_bytes()
-    except OSError as error:
-        raise AlignmentError(f"{alignment}: the file cannot be read ({error}): check the path.") from error
-    return from_json(data, str(alignment))
+    mount = None if place is None else numbers(place, 6, "--place")
+    return alignment_of(ProbeSettings.checked({"mount": mount}), alignment)
 
 
 def _by_touches(
@@ -453,18 +331,6 @@ def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
         say(reason)
 
 
-def _write(file: Path, found: Alignment) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.preparation.alignment import AlignmentError
-
-    try:
-        write_durably(file, found.to_json().encode())
-    except (OSError, ValueError) as error:
-        raise AlignmentError(
-            f"{file}: the alignment cannot be written ({error}): check the folder."
-        ) from error
-
-
 def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) -> dict[str, Any]:
     facts = {
         "out": None if out is None else str(out),
@@ -488,7 +354,7 @@ def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) 
 
 
 @probe_app.command(example="probe inspect housing.stl")
-def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto) -> None:
+def inspect(file: MeshArgument, given: Units) -> None:
     """Say what is wrong with a mesh, in words and numbers.
 
     Holes, parts, hidden and double walls, facets turned over or cutting through each other, slivers. Exit
@@ -497,7 +363,7 @@ def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto) -> None:
     from contactbench.pipeline.mesh.inspect import inspect as look
 
     with Bar("inspecting", counted=True) as bar:
-        found = look(file, units.value, progress=share(bar))
+        found = look(file, given.units, progress=share(bar))
     for sentence in found.facts:
         say(sentence)
     for finding in found.findings:
@@ -513,10 +379,7 @@ def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto) -> None:
 def shell(
     file: MeshArgument,
     out: OutOption,
-    units: UnitsOption = UnitsOrAuto.auto,
-    close: CloseOption = None,
-    alpha: AlphaOption = None,
-    gap: GapOption = None,
+    given: Annotated[ProbeSettings, Only("units", "close", "alpha", "gap")],
 ) -> None:
     """Make the closed surface that a finger could touch.
 
@@ -524,12 +387,13 @@ def shell(
     nothing is left as it is. Exit code 1: what could be made is not sound.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
+    from contactbench.pipeline.preparation.prepare import closings_of
     from contactbench.pipeline.preparation.steps import shell_step
 
-    content = open_mesh(file, units, out)
+    content = open_mesh(file, given, out)
     with Bar("finding the outer shell", counted=True) as bar:
         done, made = shell_step(
-            content, closings(close), alpha=metres(alpha), gap=metres(gap), progress=share(bar)
+            content, closings_of(given), alpha=metres(given.alpha), gap=metres(given.gap), progress=share(bar)
         )
     save_probe_file(done, out)
     for sentence in made.sentences:
@@ -543,13 +407,7 @@ def shell(
 def simplify(
     file: MeshArgument,
     out: OutOption,
-    units: UnitsOption = UnitsOrAuto.auto,
-    facets: FacetsOption = None,
-    max_deviation: DeviationOption = None,
-    max_contact_error: ContactErrorOption = None,
-    forces: ForcesOption = "8,10",
-    engine: EngineOption = EngineName.auto,
-    region_ratio: RatioOption = 1.0,
+    given: Simplified,
 ) -> None:
     """Give a probe fewer facets, and say what that costs.
 
@@ -557,17 +415,18 @@ def simplify(
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.steps import simplify_step
+    from contactbench.pipeline.preparation.targets import target_of
 
-    plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
-    content = open_mesh(file, units, out)
-    wanted, stated = plan(content)
+    target = target_of(given)
+    content = open_mesh(file, given, out)
+    wanted, stated = target(content.probe)
     with Bar("simplifying", counted=True) as bar:
         done, made, carried = simplify_step(
             content,
             wanted,
             stated=stated,
-            engine=engine.value,
-            region_ratio=region_ratio,
+            engine=given.engine,
+            region_ratio=given.region_ratio,
             progress=share(bar),
         )
     save_probe_file(done, out)
@@ -581,18 +440,14 @@ def simplify(
 @probe_app.command(example="probe ladder aligned.ply --out ladder")
 def ladder(
     file: MeshArgument,
+    given: Annotated[ProbeSettings, Only("units", "max_contact_error", "forces", "engine", "region_ratio")],
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-ladder"),
-    units: UnitsOption = UnitsOrAuto.auto,
     facets: Annotated[
         str | None, typer.Option(metavar="N,N,...", help="Counts to try [250 to 20,000].")
     ] = None,
-    max_contact_error: ContactErrorOption = None,
-    forces: ForcesOption = "8,10",
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
     touches: Annotated[int, typer.Option(help="Touches to locate.")] = 4_000,
-    engine: EngineOption = EngineName.auto,
-    region_ratio: RatioOption = 1.0,
 ) -> None:
     """Weigh accuracy against speed over a range of facet counts, and recommend one.
 
@@ -610,10 +465,9 @@ def ladder(
     )
 
     tried = DEFAULT_FACETS if facets is None else counts(facets)
-    low, high = numbers(forces, 2, "--forces")
-    expected = ExpectedTouches(WrenchNoise(noise_force, noise_torque), (low, high), count=touches)
-    goal = Goal(metres(max_contact_error))
-    content = open_mesh(file, units)
+    expected = ExpectedTouches(WrenchNoise(noise_force, noise_torque), given.forces, count=touches)
+    goal = Goal(metres(given.max_contact_error))
+    content = open_mesh(file, given)
     make_folder(out)
     with Bar("measuring", counted=True) as bar:
         measured = measure_ladder(
@@ -621,8 +475,8 @@ def ladder(
             expected,
             tried,
             goal=goal,
-            engine=engine.value,
-            region_ratio=region_ratio,
+            engine=given.engine,
+            region_ratio=given.region_ratio,
             progress=share(bar),
         )
     files = save_ladder(measured, out)
@@ -640,28 +494,10 @@ def ladder(
 def prepare(
     file: MeshArgument,
     out: OutOption,
-    units: UnitsOption = UnitsOrAuto.auto,
-    close: CloseOption = None,
-    alpha: AlphaOption = None,
-    gap: GapOption = None,
-    place: Annotated[
-        str | None,
-        typer.Option(
-            "--place",
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh"
-            " stays in its own frame.",
-        ),
-    ] = None,
+    given: ProbeSettings,
     alignment: Annotated[
         Path | None, typer.Option(help="Or: what `probe align --save` wrote, .json.")
     ] = None,
-    facets: FacetsOption = None,
-    max_deviation: DeviationOption = None,
-    max_contact_error: ContactErrorOption = None,
-    forces: ForcesOption = "8,10",
-    engine: EngineOption = EngineName.auto,
-    region_ratio: RatioOption = 1.0,
 ) -> None:
     """All in one go: read, close, align, simplify, and write the probe with its history.
 
@@ -669,26 +505,14 @@ def prepare(
     inside out); nothing is written then.
     """
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
-    from contactbench.pipeline.preparation.prepare import prepare as prepare_file
+    from contactbench.pipeline.preparation.prepare import prepared
 
     refuse_overwriting(out, [file])
     check_target(out)
-    refuse_to_guess(file, units)
-    plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
-    placed = chosen_place(place, alignment)
+    refuse_to_guess(file, given)
+    inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": alignment}
     with Bar("preparing", counted=True) as bar:
-        done = prepare_file(
-            file,
-            units.value,
-            closings(close),
-            alpha=metres(alpha),
-            gap=metres(gap),
-            alignment=placed,
-            target=plan,
-            engine=engine.value,
-            region_ratio=region_ratio,
-            progress=share(bar),
-        )
+        done = prepared(inputs, given, progress=share(bar))
     if done.ready:
         save_probe_file(done.content, out)
     for sentence in dict.fromkeys(done.sentences):

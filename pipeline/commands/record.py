@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import RobotOption, refuse_overwriting
+from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say
+from contactbench.pipeline.settings import Only, PosesSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -393,9 +394,9 @@ def delay(file: FileArgument) -> None:
 def import_bag(
     bag: Annotated[Path, typer.Argument(metavar="BAG", help="ROS 2 bag, an MCAP file.")],
     out: Annotated[Path, typer.Option(help="Recording to write; must not exist.")],
+    joints: Annotated[PosesSettings, Only("robot")],
     wrench_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the sensor.")] = None,
     pose_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the robot.")] = None,
-    robot: RobotOption = None,
     base: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of the robot's base.")] = None,
     flange: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of its flange.")] = None,
     header_stamps: Annotated[
@@ -414,7 +415,7 @@ def import_bag(
     from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
     from contactbench.pipeline.robot import Robot
 
-    arm = None if robot is None else Robot.named(robot)
+    arm = None if joints.robot is None else Robot.named(joints.robot)
     wanted = Wanted(wrench_topic, pose_topic, arm, base, flange, header_stamps)
     with Bar("importing") as bar:
         done = import_ros2(bag, out, wanted, bar)

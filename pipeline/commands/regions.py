@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import Noun, as_json, numbers, print_json, running_command, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +27,7 @@ MeshArgument = Annotated[
 RegionArgument = Annotated[str, typer.Argument(metavar="REGION", help="Name of a region, or its priority.")]
 
 
-class Session:
+class ProbeRegions:
     """
     The regions of one probe on disk, while a command edits them.
 
@@ -229,7 +229,7 @@ ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the 
 @regions_app.command("list", example="probe regions list probe.ply")
 def list_regions(mesh: MeshArgument) -> None:
     """Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     show(mesh, session.probe, session.model)
 
 
@@ -240,7 +240,7 @@ def add(
     colour: ColourOption = None,
 ) -> None:
     """Add an empty region, with the last priority."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     session.model.add(name, colour)
     session.finish(None)
 
@@ -248,7 +248,7 @@ def add(
 @regions_app.command(example="probe regions remove probe.ply Lens")
 def remove(mesh: MeshArgument, region: RegionArgument) -> None:
     """Remove a region; its facets belong to none, and the priorities behind it move up."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     count = int(session.mask(rank).sum())
     session.model.remove(rank)
@@ -262,7 +262,7 @@ def rename(
     name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
 ) -> None:
     """Give a region another name."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     session.model.rename(session.rank(region), name)
     session.finish(None)
 
@@ -274,7 +274,7 @@ def colour(
     value: Annotated[str, typer.Argument(metavar="#RRGGBB")],
 ) -> None:
     """Give a region another colour."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     session.model.recolour(session.rank(region), value)
     session.finish(None)
 
@@ -291,7 +291,7 @@ def mark(
 
     A contact there counts as 1000 times less likely, and the places that remain are told apart better.
     """
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     session.model.set_untouchable(session.rank(region), untouchable)
     session.finish(None)
 
@@ -302,7 +302,7 @@ def reorder(
     order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Every region once.")],
 ) -> None:
     """Change the priorities: name all regions, the first priority first."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     session.model.reorder([session.rank(region) for region in order])
     session.finish(None)
 
@@ -314,13 +314,13 @@ def undo(mesh: MeshArgument) -> None:
     Both files are byte for byte what they were before it. The steps are kept beside the probe, in its
     .undo file; they end where something else changes the probe. Exit code 1: there is nothing to undo.
     """
-    Session(mesh).turn("undo")
+    ProbeRegions(mesh).turn("undo")
 
 
 @regions_app.command(example="probe regions redo probe.ply")
 def redo(mesh: MeshArgument) -> None:
     """Do again what undo took back last. Exit code 1: there is nothing to redo."""
-    Session(mesh).turn("redo")
+    ProbeRegions(mesh).turn("redo")
 
 
 @regions_app.command(example="probe regions export probe.ply --out regions.json")
@@ -335,7 +335,7 @@ def export(
     from contactbench.pipeline.mesh.regions import RegionError, save_regions
     from contactbench.pipeline.mesh.sidecar import sidecar_of
 
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     if out.resolve() == sidecar_of(mesh).resolve():
         raise RegionError(f"{out} holds the names of the regions: choose another --out.")
     save_regions(session.model.snapshot(), session.probe, out)
@@ -355,7 +355,7 @@ def import_regions(
     """
     from contactbench.pipeline.mesh.regions import RegionSet, load_regions
 
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     before = session.model.labels.copy()
     imported = load_regions(file, session.probe)
     if file.suffix.lower() == ".csv":
@@ -386,7 +386,7 @@ def transfer(
     from contactbench.pipeline.mesh.regions.exchange import mesh_hash
 
     refuse_overwriting(new, [old])
-    source, target = Session(old), Session(new)
+    source, target = ProbeRegions(old), ProbeRegions(new)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)  # said below
         result = carry(
@@ -449,7 +449,7 @@ def box(
     from contactbench.pipeline.mesh.regions import in_box
 
     corners = metres(low, "--low"), metres(high, "--high")
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     if frame is None:
         chosen = in_box(session.graph, *corners)
     else:
@@ -474,7 +474,7 @@ def plane(
     from contactbench.pipeline.mesh.regions import half_space
 
     where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     chosen = half_space(session.graph, where, direction)
     _assign(session, region, chosen, "half into", erase, protect)
 
@@ -492,7 +492,7 @@ def flood(
     from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at, "--at")
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     faces, _ = session.graph.pick(where)
     chosen = fill(session.graph, int(faces[0]), math.radians(crease))
     _assign(session, region, chosen, "fill", erase, protect)
@@ -520,7 +520,7 @@ def brush(
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
     where = [metres(text, "--at") for text in at]
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
     rank = session.rank(region)
     with session.model.stroke(session.graph, tool, rank) as stroke:
@@ -540,7 +540,7 @@ def grow(
     """Let REGION grow at its border, by rings of facets or a distance. Other regions stay as they are."""
     from contactbench.pipeline.mesh.regions import grow as extend
 
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     chosen = extend(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
     _reshape(session, rank, chosen, "grow")
@@ -556,7 +556,7 @@ def shrink(
     """Let REGION shrink at its border, by rings of facets or a distance."""
     from contactbench.pipeline.mesh.regions import shrink as reduce
 
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     chosen = reduce(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
     _reshape(session, rank, chosen, "shrink")
@@ -574,7 +574,7 @@ def smooth(
     """
     from contactbench.pipeline.mesh.regions import smooth as straighten
 
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     chosen = straighten(session.graph, session.mask(rank), rings, allowed=session.mask(0))
     _reshape(session, rank, chosen, "smooth")
@@ -598,7 +598,7 @@ def mirror(
     from contactbench.pipeline.mesh.regions import mirror as reflect
 
     direction, where = numbers(normal, 3, "--normal"), metres(point, "--point")
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     reach = None if tolerance is None else tolerance / 1000
     result = reflect(session.graph, session.mask(rank), direction, where, tolerance=reach)
@@ -613,14 +613,14 @@ def mirror(
 @regions_app.command(example="probe regions clear probe.ply Lens")
 def clear(mesh: MeshArgument, region: RegionArgument) -> None:
     """Take all facets out of REGION; its name, colour and priority stay."""
-    session = Session(mesh)
+    session = ProbeRegions(mesh)
     rank = session.rank(region)
     changed = session.model.assign(session.mask(rank), 0, text=f"clear {session.name(rank)}")
     session.finish_selection(len(changed), _EMPTY)
 
 
 def _assign(
-    session: Session,
+    session: ProbeRegions,
     region: str,
     chosen: NDArray[np.bool_],
     what: str,
@@ -644,7 +644,7 @@ def _kept_as(*, erase: bool, protect: bool) -> str:
     return "they are in it already" + (", or in others, where --protect leaves them" if protect else "")
 
 
-def _reshape(session: Session, rank: int, chosen: NDArray[np.bool_], text: str) -> None:
+def _reshape(session: ProbeRegions, rank: int, chosen: NDArray[np.bool_], text: str) -> None:
     why_not = "the region has that shape already" if session.mask(rank).any() else _EMPTY
     changed = session.model.set_region(rank, chosen, text=f"{text} {session.name(rank)}")
     session.finish_selection(len(changed), why_not)

@@ -7,17 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import (
-    EulerOption,
-    InverseOption,
-    MountOption,
-    RadiansOption,
-    VectorOption,
-    convention,
-    numbers,
-    refuse_overwriting,
-)
-from contactbench.pipeline.console import Noun, answer, say, show_tables
+from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
+from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
+from contactbench.pipeline.settings import VerificationSettings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,18 +35,11 @@ def touches(
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
     calibration: Annotated[Path, typer.Option(help="What contactbench calibrate fit wrote.")],
     markers: Annotated[Path, typer.Option(help="CSV file: name,x_mm,y_mm,z_mm, sensor frame.")],
+    said: VerificationSettings,
     force: Annotated[
         list[str] | None,
         typer.Option(metavar="LOW,HIGH", help="Force window, N; several if repeated [8,10]."),
     ] = None,
-    touch_force: Annotated[
-        float | None, typer.Option(help="A touch begins at this |F|, N [2, less for windows below].")
-    ] = None,
-    release_force: Annotated[
-        float | None, typer.Option(help="A touch ends below this |F|, N [1, less for windows below].")
-    ] = None,
-    samples: Annotated[int, typer.Option(help="Samples of each touch, once it has settled.")] = 50,
-    repeats: Annotated[int, typer.Option(help="Accepted touches wanted of each marker.")] = 1,
     order: Annotated[
         str | None,
         typer.Option(metavar="NAME,...", help="Markers in the order they must be touched in [any]."),
@@ -66,22 +51,10 @@ def touches(
             help="A marker that need not be touched, and why; may be repeated. The verdict says so.",
         ),
     ] = None,
-    limit_mean: Annotated[float, typer.Option(help="Largest mean error, mm.")] = 1.0,
-    limit_max: Annotated[float, typer.Option(help="Largest error, mm.")] = 2.0,
     limit_time: Annotated[float, typer.Option(help="Largest p99 of the time of a solve, ms.")] = 1.0,
-    noise_force: Annotated[
-        float | None, typer.Option(help="Standard deviation of a sample, N [measured in the touches].")
-    ] = None,
-    noise_torque: Annotated[float | None, typer.Option(help="The same of a torque, N·m.")] = None,
     reference: Annotated[
         Path | None, typer.Option(help="CSV file t,force of a reference sensor (s, N).")
     ] = None,
-    euler: EulerOption = None,
-    rotation_vector: VectorOption = False,
-    radians: RadiansOption = False,
-    inverse: InverseOption = False,
-    mount: MountOption = None,
-    seed: Annotated[int, typer.Option(help="Seed of the bootstrap.")] = 0,
     out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
 ) -> None:
     """Find the touches of markers in a recording, and judge how far the contact points are off.
@@ -97,38 +70,24 @@ def touches(
     if reference is not None:
         inputs["reference"] = reference
     refuse_overwriting(out, list(inputs.values()))
-    convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
+    written(said)
     from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
     left_out = dict(_left_out(text) for text in leave_out or ())
     windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
-    angles = None if mount is None else numbers(mount, 3, "--mount")
     given = VerificationParameters.checked(
         {
+            **said.model_dump(),
             "name": "verification.json" if out is None else out.name,
             "windows": windows,
-            "touch_force": touch_force,
-            "release_force": release_force,
-            "samples": samples,
-            "repeats": repeats,
             "order": () if order is None else _in_order(order, left_out),
             "left_out": left_out,
-            "mean_limit_mm": limit_mean,
-            "max_limit_mm": limit_max,
             "p99_limit_s": limit_time / 1e3,
-            "noise_force": noise_force,
-            "noise_torque": noise_torque,
-            "euler": euler,
-            "rotation_vector": rotation_vector,
-            "radians": radians,
-            "inverse": inverse,
-            "mount": angles,
-            "seed": seed,
         },
     )
     found = verify_files(inputs, given, timed=True)
     if out is not None:
-        _write(out, found.to_bytes())
+        write_file(out, found.to_bytes())
     _show(found)
     answer(found.to_json())
     if not found.verdict.passed:
@@ -145,16 +104,6 @@ def _left_out(text: str) -> tuple[str, str]:
 def _in_order(order: str, left_out: dict[str, str]) -> list[str]:
     names = [name.strip() for name in order.split(",")]
     return [name for name in names if name not in left_out]
-
-
-def _write(out: Path, data: bytes) -> None:
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
-
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
 
 
 def _show(found: Verification) -> None:
@@ -252,19 +201,12 @@ def report(
     if not all(device and number for device, _, number in pairs):
         raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
-    from contactbench.pipeline.durable import write_durably
-    from contactbench.pipeline.errors import InputError
     from contactbench.pipeline.report.report_file import report as make
 
     serials = {device: number for device, _, number in pairs}
     name = f"report{out.suffix.lower()}"
     parameters = {"name": name, "operator": operator, "serials": serials}
     data = make(inputs, parameters, creation_time().isoformat())[name]
-    try:
-        write_durably(out, data)
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{out}: the report cannot be written ({error}): choose a folder that exists and is writable."
-        ) from error
+    write_file(out, data)
     say(f"{out}: {len(data):,} bytes")
     answer({"out": str(out), "bytes": len(data)})

@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count
-from contactbench.pipeline.preparation.alignment import from_matrix
+from contactbench.pipeline.preparation.alignment import from_transform
 from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ def _edge_of(faces: NDArray[np.int32]) -> NDArray[np.int64]:
 
 def _prepare(file: Path, name: str, T_SP: NDArray[np.float64]) -> tuple[ProbeFile, int]:
     content, shell = shell_step(import_mesh(file), Closing.AUTO, alpha=_ALPHA)
-    content = align_step(content, from_matrix(1e3 * T_SP[:3, 3], T_SP[:3, :3]))
+    content = align_step(content, from_transform(T_SP))
     content, *_ = simplify_step(_with_region(content, name), Count(FACETS))
     return content, len(shell.openings)
 

@@ -15,10 +15,10 @@ from contactbench.pipeline.devices.faults import (
     EmulatorError,
     Fault,
     FaultEvent,
+    FrameMoment,
     Mangler,
-    Moment,
-    Reading,
     Script,
+    SensorReading,
     Signal,
     Six,
     Truth,
@@ -26,7 +26,7 @@ from contactbench.pipeline.devices.faults import (
     recorded,
     sine,
 )
-from contactbench.pipeline.devices.protocols.emulated import JOINTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
 from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
 from contactbench.pipeline.devices.protocols.ur_pose import UrModel
@@ -46,10 +46,10 @@ __all__ = [
     "EmulatorError",
     "Fault",
     "FaultEvent",
-    "Moment",
+    "FrameMoment",
     "Quirk",
-    "Reading",
     "Script",
+    "SensorReading",
     "Sent",
     "Signal",
     "Six",
@@ -76,8 +76,8 @@ class Sent:
     count: int  # of all frames of this emulator, from 0
     time: float  # when it was due, seconds after the first frame of all
     sent_at: float  # when it was given to the line, seconds of the monotonic clock
-    reading: Reading  # what is in it
-    moment: Moment  # its number, and the device's clock
+    reading: SensorReading  # what is in it
+    moment: FrameMoment  # its number, and the device's clock
     frame: bytes  # as it was before the line's faults
     intact: bool  # all of it went on the line, unchanged
     fault: Fault | None  # of the line, that acted on it
@@ -146,7 +146,7 @@ class Emulator:
         self._due: float | None = None
         self._number = self._count = 0
         self._heard_at = -math.inf
-        self._answered: tuple[Reading, Moment] | None = None
+        self._answered: tuple[SensorReading, FrameMoment] | None = None
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"emulated {model.name}", daemon=True)
         model.answer = self._answer
@@ -265,7 +265,7 @@ class Emulator:
                 (reading, moment), self._answered = self._answered, None
                 self._emit(self._now(), reading, moment, answer)
 
-    def _answer(self) -> tuple[Reading, Moment]:
+    def _answer(self) -> tuple[SensorReading, FrameMoment]:
         """Return what a frame that was asked for holds; the answer that follows is that frame."""
         now = self._now()
         self._answered = self._truth.reading(now), self._truth.moment(now, self._next())
@@ -283,7 +283,7 @@ class Emulator:
         self._number += 1
         return self._number - 1
 
-    def _emit(self, due: float, reading: Reading, moment: Moment, frame: bytes) -> None:
+    def _emit(self, due: float, reading: SensorReading, moment: FrameMoment, frame: bytes) -> None:
         emission = self._mangler.mangle(frame, due, self._count)
         # Said before it is sent: whoever has received a frame finds it in the log.
         sent = Sent(

@@ -17,7 +17,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from contactbench.pipeline.devices.protocols.emulated import Model
+    from contactbench.pipeline.devices.protocols.device_model import Model
 
 
 class EmulatorError(InputError):
@@ -178,7 +178,7 @@ _DRIFT_PER_DEGREE: Six = (0.05, -0.03, 0.1, 0.001, -0.002, 0.0005)
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class SensorReading:
     """What the device believes to measure."""
 
     values: Six  # as a `Signal` gives them, with the faults applied
@@ -187,7 +187,7 @@ class Reading:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class FrameMoment:
     """Where a frame is in its stream."""
 
     number: int  # from 0 since the device last came up
@@ -265,7 +265,7 @@ class Truth:
         self._trap = trap
         self._full_scale = full_scale
 
-    def reading(self, time: float) -> Reading:
+    def reading(self, time: float) -> SensorReading:
         """Return what the device believes to measure at `time`, s after it first streamed."""
         for event in self._script.active(time, Fault.STUCK):
             return self.reading(math.nextafter(event.start, -math.inf))
@@ -282,22 +282,22 @@ class Truth:
             return replace(reading, values=self._full_scale, saturated=True)
         return reading
 
-    def moment(self, time: float, number: int) -> Moment:
+    def moment(self, time: float, number: int) -> FrameMoment:
         """Return where the frame of that number is, at `time`."""
         jump = sum(event.amount for event in self._script.begun(time, Fault.CLOCK_JUMP))
-        return Moment(number, time + jump, jump)
+        return FrameMoment(number, time + jump, jump)
 
     def rate_factor(self, time: float) -> float:
         """Return what the rate is multiplied by."""
         return math.prod(event.amount for event in self._script.active(time, Fault.WRONG_RATE))
 
-    def _drifted(self, time: float) -> Reading:
+    def _drifted(self, time: float) -> SensorReading:
         warmer = sum(
             event.amount * min(1.0, (time - event.start) / event.duration)
             for event in self._script.begun(time, Fault.DRIFT)
         )
         values = zip(self.signal(time), _DRIFT_PER_DEGREE, strict=True)
-        return Reading(_six([value + warmer * slope for value, slope in values]), ROOM + warmer)
+        return SensorReading(_six([value + warmer * slope for value, slope in values]), ROOM + warmer)
 
 
 # ---- what a line's faults make of a frame: no clock and no line, so that a seed gives the same bytes

@@ -25,7 +25,7 @@ _GAP_S = 1.0
 
 
 @dataclass(frozen=True)
-class Rezero:
+class ZeroStep:
     """A step to zero that no load explains."""
 
     time: float  # of the first reading after it, s
@@ -55,7 +55,7 @@ class RezeroDetector:
         self._after: list[WrenchSample] = []
         self._zero_is_usual = False
 
-    def feed(self, sample: WrenchSample) -> Rezero | None:
+    def feed(self, sample: WrenchSample) -> ZeroStep | None:
         """Take the next sample; return what is suspected since a tenth of a second."""
         last = self._after[-1] if self._after else self._before[-1] if self._before else None
         if last is None or sample.time - last.time > _GAP_S or not _finite(sample):
@@ -76,7 +76,7 @@ class RezeroDetector:
         if not self._zero_is_usual and _near_zero([sample], 0.0, 0.0) and self._rested():
             self._zero_is_usual = _near_zero(before, 0.0, 0.0)
 
-    def _confirm(self, sample: WrenchSample) -> Rezero | None:
+    def _confirm(self, sample: WrenchSample) -> ZeroStep | None:
         """Judge the step once there was rest after it, or had none."""
         self._after.append(sample)
         after, first = self._after, self._after[0]
@@ -90,7 +90,7 @@ class RezeroDetector:
         self._give_up()
         return found
 
-    def _judged(self, force_noise: float, torque_noise: float) -> Rezero | None:
+    def _judged(self, force_noise: float, torque_noise: float) -> ZeroStep | None:
         before, after = _mean(self._before), _mean(self._after)
         force = math.dist(before[:3], after[:3])
         torque = math.dist(before[3:], after[3:])
@@ -100,7 +100,7 @@ class RezeroDetector:
             return None
         if force < _STEP_N and torque < _STEP_NM:
             return None
-        return Rezero(self._after[0].time, force, torque)
+        return ZeroStep(self._after[0].time, force, torque)
 
     def _give_up(self) -> None:
         """Go on as if there had been no step."""

@@ -10,9 +10,9 @@ import numpy as np
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
-from contactbench.pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers
+from contactbench.pipeline.devices.protocols.elfin import REQUEST, ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
-from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
@@ -85,7 +85,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         self._clock.forget()
 
     def _troubles(self) -> dict[str, str]:
-        if self._talk.stage is not Stage.STREAMING or self._talk.knows_flange:
+        if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
             return {}
         return {
             "tool": "The tool of the robot's pendant is not known, for its controller does not tell: the orientation is"
@@ -93,7 +93,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         }
 
     def _end(self) -> None:
-        if self._talk.stage is Stage.STREAMING:
+        if self._talk.stage is UrStage.STREAMING:
             self._line.write(ur_rtde.pause_request())
 
     def _counters(self) -> Counters:
@@ -157,7 +157,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
         if now >= self._next and self._asked is None:
             self._malformed = self._replies.malformed
             self._asked = time.monotonic()  # before it is sent: no answer can be older
-            self._line.write(Question.POSITION.request())
+            self._line.write(REQUEST)
             # At its own pace: what came late is not asked for twice as fast.
             self._next = max(self._next + self._period, now)
         return READ_S if self._asked is not None else min(READ_S, max(self._next - now, 0.0))
@@ -179,7 +179,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
                 self._refused += 1
                 continue
             try:
-                numbers = read_numbers(reply, Question.POSITION)[:12]
+                numbers = read_position(reply)
             except ElfinError as error:  # the line is well: the next answer may be
                 self._trouble = str(error)
                 self._refused += 1

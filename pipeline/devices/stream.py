@@ -36,43 +36,22 @@ class State(StrEnum):
 
 @dataclass(frozen=True)
 class Health:
-    """
-    A stream at one moment.
-
-    Attributes
-    ----------
-    state : State
-    findings : tuple of str
-        What is wrong, in sentences; empty when nothing is.
-    samples : int
-        Given since the stream was opened.
-    rate : float or None
-        Measured over the last samples, Hz.
-    jitter : float or None
-        How unevenly they arrive: the 95th percentile of how far an interval is from the median one, s.
-    counters : Counters
-        Of the parser.
-    reconnected : int
-        Times samples came again after the line was lost.
-    suspicions : tuple of str
-        What may have happened, such as a re-zero, in sentences; they stay until `acknowledge`.
-    lateness : (99th percentile, largest) or None
-        How much later than they should samples came after the one before, s: of the last ones, and of all
-        since the last gap.
-    failure : str or None
-        Why the stream ended for good; None: it goes on, or was stopped.
-    """
+    """A stream at one moment."""
 
     state: State
-    findings: tuple[str, ...]
-    samples: int
-    rate: float | None
+    findings: tuple[str, ...]  # what is wrong, in sentences; empty when nothing is
+    samples: int  # given since the stream was opened
+    rate: float | None  # measured over the last samples, Hz
+    # how unevenly they arrive: the 95th percentile of how far an interval is from the median one, s
     jitter: float | None
-    counters: Counters
-    reconnected: int
+    counters: Counters  # of the parser
+    reconnected: int  # times samples came again after the line was lost
+    # what may have happened, such as a re-zero, in sentences; they stay until `acknowledge`
     suspicions: tuple[str, ...] = ()
+    # how much later than they should samples came after the one before, s: of the last ones, and of all
+    # since the last gap
     lateness: tuple[float, float] | None = None
-    failure: str | None = None
+    failure: str | None = None  # why the stream ended for good; None: it goes on, or was stopped
 
     @property
     def well(self) -> bool:

@@ -3,29 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-from urllib.parse import quote, urlencode
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
 
-from contactbench.pipeline.devices.url_options import (
-    BENCH_OPTIONS,
-    AddressError,
-    BenchOptions,
-    bench_options,
-    name_option,
-    number_option,
-    numbers_option,
-    read_options,
-)
-from contactbench.pipeline.devices.url_place import (
-    bench_host,
-    check_nowhere,
-    path_of,
-    socket_of,
-    split_address,
-)
+from contactbench.pipeline.errors import InputError
 
-__all__ = ["PROFILES", "STEPWISE", "AddressError", "BenchOptions", "Carrier", "DeviceAddress", "Protocol"]
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from urllib.parse import SplitResult
+
+
+class AddressError(InputError):
+    """An address that names no device; the message names the part and the remedy."""
 
 
 class Protocol(StrEnum):
@@ -54,42 +45,6 @@ class Carrier(StrEnum):
     SIMULATED = "simulated"
 
 
-@dataclass(frozen=True)
-class _Kind:
-    """What one scheme allows, and its defaults."""
-
-    baud: int | None = None
-    port: int | None = None
-    rate: float | None = None
-    frame: int = 0
-    options: tuple[str, ...] = ()
-    wrenches: bool = False
-    poses: bool = False
-
-
-_KINDS = {
-    (Protocol.SRI, Carrier.SERIAL): _Kind(
-        wrenches=True, baud=115_200, rate=200.0, frame=31, options=("baud", "rate")
-    ),
-    (Protocol.SRI, Carrier.TCP): _Kind(wrenches=True, port=4008, rate=200.0, options=("rate",)),
-    (Protocol.BOTA, Carrier.SERIAL): _Kind(
-        wrenches=True, baud=460_800, rate=200.0, frame=37, options=("baud", "rate")
-    ),
-    (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(
-        wrenches=True, baud=19_200, rate=100.0, frame=16, options=("baud",)
-    ),
-    (Protocol.RDT, Carrier.UDP): _Kind(wrenches=True, port=49_152, options=("profile", "rate", "cpf", "cpt")),
-    (Protocol.ELFIN, Carrier.TCP): _Kind(poses=True, port=10_003, rate=50.0, options=("rate",)),
-    (Protocol.UR, Carrier.TCP): _Kind(poses=True, port=30_004, rate=125.0, options=("rate", "tool")),
-    (Protocol.REPLAY, Carrier.FILE): _Kind(wrenches=True, poses=True, options=("speed", "topic")),
-    (Protocol.POSES, Carrier.FILE): _Kind(poses=True, options=("speed", "robot")),
-    (Protocol.STILL, Carrier.TYPED): _Kind(
-        poses=True, rate=10.0, options=("rate", "rpy", "quaternion", "joints", "robot")
-    ),
-    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(
-        wrenches=True, poses=True, rate=200.0, options=BENCH_OPTIONS
-    ),
-}
 _SOCKETS = (Carrier.TCP, Carrier.UDP)
 _BARE = (Carrier.FILE, Carrier.TYPED, Carrier.SIMULATED)  # their scheme names no carrier
 # Counts per N and per N·m. An ATI box may have others: its own configuration page says.
@@ -97,72 +52,178 @@ PROFILES = {"ati": (1e6, 1e6), "onrobot": (1e4, 1e5)}
 STEPWISE = 0.0
 _BITS_PER_BYTE = 10  # 8N1
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
-_MOST_JOINTS = 64
-_MOST_DEGREES = 3600.0
-_MOST_TOOL = 10.0  # m or rad
-_FASTEST_STILL_HZ = 1000.0
+_MOST_DEGREES, _MOST_TOOL = 3600.0, 10.0  # m or rad
+_FASTEST_HZ = 1000.0  # of what has no hardware
+
+
+# ---- options: how each is read. A reader raises ValueError that says what to give instead -------
+
+
+def _number(unit: str) -> Callable[[str], float]:
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not 1e-3 <= value <= 1e9:
+            raise ValueError(f"give a positive number of {unit}")
+        return value
+
+    return read
+
+
+def _numbers(fewest: int, most: int, largest: float) -> Callable[[str], tuple[float, ...]]:
+    def read(text: str) -> tuple[float, ...]:
+        try:
+            values = tuple(map(float, text.split(",")[: most + 1]))
+        except ValueError:
+            values = ()
+        if not fewest <= len(values) <= most or not all(abs(value) <= largest for value in values):
+            many = str(fewest) if fewest == most else f"{fewest} to {most}"
+            raise ValueError(f"give {many} numbers with commas between them, none beyond {largest:g}")
+        return values
+
+    return read
+
+
+def _whole(fewest: int, most: int, remedy: str) -> Callable[[str], int]:
+    def read(text: str) -> int:
+        # isdigit alone lets superscripts through.
+        if not (text.isascii() and text.isdigit() and len(text) <= 15 and fewest <= int(text) <= most):
+            raise ValueError(remedy)
+        return int(text)
+
+    return read
+
+
+def _name(text: str) -> str:
+    if not text.strip() or not text.isprintable():
+        raise ValueError("give its name, or leave the option out")
+    return text
+
+
+def _profile(text: str) -> str:
+    if text not in PROFILES:
+        raise ValueError(f"choose one of {', '.join(PROFILES)}")
+    return text
+
+
+def _step(text: str) -> float:
+    if text != "step":
+        raise ValueError("give step, or leave it out for real time")
+    return STEPWISE
+
+
+def _pace(text: str) -> float:
+    return STEPWISE if text == "step" else _number("times the recorded pace, or step")(text)
+
+
+# Option -> the field that it is, and its reader; in the order in which they are written.
+_OPTIONS: dict[str, tuple[str, Callable[[str], Any]]] = {
+    "baud": ("baud", _whole(50, 12_000_000, "give a whole number of bit/s such as 115200")),
+    "profile": ("profile", _profile),
+    "rate": ("rate", _number("Hz")),
+    "cpf": ("counts_per_newton", _number("counts per N")),
+    "cpt": ("counts_per_newton_metre", _number("counts per N·m")),
+    "speed": ("speed", _pace),
+    "topic": ("topic", _name),
+    "rpy": ("rpy_degrees", _numbers(3, 3, _MOST_DEGREES)),
+    "quaternion": ("quaternion", _numbers(4, 4, 1 + _UNIT)),
+    "joints": ("joints_degrees", _numbers(1, 64, _MOST_DEGREES)),
+    "robot": ("robot", _name),
+    "tool": ("tool", _numbers(6, 6, _MOST_TOOL)),
+}
+_BENCH: dict[str, Callable[[str], Any]] = {
+    "probe": _name,
+    "mesh": _name,
+    "sensor": _name,
+    "seed": _whole(0, 10**15, "give a whole number of 0 or more"),
+    "pose_rate": _number("Hz"),
+    "script": _name,
+}
+_SPEEDS: dict[Protocol, Callable[[str], float]] = {
+    Protocol.VIRTUAL: _step,
+    Protocol.POSES: _number("times the pace of the file"),
+}
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What one scheme gives and allows."""
+
+    wrenches: bool = False
+    poses: bool = False
+    port: int | None = None
+    frame: int = 0
+    options: Mapping[str, Any] = field(default_factory=dict)  # with their defaults; None: none
+
+
+_KINDS = {
+    (Protocol.SRI, Carrier.SERIAL): _Kind(wrenches=True, frame=31, options={"baud": 115_200, "rate": 200.0}),
+    (Protocol.SRI, Carrier.TCP): _Kind(wrenches=True, port=4008, options={"rate": 200.0}),
+    (Protocol.BOTA, Carrier.SERIAL): _Kind(wrenches=True, frame=37, options={"baud": 460_800, "rate": 200.0}),
+    (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(
+        wrenches=True, frame=16, options={"baud": 19_200, "rate": 100.0}
+    ),
+    (Protocol.RDT, Carrier.UDP): _Kind(
+        wrenches=True, port=49_152, options={"profile": "ati", "rate": None, "cpf": None, "cpt": None}
+    ),
+    (Protocol.ELFIN, Carrier.TCP): _Kind(poses=True, port=10_003, options={"rate": 50.0}),
+    (Protocol.UR, Carrier.TCP): _Kind(poses=True, port=30_004, options={"rate": 125.0, "tool": None}),
+    (Protocol.REPLAY, Carrier.FILE): _Kind(wrenches=True, poses=True, options={"speed": 1.0, "topic": None}),
+    (Protocol.POSES, Carrier.FILE): _Kind(poses=True, options={"speed": 1.0, "robot": None}),
+    (Protocol.STILL, Carrier.TYPED): _Kind(
+        poses=True, options={"rate": 10.0, "rpy": None, "quaternion": None, "joints": None, "robot": None}
+    ),
+    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(
+        wrenches=True, poses=True, options={"rate": 200.0, "speed": None, **dict.fromkeys(_BENCH)}
+    ),
+}
+
+
+@dataclass(frozen=True)
+class BenchOptions:
+    """What a virtual bench is made of; names are looked up by who opens it."""
+
+    probe: str = "t-shape"  # name of a bundled probe
+    mesh: str | None = None  # file of a probe to take instead, in metres and S
+    sensor: str = "paper"  # name of a preset
+    seed: int = 0  # of the noise
+    pose_rate: float = 50.0  # poses a second
+    script: str | None = None  # file of timed commands
 
 
 @dataclass(frozen=True)
 class DeviceAddress:
-    """One device.
-
-    Attributes
-    ----------
-    protocol : Protocol
-    carrier : Carrier
-    host : str
-        Name or IP address; empty where there is no socket.
-    port : int or None
-        TCP or UDP port; None where there is no socket.
-    path : str
-        Serial device, recording or file of poses; empty for sockets and typed poses.
-    baud : int or None
-        Of a serial line, bit/s.
-    rate : float or None
-        Samples per second to ask the device for; None: what the device is set to.
-    profile : str or None
-        Of RDT: "ati" or "onrobot".
-    counts_per_newton, counts_per_newton_metre : float or None
-        Of RDT: the profile's, unless the address gives others.
-    speed : float or None
-        Of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one. Of a
-        file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for real time.
-    topic : str or None
-        Of a replay that holds several devices of a kind: which one.
-    rpy_degrees : tuple of 3 floats or None
-        Of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that follows: an
-        address reads back to the last digit.
-    quaternion : tuple of 4 floats or None
-        Of a typed pose: scalar first, of unit length within 2 %.
-    joints_degrees : tuple of floats or None
-        Of a typed pose: joint angles of `robot`.
-    robot : str or None
-        Whose joints an address or a file of poses gives, as in contactbench.pipeline.robot.
-    tool : tuple of 6 floats or None
-        Of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in rad.
-    bench : BenchOptions or None
-        What a virtual bench is made of.
-    """
+    """One device."""
 
     protocol: Protocol
     carrier: Carrier
-    host: str = ""
-    port: int | None = None
-    path: str = ""
-    baud: int | None = None
-    rate: float | None = None
-    profile: str | None = None
+    host: str = ""  # name or IP address; empty where there is no socket
+    port: int | None = None  # TCP or UDP port; None where there is no socket
+    path: str = ""  # serial device, recording or file of poses; empty for sockets and typed poses
+    baud: int | None = None  # of a serial line, bit/s
+    rate: float | None = None  # samples per second to ask the device for; None: what the device is set to
+    profile: str | None = None  # of RDT: "ati" or "onrobot"
+    # counts_per_newton, counts_per_newton_metre: of RDT: the profile's, unless the address gives others
     counts_per_newton: float | None = None
     counts_per_newton_metre: float | None = None
+    # of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one.
+    # Of a file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for
+    # real time.
     speed: float | None = None
-    topic: str | None = None
+    topic: str | None = None  # of a replay that holds several devices of a kind: which one
+    # of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that
+    # follows: an address reads back to the last digit.
     rpy_degrees: tuple[float, ...] | None = None
-    quaternion: tuple[float, ...] | None = None
-    joints_degrees: tuple[float, ...] | None = None
+    quaternion: tuple[float, ...] | None = None  # of a typed pose: scalar first, of unit length within 2 %
+    joints_degrees: tuple[float, ...] | None = None  # of a typed pose: joint angles of `robot`
+    # whose joints an address or a file of poses gives, as in contactbench.pipeline.robot
     robot: str | None = None
+    # of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in
+    # rad
     tool: tuple[float, ...] | None = None
-    bench: BenchOptions | None = None
+    bench: BenchOptions | None = None  # what a virtual bench is made of
 
     @classmethod
     def parse(cls, text: str) -> DeviceAddress:
@@ -178,45 +239,34 @@ class DeviceAddress:
         >>> DeviceAddress.parse("sri+tcp://192.168.0.108").port
         4008
         """
-        parts = split_address(text)
-        protocol, carrier = _scheme(parts.scheme, text)
+        try:
+            return cls._parsed(text)
+        except ValueError as error:
+            raise AddressError(f"address {text!r}: {error}.") from error
+
+    @classmethod
+    def _parsed(cls, text: str) -> DeviceAddress:
+        parts = _split(text)
+        protocol, carrier = _scheme(parts.scheme)
         kind = _KINDS[protocol, carrier]
-        options = read_options(parts.query, kind.options, text)
-        host, port, path = "", None, ""
-        if carrier in _SOCKETS:
-            host, port = socket_of(parts, kind.port, text)
-        elif carrier is Carrier.TYPED:
-            check_nowhere(parts, text)
-        elif carrier is Carrier.SIMULATED:
-            host = bench_host(parts, text)
-        else:
-            path = path_of(parts, text, serial=carrier is Carrier.SERIAL)
-        profile = _profile(options, text) if protocol is Protocol.RDT else None
-        # An ATI sensor has counts of its own, and tells them.
-        scale = PROFILES[profile] if profile == "onrobot" else (None, None)
+        given = _given(parts.query, protocol, tuple(kind.options))
+        host, port, path = _place(parts, carrier, kind)
+        values = {name: value for name, value in {**kind.options, **given}.items() if name in _OPTIONS}
+        if values.get("profile") == "onrobot":  # an ATI sensor has counts of its own, and tells them
+            usual = zip(("cpf", "cpt"), PROFILES["onrobot"], strict=True)
+            values |= {name: scale if values[name] is None else values[name] for name, scale in usual}
+        bench = None
+        if protocol is Protocol.VIRTUAL:
+            bench = BenchOptions(**{name: value for name, value in given.items() if name in _BENCH})
         address = cls(
-            protocol=protocol,
-            carrier=carrier,
-            host=host,
-            port=port,
-            path=path,
-            baud=_baud(options, kind, text),
-            rate=number_option(options, "rate", kind.rate, "Hz", text),
-            profile=profile,
-            counts_per_newton=number_option(options, "cpf", scale[0], "counts per N", text),
-            counts_per_newton_metre=number_option(options, "cpt", scale[1], "counts per N·m", text),
-            speed=_speed(protocol, options, text) if "speed" in kind.options else None,
-            topic=name_option(options, "topic", text),
-            rpy_degrees=numbers_option(options, "rpy", (3, 3), _MOST_DEGREES, text),
-            quaternion=numbers_option(options, "quaternion", (4, 4), 1 + _UNIT, text),
-            joints_degrees=numbers_option(options, "joints", (1, _MOST_JOINTS), _MOST_DEGREES, text),
-            robot=name_option(options, "robot", text),
-            tool=numbers_option(options, "tool", (6, 6), _MOST_TOOL, text),
-            bench=bench_options(options, text) if protocol is Protocol.VIRTUAL else None,
-        )
-        _check_ceiling(address, kind, text)
+            protocol, carrier, host, port, path, bench=bench,
+            **{_OPTIONS[name][0]: value for name, value in values.items()},
+        )  # fmt: skip
+        _check_ceiling(address, kind)
         if protocol is Protocol.STILL:
-            _check_typed(address, text)
+            _check_typed(address)
+        if protocol is Protocol.VIRTUAL:
+            _check_bench(given)
         return address
 
     def __str__(self) -> str:
@@ -228,21 +278,13 @@ class DeviceAddress:
             where = self.host
         else:
             where = quote(self.path if self.path.startswith("/") else f"/{self.path}")
-        values = {
-            "baud": self.baud,
-            "profile": self.profile,
-            "rate": self.rate,
-            "cpf": self.counts_per_newton,
-            "cpt": self.counts_per_newton_metre,
-            "speed": "step" if self.speed == STEPWISE else self.speed,
-            "topic": self.topic,
-            "rpy": self.rpy_degrees,
-            "quaternion": self.quaternion,
-            "joints": self.joints_degrees,
-            "robot": self.robot,
-            "tool": self.tool,
-            **({} if self.bench is None else self.bench.values()),
-        }
+        values = {name: getattr(self, own) for name, (own, _) in _OPTIONS.items()}
+        if self.speed == STEPWISE:
+            values["speed"] = "step"
+        if self.bench is not None:
+            values |= {name: getattr(self.bench, name) for name in _BENCH}
+            if self.bench.mesh is not None:
+                values["probe"] = None
         given = {name: _short(value) for name, value in values.items() if value is not None}
         query = urlencode(given, safe=",/")
         return f"{_scheme_name(self.protocol, self.carrier)}://{where}" + (f"?{query}" if query else "")
@@ -269,80 +311,155 @@ def _short(value: object) -> str:
     return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
 
 
-def _scheme(scheme: str, text: str) -> tuple[Protocol, Carrier]:
+# ---- the parts of an address: each raises ValueError that says what is wrong, and the remedy -----
+
+
+def _split(text: str) -> SplitResult:
+    # urlsplit drops tabs and line ends without a word, so they are looked for first.
+    if any(not character.isprintable() for character in text):
+        raise ValueError("it holds a control character: type it again")
+    try:
+        parts = urlsplit(text)
+    except ValueError as error:
+        raise ValueError(f"host: {error}: write an IPv6 address as [::1]") from error
+    if parts.fragment or text.endswith("#"):
+        raise ValueError("'#': write it as %23 where it belongs to the path")
+    return parts
+
+
+def _scheme(scheme: str) -> tuple[Protocol, Carrier]:
     for protocol, carrier in _KINDS:
         if scheme == _scheme_name(protocol, carrier):
             return protocol, carrier
     known = ", ".join(_scheme_name(*kind) for kind in _KINDS)
-    raise AddressError(
-        f"address {text!r}: scheme {scheme or 'missing'}: start it with one of {known}, then ://."
-    )
+    raise ValueError(f"scheme {scheme or 'missing'}: start it with one of {known}, then ://")
 
 
 def _scheme_name(protocol: Protocol, carrier: Carrier) -> str:
     return protocol.value if carrier in _BARE else f"{protocol}+{carrier}"
 
 
-def _profile(options: dict[str, str], text: str) -> str:
-    name = options.get("profile", "ati")
-    if name not in PROFILES:
-        raise AddressError(f"address {text!r}: profile {name!r}: choose one of {', '.join(PROFILES)}.")
-    return name
+def _given(query: str, protocol: Protocol, known: tuple[str, ...]) -> dict[str, Any]:
+    """Return the options of a query, each of which must be known."""
+    found: dict[str, str] = {}
+    try:
+        pairs = parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query), errors="strict")
+    except ValueError as error:
+        raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
+    for name, value in pairs:
+        if name not in known:
+            raise ValueError(f"option {name!r} is unknown here: it can have {', '.join(known)}")
+        if name in found:
+            raise ValueError(f"option {name!r} is there twice: keep one")
+        found[name] = value
+    return {name: _read(name, value, protocol) for name, value in found.items()}
 
 
-def _baud(options: dict[str, str], kind: _Kind, text: str) -> int | None:
-    value = options.get("baud")
-    if value is None:
-        return kind.baud
-    # isdigit alone lets superscripts through.
-    if not (value.isascii() and value.isdigit() and len(value) <= 8 and 50 <= int(value) <= 12_000_000):
-        raise AddressError(
-            f"address {text!r}: baud {value!r}: give a whole number of bit/s such as {kind.baud}."
+def _read(name: str, value: str, protocol: Protocol) -> Any:
+    read = _BENCH[name] if name in _BENCH else _OPTIONS[name][1]
+    if name == "speed":
+        read = _SPEEDS.get(protocol, read)
+    try:
+        return read(value)
+    except ValueError as error:
+        raise ValueError(f"{name} {value[:80]!r}: {error}") from error
+
+
+def _place(parts: SplitResult, carrier: Carrier, kind: _Kind) -> tuple[str, int | None, str]:
+    """Return host, port and path."""
+    if carrier in _SOCKETS:
+        return *_socket(parts, kind.port), ""
+    if carrier in (Carrier.TYPED, Carrier.SIMULATED):
+        host, what, begin = (
+            ("", "a typed pose is nowhere", f"{parts.scheme}://?")
+            if carrier is Carrier.TYPED
+            else ("bench", "there is one virtual bench", "virtual://bench")
         )
-    return int(value)
+        if parts.netloc != host or parts.path not in ("", "/"):
+            raise ValueError(f"{parts.netloc + parts.path!r}: {what}: begin with {begin}")
+        return host, None, ""
+    return "", None, _path(parts, serial=carrier is Carrier.SERIAL)
 
 
-def _speed(protocol: Protocol, options: dict[str, str], text: str) -> float | None:
-    if protocol is Protocol.VIRTUAL:
-        if options.get("speed", "step") != "step":
-            raise AddressError(
-                f"address {text!r}: speed {options['speed']!r}: give step, or leave it out for real time."
-            )
-        return STEPWISE if "speed" in options else None
-    if protocol is not Protocol.REPLAY:
-        return number_option(options, "speed", 1.0, "times the pace of the file", text)
-    if options.get("speed") == "step":
-        return STEPWISE
-    return number_option(options, "speed", 1.0, "times the recorded pace, or step", text)
+def _socket(parts: SplitResult, usual: int | None) -> tuple[str, int]:
+    """Return host and port; `usual` is the port where none is given."""
+    if "@" in parts.netloc:
+        raise ValueError("user name: devices ask for none: leave out what is before the @")
+    host = _zoned(parts.hostname or "")
+    if not host or any(character in host.split("%")[0] for character in " %\\"):
+        raise ValueError("host: give a name or an IP address after ://")
+    if parts.path not in ("", "/"):
+        raise ValueError(f"path {parts.path!r}: a socket has none: leave it out")
+    try:
+        port = parts.port
+    except ValueError:
+        port = -1
+    port = usual if port is None else port
+    if port is None or not 1 <= port <= 65_535:
+        raise ValueError(f"port: give a whole number from 1 to 65535, or none for {usual}")
+    return host, port
 
 
-def _check_typed(address: DeviceAddress, text: str) -> None:
+def _zoned(host: str) -> str:
+    """Return a host with its IPv6 zone, which a URL writes as %25eth0 and a person as %eth0, written as %eth0."""
+    address, percent, zone = host.partition("%")
+    zone = zone.removeprefix("25")
+    # Only an IPv6 address has one, and it names an interface of this machine.
+    if percent and ":" in address and zone and all(c.isalnum() or c in "-_.~" for c in zone):
+        return f"{address}%{zone}"
+    return "" if percent else host
+
+
+def _path(parts: SplitResult, *, serial: bool) -> str:
+    """Return the path of a serial port or a file."""
+    path = unquote(parts.path, errors="surrogateescape")
+    if serial and parts.netloc and path in ("", "/"):
+        return parts.netloc  # COM3 as in sri+serial://COM3
+    if parts.netloc:
+        raise ValueError(f"host {parts.netloc!r}: a path follows three slashes: :///path")
+    # A path of Windows has no leading slash of its own: /COM3, /C:/folder.
+    drive = path[1:]
+    if (drive.upper().startswith("COM") and drive[3:].isdigit()) or drive[1:3] in (":/", ":\\"):
+        path = drive
+    if path in ("", "/") or "\0" in path:
+        file = "poses.csv" if parts.scheme == "poses" else "recording.mcap"
+        what, example = ("serial port", "/dev/ttyUSB0") if serial else ("file", f"/folder/{file}")
+        raise ValueError(f"path: name the {what} after three slashes: ://{example}")
+    return path
+
+
+# ---- options that must fit each other -----------------------------------------------------------
+
+
+def _check_bench(given: Mapping[str, Any]) -> None:
+    if "probe" in given and "mesh" in given:
+        raise ValueError("probe and mesh: a bench has one of them")
+    for name in ("rate", "pose_rate"):
+        if given.get(name, 0.0) > _FASTEST_HZ:
+            raise ValueError(f"{name}: the bench gives at most {_FASTEST_HZ:g} Hz")
+
+
+def _check_typed(address: DeviceAddress) -> None:
     ways = (address.rpy_degrees, address.quaternion, address.joints_degrees)
     if sum(way is not None for way in ways) != 1:
-        raise AddressError(
-            f"address {text!r}: pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
-            " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)."
+        raise ValueError(
+            "pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
+            " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
         )
-    if (address.rate or 0) > _FASTEST_STILL_HZ:
-        raise AddressError(
-            f"address {text!r}: rate: a pose that stays needs at most {_FASTEST_STILL_HZ:g} Hz."
-        )
+    if (address.rate or 0) > _FASTEST_HZ:
+        raise ValueError(f"rate: a pose that stays needs at most {_FASTEST_HZ:g} Hz")
     if (address.joints_degrees is None) != (address.robot is None):
-        raise AddressError(
-            f"address {text!r}: robot: joints need the robot that they are of, and nothing else does."
-        )
+        raise ValueError("robot: joints need the robot that they are of, and nothing else does")
     if address.quaternion is not None and not abs(math.hypot(*address.quaternion) - 1) <= _UNIT:
-        raise AddressError(
-            f"address {text!r}: quaternion: its length is not 1: check its four numbers w,x,y,z."
-        )
+        raise ValueError("quaternion: its length is not 1: check its four numbers w,x,y,z")
 
 
-def _check_ceiling(address: DeviceAddress, kind: _Kind, text: str) -> None:
+def _check_ceiling(address: DeviceAddress, kind: _Kind) -> None:
     if not (address.baud and address.rate and kind.frame):
         return
     ceiling = address.baud / (_BITS_PER_BYTE * kind.frame)
     if address.rate > ceiling:
-        raise AddressError(
-            f"address {text!r}: rate: {address.rate:g} samples/s do not fit through {address.baud} bit/s: ask for at"
-            f" most {math.floor(ceiling)}, or a faster line if the device is set to one."
+        raise ValueError(
+            f"rate: {address.rate:g} samples/s do not fit through {address.baud} bit/s: ask for at"
+            f" most {math.floor(ceiling)}, or a faster line if the device is set to one"
         )

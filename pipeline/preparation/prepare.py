@@ -1,13 +1,20 @@
-"""All steps in one go: from the file to a probe that a sensor can be used with."""
+"""From a mesh file to a probe that a sensor can be used with: all steps in one go."""
 
 from __future__ import annotations
 
+import hashlib
+import threading
+from collections import OrderedDict
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import (
     align_step,
     import_mesh,
@@ -15,64 +22,46 @@ from contactbench.pipeline.preparation.steps import (
     shell_step,
     simplify_step,
 )
+from contactbench.pipeline.preparation.targets import target_of
+from contactbench.pipeline.settings import metres
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
 
     from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.shell import Shell
     from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.mesh.simplify import Engine, Simplified, Target
+    from contactbench.pipeline.mesh.simplify import Simplified
     from contactbench.pipeline.mesh.soundness import Soundness
-    from contactbench.pipeline.mesh.units import Units
     from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.settings import ProbeSettings
 
-    Chosen = tuple[Target, Mapping[str, Any] | None]
+    Progress = Callable[[float], None] | None
+    Cancel = Callable[[], bool] | None
 
-# Shares of the work: reading, wrapping, simplifying.
-_READ, _WRAPPED = 0.02, 0.7
+# Shares of the work: reading, of what the outer surface takes; the outer surface, of all.
+_READ, _DENSE = 0.02, 0.7
+_REMEMBERED = 2
 
 
 @dataclass(frozen=True, eq=False)
 class Dense:
-    """
-    A mesh file's outer surface, before it is aligned and has fewer facets.
+    """A mesh file's outer surface, before it is aligned and has fewer facets."""
 
-    Attributes
-    ----------
-    content : ProbeFile
-        As it lies in the mesh's own frame.
-    shell : Shell
-        What was done.
-    """
-
-    content: ProbeFile
-    shell: Shell
+    content: ProbeFile  # as it lies in the mesh's own frame
+    shell: Shell  # what was done
 
 
 @dataclass(frozen=True, eq=False)
 class Preparation:
-    """
-    A prepared probe, and what was done.
+    """A prepared probe, and what was done."""
 
-    Attributes
-    ----------
-    content : ProbeFile
-        The probe, its regions and its history: for `save_probe_file`.
-    shell : Shell
-    simplified : Simplified
-    soundness : Soundness
-        Of the result, compared with the shell, as if it came from a stranger.
-    carried : tuple of RegionReport
-        What simplification did to the area of each region.
-    """
-
-    content: ProbeFile
+    content: ProbeFile  # the probe, its regions and its history: for `save_probe_file`
     shell: Shell
     simplified: Simplified
-    soundness: Soundness
-    carried: tuple[RegionReport, ...] = ()
+    soundness: Soundness  # of the result, compared with the shell, as if it came from a stranger
+    carried: tuple[RegionReport, ...] = ()  # what simplification did to the area of each region
 
     @property
     def ready(self) -> bool:
@@ -119,158 +108,58 @@ class Preparation:
         }
 
 
-def make_dense(
-    path: str | os.PathLike[str],
-    units: Units | Literal["auto"] = "auto",
-    closings: Closing | Sequence[Closing] = Closing.AUTO,
+def prepared(
+    inputs: Mapping[str, Path],
+    given: ProbeSettings,
     *,
-    alpha: float | None = None,
-    gap: float | None = None,
-    aligned_later: bool = False,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> Dense:
-    """
-    Read a mesh file and close it: the steps that take long, and do not depend on the others.
-
-    Parameters
-    ----------
-    path, units, closings, alpha, gap, progress, cancelled
-        See `prepare`.
-    aligned_later : bool
-        Refuse a mesh that is aligned already before the work is done.
-
-    Raises
-    ------
-    MeshError, AlignmentError, EngineError, Cancelled
-        See the steps.
-    """
-    content = import_mesh(path, units)
-    if aligned_later:
-        refuse_aligned(content, again=False)
-    notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
-    if progress is not None:
-        progress(_READ)
-    content, shell = shell_step(
-        content, closings, alpha=alpha, gap=gap, progress=_part(progress, _READ, 1.0), cancelled=cancelled
-    )
-    # What was wrong with the file is mended by now, and said by the shell; how its unit was found is not.
-    return Dense(replace(content, notes=notes), shell)
-
-
-def place(
-    dense: Dense, alignment: Alignment | None, painted: Callable[[ProbeFile], ProbeFile] | None = None
-) -> ProbeFile:
-    """
-    Move the outer surface into the sensor frame, and put regions on it.
-
-    Parameters
-    ----------
-    dense : Dense
-    alignment : Alignment or None
-        None: it stays in its own frame.
-    painted : callable, optional
-        Takes the aligned shell and gives it with its regions; see `contactbench.pipeline.preparation.painted`.
-    """
-    content = dense.content if alignment is None else align_step(dense.content, alignment)
-    return content if painted is None else painted(content)
-
-
-def prepare(
-    path: str | os.PathLike[str],
-    units: Units | Literal["auto"] = "auto",
-    closings: Closing | Sequence[Closing] = Closing.AUTO,
-    *,
-    alpha: float | None = None,
-    gap: float | None = None,
-    alignment: Alignment | None = None,
-    target: Callable[[ProbeFile], Chosen],
-    engine: Engine = "auto",
-    region_ratio: float = 1.0,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
+    progress: Progress = None,
+    cancelled: Cancel = None,
+    remember: bool = False,
 ) -> Preparation:
     """
     Read a mesh file, close it, align it, and give it as few facets as the target allows.
 
     Parameters
     ----------
-    path : str or path
-    units : {"auto", "mm", "m", "cm", "in"}
-    closings : Closing or sequence of Closing
-        See `make_shell`.
-    alpha, gap : float, optional
-        Metres; see `make_shell`.
-    alignment : Alignment, optional
-        Left out, the mesh stays in its own frame P.
-    target : callable
-        Takes the aligned shell and gives the target, and how to write it down; see `simplify_step`.
-    engine, region_ratio
-        See `simplify`.
+    inputs : mapping of role to path
+        ``mesh``; ``alignment``, if it is not the mount of the settings: what ``contactbench probe align --save``
+        wrote; ``regions``, painted on the aligned outer surface: see `put_on`.
+    given : ProbeSettings
     progress, cancelled : callable, optional
         As everywhere: the share that is done, and whether to stop.
-
-    Returns
-    -------
-    Preparation
+    remember : bool
+        See `dense_of`.
 
     Raises
     ------
-    MeshError, AlignmentError, EngineError, Cancelled
-        See the steps.
+    InputError
+        The settings contradict each other or the inputs, or a step cannot be done.
+    Cancelled
+        `cancelled` answered True.
     """
-    dense = make_dense(
-        path,
-        units,
-        closings,
-        alpha=alpha,
-        gap=gap,
+    if given.mount is not None and "alignment" in inputs:
+        raise InputError("the mount of the settings and an alignment contradict each other: give one.")
+    target, alignment = target_of(given), alignment_of(given, inputs.get("alignment"))
+    dense = dense_of(
+        inputs["mesh"],
+        given,
         aligned_later=alignment is not None,
-        progress=_part(progress, 0.0, _WRAPPED),
+        remember=remember,
+        progress=part_of(progress, 0.0, _DENSE),
         cancelled=cancelled,
     )
-    return finish(
-        dense,
-        place(dense, alignment),
-        target,
-        engine=engine,
-        region_ratio=region_ratio,
-        progress=_part(progress, _WRAPPED, 1.0),
-        cancelled=cancelled,
-    )
-
-
-def finish(
-    dense: Dense,
-    placed: ProbeFile,
-    target: Callable[[ProbeFile], Chosen],
-    *,
-    engine: Engine = "auto",
-    region_ratio: float = 1.0,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> Preparation:
-    """
-    Give the outer surface as few facets as the target allows: the last step of `prepare`.
-
-    Parameters
-    ----------
-    dense : Dense
-    placed : ProbeFile
-        What `place` made of it.
-    target, engine, region_ratio, progress, cancelled
-        See `prepare`.
-    """
+    painted = inputs.get("regions")
+    placed = place(dense, alignment, None if painted is None else partial(put_on, file=painted))
     if cancelled is not None and cancelled():
         raise Cancelled("the preparation was cancelled: nothing was written.")
-    wanted, stated = target(placed)
+    wanted, stated = target(placed.probe)
     content, simplified, carried = simplify_step(
         placed,
         wanted,
         stated=stated,
-        engine=engine,
-        region_ratio=region_ratio,
-        progress=progress,
+        engine=given.engine,
+        region_ratio=given.region_ratio,
+        progress=part_of(progress, _DENSE, 1.0),
         cancelled=cancelled,
     )
     made, whole = content.probe, placed.probe
@@ -280,10 +169,99 @@ def finish(
     return Preparation(content, dense.shell, simplified, soundness, carried)
 
 
-def _part(
-    progress: Callable[[float], None] | None, low: float, high: float
-) -> Callable[[float], None] | None:
+def alignment_of(given: ProbeSettings, file: Path | None) -> Alignment | None:
+    """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
+    if file is not None:
+        try:
+            return from_json(file.read_bytes(), file.name)
+        except OSError as error:
+            raise AlignmentError(f"{file}: the file cannot be read ({error}): check the path.") from error
+    return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
+
+
+def place(
+    dense: Dense, alignment: Alignment | None, painted: Callable[[ProbeFile], ProbeFile] | None = None
+) -> ProbeFile:
+    """Move the outer surface into the sensor frame, if there is an alignment, and let `painted` put regions on it."""
+    content = dense.content if alignment is None else align_step(dense.content, alignment)
+    return content if painted is None else painted(content)
+
+
+def part_of(progress: Progress, low: float, high: float) -> Progress:
     """Return what takes the progress of a part of the work."""
-    if progress is None:
-        return None
-    return lambda share: progress(low + share * (high - low))
+    return None if progress is None else lambda share: progress(low + share * (high - low))
+
+
+# ---- the outer surface --------------------------------------------------------------------------
+
+_dense: OrderedDict[tuple[object, ...], Dense] = OrderedDict()
+_lock = threading.Lock()
+
+
+def dense_of(
+    mesh: Path,
+    given: ProbeSettings,
+    *,
+    aligned_later: bool = False,
+    remember: bool = False,
+    progress: Progress = None,
+    cancelled: Cancel = None,
+) -> Dense:
+    """
+    Make the outer surface of a mesh file: most of the time that a probe takes.
+
+    Parameters
+    ----------
+    mesh : path
+        With its JSON file beside it, if it is contactbench's.
+    given : ProbeSettings
+    aligned_later : bool
+        Refuse a mesh that is aligned already.
+    remember : bool
+        Whether one that was made before from the same bytes, name and settings will do. Who checks results makes
+        all of them anew.
+    progress, cancelled : callable, optional
+        The share that is done, and whether to stop.
+    """
+    key = _key(mesh, given) if remember else ()
+    with _lock:
+        known = _dense.get(key) if remember else None
+    if known is not None:
+        if aligned_later:
+            refuse_aligned(known.content, again=False)
+        return known
+    content = import_mesh(mesh, given.units)
+    if aligned_later:
+        refuse_aligned(content, again=False)
+    # What is wrong with the file is mended below, and said by the shell; how its unit was found is not.
+    notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
+    if progress is not None:
+        progress(_READ)
+    content, shell = shell_step(
+        content,
+        closings_of(given),
+        alpha=metres(given.alpha),
+        gap=metres(given.gap),
+        progress=part_of(progress, _READ, 1.0),
+        cancelled=cancelled,
+    )
+    made = Dense(replace(content, notes=notes), shell)
+    if remember:
+        with _lock:
+            _dense[key] = made
+            while len(_dense) > _REMEMBERED:
+                _dense.popitem(last=False)
+    return made
+
+
+def closings_of(given: ProbeSettings) -> Closing | Sequence[Closing]:
+    """Return how openings are closed: one way for all, or one after the other."""
+    ways = [Closing(each) for each in given.close]
+    return ways[0] if len(ways) == 1 else ways or Closing.AUTO
+
+
+def _key(mesh: Path, given: ProbeSettings) -> tuple[object, ...]:
+    # Only a regular file has a hash; of others the reader says what is wrong.
+    files = (each for each in (mesh, mesh.with_suffix(".json")) if each.is_file())
+    hashes = tuple(hashlib.sha256(each.read_bytes()).hexdigest() for each in files)
+    return (mesh.name, hashes, given.units, given.close, given.alpha, given.gap)

@@ -27,51 +27,25 @@ DeviceKind = Literal["wrench", "flange"]
 
 @dataclass(frozen=True, slots=True)
 class DeviceInfo:
-    """
-    Where a topic's samples come from.
-
-    Attributes
-    ----------
-    kind : {"wrench", "flange"}
-    topic : str
-        Where its samples are in the recording.
-    address : str
-        As it was opened, an URL.
-    model, serial : str
-        Empty where unknown.
-    rate : float or None
-        Nominal, Hz.
-    """
+    """Where a topic's samples come from."""
 
     kind: DeviceKind
-    topic: str
-    address: str
+    topic: str  # where its samples are in the recording
+    address: str  # as it was opened, an URL
+    # model, serial: empty where unknown
     model: str = ""
     serial: str = ""
-    rate: float | None = None
+    rate: float | None = None  # nominal, Hz
 
 
 @dataclass(frozen=True, slots=True)
 class RecordingInfo:
-    """
-    What a recording says about itself.
+    """What a recording says about itself."""
 
-    Attributes
-    ----------
-    started_ns : int
-        Unix time of the start, ns.
-    clock : float
-        The samples' clock at that moment, s: it ties their times to the calendar.
-    devices : tuple of DeviceInfo
-    tool : str
-        Who wrote it.
-    note : str
-    """
-
-    started_ns: int
-    clock: float
+    started_ns: int  # Unix time of the start, ns
+    clock: float  # the samples' clock at that moment, s: it ties their times to the calendar
     devices: tuple[DeviceInfo, ...] = ()
-    tool: str = f"contactbench {__version__}"
+    tool: str = f"contactbench {__version__}"  # who wrote it
     note: str = ""
 
     @classmethod

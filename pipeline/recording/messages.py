@@ -32,21 +32,11 @@ class MessageError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """
-    Something that happened during a recording.
+    """Something that happened during a recording."""
 
-    Attributes
-    ----------
-    time : float
-        As for a sample, s.
-    name : str
-    fields : mapping
-        What goes with it; as JSON has it.
-    """
-
-    time: float
+    time: float  # as for a sample, s
     name: str
-    fields: Mapping[str, Any] = field(default_factory=dict)
+    fields: Mapping[str, Any] = field(default_factory=dict)  # what goes with it; as JSON has it
 
 
 # ---- writing -----------------------------------------------------------------------------------

@@ -29,7 +29,7 @@ from contactbench.pipeline.recording.messages import (
     read_wrench,
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
-from contactbench.pipeline.recording.stream import McapStream, Message, Metadata
+from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
 from contactbench.pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class RecordingReader:
     def __init__(self, path: Path, progress: Callable[[int, int], None] | None = None) -> None:
         self._stream = McapStream(path, progress)
         self._records = iter(self._stream)
-        self._first: Message | None = None
+        self._first: McapMessage | None = None
         self._event_room: float = math.inf
         self._format = FORMAT
         try:
@@ -137,7 +137,7 @@ class RecordingReader:
         if message is not None:
             yield from self._decoded(message)
         for record in self._records:
-            if isinstance(record, Message):
+            if isinstance(record, McapMessage):
                 yield from self._decoded(record)
 
     @property
@@ -162,7 +162,7 @@ class RecordingReader:
         about: RecordingInfo | None = None
         devices = []
         for record in self._records:
-            if isinstance(record, Message):
+            if isinstance(record, McapMessage):
                 self._first = record
                 break
             try:
@@ -180,7 +180,7 @@ class RecordingReader:
             raise RecordingError(f"{path}: this is no recording of contactbench. {reason}")
         return RecordingInfo(about.started_ns, about.clock, tuple(devices), about.tool, about.note)
 
-    def _decoded(self, message: Message) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
+    def _decoded(self, message: McapMessage) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         channel = message.channel
         decode = _DECODERS.get(channel.schema_name) if channel.encoding == "json" else None
         if decode is None:

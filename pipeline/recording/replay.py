@@ -16,7 +16,7 @@ from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import RecordingReader
 from contactbench.pipeline.recording.schemas import FLANGE_SCHEMA, WRENCH_SCHEMA
-from contactbench.pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.recording.stream import McapMessage, McapStream
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -344,7 +344,7 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
     try:
         for record in stream:
             if (
-                isinstance(record, Message)
+                isinstance(record, McapMessage)
                 and record.channel.topic == chosen
                 and record.channel.schema_name == _SCHEMAS[kind]
             ):

@@ -12,7 +12,7 @@ from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, Dev
 from contactbench.pipeline.recording.ros2_poses import Frames, joint_pose, pose
 from contactbench.pipeline.recording.ros2_survey import Survey, Topic, ros2_type, survey
 from contactbench.pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
-from contactbench.pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.recording.stream import McapMessage, McapStream
 from contactbench.pipeline.recording.writer import RecordingWriter
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def _about(bag: Path, begin: int, wrench: Topic, where: Topic | None, frame: str
 
 def _run(task: _Import, stream: McapStream) -> None:
     for message in stream:
-        if isinstance(message, Message):
+        if isinstance(message, McapMessage):
             task.take(message, stream.warn)
 
 
@@ -139,7 +139,7 @@ class _Import:
         self._frame, self._other_frame = found.wrench_frames.get(wrench.name, ""), ""
         self.wrenches = self.poses = 0
 
-    def take(self, message: Message, warn: Callable[[str], None]) -> None:
+    def take(self, message: McapMessage, warn: Callable[[str], None]) -> None:
         name = message.channel.topic
         if name not in self._taken:
             return
@@ -177,7 +177,7 @@ class _Import:
             )
         return tuple(said)
 
-    def _take_wrench(self, message: Message, body: Any) -> None:
+    def _take_wrench(self, message: McapMessage, body: Any) -> None:
         force, torque = body.wrench.force, body.wrench.torque
         time, other = self._times(message, _stamp(body.header))
         if (frame := body.header.frame_id.lstrip("/")) != self._frame:
@@ -188,7 +188,7 @@ class _Import:
         self._writer.wrench(sample)
         self.wrenches += 1
 
-    def _take_transforms(self, message: Message, body: Any, frames: Frames, *, static: bool) -> None:
+    def _take_transforms(self, message: McapMessage, body: Any, frames: Frames, *, static: bool) -> None:
         bad = frames.update(body, message.log_time, static=static)
         stamp = None if static else frames.due()
         found = None if stamp is None else frames.pose()
@@ -199,7 +199,7 @@ class _Import:
         if bad:
             raise ValueError(f"the transform to {bad[0][:_LONGEST_NAME]} is no pose")
 
-    def _take_pose(self, message: Message, body: Any) -> None:
+    def _take_pose(self, message: McapMessage, body: Any) -> None:
         time, other = self._times(message, _stamp(body.header))
         joints = None
         if self._where is not None and self._where.type == JOINT_STATE and self._wanted.robot is not None:
@@ -209,7 +209,7 @@ class _Import:
         self._writer.flange(FlangeSample(time, *found, joints, other))
         self.poses += 1
 
-    def _times(self, message: Message, stamp_ns: int) -> tuple[float, float | None]:
+    def _times(self, message: McapMessage, stamp_ns: int) -> tuple[float, float | None]:
         received = (message.log_time - self._begin) / 1e9
         if self._wanted.header_stamps:
             if stamp_ns == 0:

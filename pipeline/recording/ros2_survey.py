@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.recording.ros2_poses import numbers
 from contactbench.pipeline.recording.ros2_types import TF, WRENCH_STAMPED, decoder
-from contactbench.pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.recording.stream import McapMessage, McapStream
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -63,7 +63,7 @@ def survey(path: Path) -> Survey:
     stream = McapStream(path)
     try:
         for message in stream:
-            if not isinstance(message, Message):
+            if not isinstance(message, McapMessage):
                 continue
             counts[message.channel.topic, ros2_type(message), message.channel.encoding] += 1
             begin = min(begin, message.log_time)
@@ -80,7 +80,7 @@ def survey(path: Path) -> Survey:
     )
 
 
-def ros2_type(message: Message) -> str:
+def ros2_type(message: McapMessage) -> str:
     """Return the full name of a message's type, also where it is written without /msg/."""
     package, _, name = message.channel.schema_name.partition("/")
     return f"{package}/msg/{name.removeprefix('msg/')}" if name else package
@@ -94,7 +94,7 @@ class _Seen:
         self.moving: set[tuple[str, str]] = set()
         self.wrench_frames: dict[str, str] = {}
 
-    def look(self, message: Message) -> None:
+    def look(self, message: McapMessage) -> None:
         kind, topic = ros2_type(message), message.channel.topic
         if message.channel.encoding != _CDR:
             return

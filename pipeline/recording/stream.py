@@ -45,7 +45,7 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True)
-class Message:
+class McapMessage:
     """What was published on a topic; log time in ns."""
 
     channel: Channel
@@ -114,7 +114,7 @@ class McapStream:
         elif self._faults == _MOST_WARNINGS + 1:
             self.warnings.append("More of it is damaged in the same way.")
 
-    def __iter__(self) -> Iterator[Message | Metadata]:
+    def __iter__(self) -> Iterator[McapMessage | Metadata]:
         """Yield messages and metadata until the end of the data, or of what is left of it."""
         while True:
             found = self._next_record()
@@ -152,7 +152,7 @@ class McapStream:
                 self.warn(f"What is at byte {begin:,} is too long ({length:,} bytes) and left out.")
             self._skip(length)
 
-    def _meaning(self, opcode: int, payload: bytes) -> Iterator[Message | Metadata]:
+    def _meaning(self, opcode: int, payload: bytes) -> Iterator[McapMessage | Metadata]:
         if opcode == Opcode.CHUNK:
             yield from self._chunk(payload)
         elif opcode == Opcode.METADATA:
@@ -163,7 +163,7 @@ class McapStream:
             if message is not None:
                 yield message
 
-    def _chunk(self, payload: bytes) -> Iterator[Message]:
+    def _chunk(self, payload: bytes) -> Iterator[McapMessage]:
         data = _unpacked(Cursor(payload))
         at = 0
         while at < len(data):
@@ -178,14 +178,14 @@ class McapStream:
             if message is not None:
                 yield message
 
-    def _plain(self, opcode: int, payload: bytes) -> Message | None:
+    def _plain(self, opcode: int, payload: bytes) -> McapMessage | None:
         if opcode == Opcode.MESSAGE:
             if len(payload) < MESSAGE_HEAD.size:
                 raise ValueError("half a message")
             number, _, log_time, _ = MESSAGE_HEAD.unpack_from(payload)
             if number not in self._channels:
                 raise ValueError(f"a message on channel {number}, which is not described")
-            return Message(self._channels[number], log_time, payload[MESSAGE_HEAD.size :])
+            return McapMessage(self._channels[number], log_time, payload[MESSAGE_HEAD.size :])
         cursor = Cursor(payload)
         if opcode == Opcode.SCHEMA:
             number = cursor.number(2)

@@ -7,7 +7,7 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
-from contactbench.pipeline.recording.chunked import ChunkedFile
+from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
@@ -80,7 +80,7 @@ class RecordingWriter:
         self._defaults = {kind: topic for topic, kind in reversed(topics.items())}
         self._kinds = topics
         self._lock = threading.Lock()
-        self._file = ChunkedFile(path, about.tool)
+        self._file = ChunkFile(path, about.tool)
         try:
             self._channels = self._begin()
         except BaseException:

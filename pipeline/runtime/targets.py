@@ -10,7 +10,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.recording import RecordingError
-from contactbench.pipeline.recording.chunked import ChunkedFile
+from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError, RunError
 
@@ -160,7 +160,7 @@ class McapTarget:
     def __init__(self, path: Path, about: RecordingInfo) -> None:
         self.name, self._about = str(path), about
         try:
-            self._file = ChunkedFile(path, about.tool)
+            self._file = ChunkFile(path, about.tool)
             self._file.add_metadata(ABOUT_RECORD, about_record(about))
             for device in about.devices:
                 self._file.add_metadata(DEVICE_RECORD, device_record(device))

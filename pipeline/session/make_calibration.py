@@ -2,34 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from datetime import datetime
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.making import (
-    Number,
-    Parameters,
-    Three,
-    check_roles,
-    folder_for,
-    mount_rotation,
-    read_parameters,
-)
+from contactbench.pipeline.session.making import Parameters, check_roles, folder_for, read_parameters
+from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from contactbench.pipeline.calibration import ContactTask, PoseNoise, PoseSample
+    from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
-    from contactbench.pipeline.calibration.orientation import Convention
 
 FEWEST_POSES = 3
 
@@ -37,45 +25,12 @@ FEWEST_POSES = 3
 Moment = Annotated[float, Field(ge=-1e15, le=1e15, allow_inf_nan=False)]
 
 
-class PosesParameters(Parameters):
-    """How orientations in a table are written, and the sensor's in the flange: as the options of the commands."""
+class CapturesParameters(CapturesSettings, Parameters):
+    """As the options of ``contactbench calibrate captures``."""
 
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: str | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: Three | None = None
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the file's columns say."""
-        from contactbench.pipeline.calibration.orientation import convention_of
-
-        return convention_of(
-            self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
-        )
-
-    @property
-    def R_ES(self) -> NDArray[np.float64] | None:
-        """(3, 3) orientation of the sensor on the flange; None: nobody said."""
-        return mount_rotation(self.mount)
-
-
-class CapturesParameters(PosesParameters):
-    """
-    As the options of ``contactbench calibrate captures``; angles of the mount in degrees, the delay in seconds.
-
-    Attributes
-    ----------
-    leave_out : tuple of float
-        s, on the recording's clock: a capture in which such a moment lies is left out.
-    partial : bool
-        More poses will follow in another recording: fewer than three do.
-    """
-
-    delay: Number | Literal["auto"] | None = None
+    # s, on the recording's clock: a capture in which such a moment lies is left out
     leave_out: tuple[Moment, ...] = ()
-    partial: bool = False
+    partial: bool = False  # more poses will follow in another recording: fewer than three do
 
 
 def captures(
@@ -94,13 +49,14 @@ def captures(
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.orientation import convention_of
 
     given = read_parameters(CapturesParameters, parameters)
     recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
     found = capture_any(
         recording,
-        given.convention(),
+        convention_of(given),
         robot_poses=inputs.get("robot_poses"),
         R_ES=given.R_ES,
         model=model,
@@ -149,54 +105,8 @@ def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple
     )
 
 
-class CalibrationParameters(PosesParameters):
-    """
-    As the options of ``contactbench calibrate fit``; angles of the mount in degrees.
-
-    Attributes
-    ----------
-    orientation_noise : float or None
-        1 sigma of the poses' orientations about each axis, degrees; None: estimated.
-    down : (3,)
-        Where gravity points in W; its length does not matter.
-    """
-
-    estimate_mount: bool = False
-    noise_force: Number | None = None
-    noise_torque: Number | None = None
-    orientation_noise: Number | None = None
-    down: Three = (0.0, 0.0, -1.0)
-    tip: Three = (0.0, 0.0, 100.0)
-    contact_force: Number = 10.0
-
-    @property
-    def noise(self) -> PoseNoise | None:
-        """Of a pose's mean; None: it is estimated from the poses."""
-        from contactbench.pipeline.calibration import PoseNoise
-
-        force, torque = self.noise_force, self.noise_torque
-        return None if force is None or torque is None else PoseNoise(force, torque)
-
-    @property
-    def task(self) -> ContactTask:
-        """The touches that the calibration is for."""
-        import numpy as np
-
-        from contactbench.pipeline.calibration import ContactTask
-
-        tip = np.array(self.tip) / 1000
-        return ContactTask(tip, np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0]), self.contact_force)
-
-    @property
-    def assumed(self) -> dict[str, Any]:
-        """What `calibrate` and `estimate_mount` are told beside the poses."""
-        degrees = self.orientation_noise
-        return {
-            "noise": self.noise,
-            "orientation_sigma": None if degrees is None else math.radians(degrees),
-            "down_W": self.down,
-            "task": self.task,
-        }
+class CalibrationParameters(CalibrationSettings, Parameters):
+    """As the options of ``contactbench calibrate fit``."""
 
 
 def calibration(
@@ -204,31 +114,29 @@ def calibration(
 ) -> dict[str, bytes]:
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
     from contactbench.pipeline.calibration import calibrate
+    from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
     from contactbench.pipeline.calibration.mount import estimate_mount
+    from contactbench.pipeline.calibration.orientation import convention_of
 
     given = read_parameters(CalibrationParameters, parameters)
-    if given.mount is not None and given.estimate_mount:
-        raise SessionError("mount and estimate_mount contradict each other: give one.")
     poses = check_roles(inputs, "poses")
     if is_recording(poses) or is_recorded_table(poses):
         raise SessionError(
             f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
             " captures from it first."
         )
-    if (given.noise_force is None) != (given.noise_torque is None):
-        raise SessionError("noise_force, noise_torque: give both or none.")
-    R_ES = given.R_ES
-    table = read_poses(poses, given.convention(), R_ES=R_ES)
+    R_ES, said = given.R_ES, assumed(given)
+    table = read_poses(poses, convention_of(given), R_ES=R_ES)
     mount = None if R_ES is None else Mount.of(R_ES.T)
     if given.estimate_mount:
-        mounted = estimate_mount(table.poses, **given.assumed)
+        mounted = estimate_mount(table.poses, **said)
         found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
     else:
-        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **given.assumed)
+        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     time = None if created is None else datetime.fromisoformat(created)
     with folder_for(given.name, ".json") as out:
         save_calibration(found, out, source=poses, created=time, mount=mount)

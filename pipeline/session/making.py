@@ -5,33 +5,26 @@ from __future__ import annotations
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError
 
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.settings import Settings, Three
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    import numpy as np
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.session.state import State
 
-_P = TypeVar("_P", bound=BaseModel)
+_P = TypeVar("_P", bound=Settings)
 
 PREFIX = "contactbench-"  # of temporary folders
 
-# Kilometres and whole turns are mistakes, and squares of much more overflow.
-Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-Three = tuple[Number, Number, Number]
 
-
-class Parameters(BaseModel):
+class Parameters(Settings):
     """Parameters of a computation; ``name`` is that of the result."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str
 
@@ -39,11 +32,9 @@ class Parameters(BaseModel):
 def read_parameters(kind: type[_P], parameters: Mapping[str, Any]) -> _P:
     """Return parameters of that kind; SessionError, with the first that is wrong."""
     try:
-        return kind.model_validate(dict(parameters))
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(map(str, first["loc"]))
-        raise SessionError(f"parameter {where}: {first['msg']}: correct it.") from error
+        return kind.checked(parameters)
+    except InputError as error:
+        raise SessionError(str(error)) from error
 
 
 def check_roles(inputs: Mapping[str, Path], needed: str, *optional: str) -> Path:
@@ -52,16 +43,6 @@ def check_roles(inputs: Mapping[str, Path], needed: str, *optional: str) -> Path
         may = "".join(f", and perhaps {role}" for role in optional)
         raise SessionError(f"inputs: {needed} is needed{may}; there are {', '.join(inputs) or 'none'}.")
     return inputs[needed]
-
-
-def mount_rotation(degrees: Three | None) -> NDArray[np.float64] | None:
-    """Return R_ES (3, 3) of angles about the fixed axes x, y, z; None stays None."""
-    from scipy.spatial.transform import Rotation
-
-    if degrees is None:
-        return None
-    R: NDArray[np.float64] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
-    return R
 
 
 def mount_of(state: State) -> Three | None:
@@ -83,11 +64,6 @@ def mount_of(state: State) -> Three | None:
             "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."
         ) from None
     return angles
-
-
-def metres(millimetres: float | None) -> float | None:
-    """Return a length in metres; None stays None."""
-    return None if millimetres is None else millimetres / 1000
 
 
 @contextmanager

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import PosesSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,14 +19,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.settings import Three
 
 _FOLDERS_SEPARATORS = ("/", "\\")
-
-Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
-Three = tuple[Number, Number, Number]
 
 WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
 SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}
@@ -45,50 +40,18 @@ class Outcome(StrEnum):
     UNDECIDED = "undecided"  # its uncertainty is too large to tell
 
 
-class CheckParameters(BaseModel):
-    """
-    Parameters of both checks: as the options of ``contactbench calibrate check``, angles of the mount in degrees.
-
-    Attributes
-    ----------
-    name : str
-        Of the file that is written.
-    euler, rotation_vector, robot, radians, inverse
-        How orientations in a CSV file are written.
-    mount : (3,), optional
-        Angles of the sensor on the flange about the fixed axes x, y, z, degrees; left out: as the calibration has it.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class CheckParameters(PosesSettings):
+    """Settings of a check, and the name of the file that is written."""
 
     name: str
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: Literal["elfin3"] | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: Three | None = None
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> Self:
         """Return parameters; InputError, with the first that is wrong."""
-        try:
-            given = cls.model_validate(dict(values))
-        except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            where = ".".join(map(str, first["loc"]))
-            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
+        given = super().checked(values)
         if not given.name.endswith(".json") or any(each in given.name for each in _FOLDERS_SEPARATORS):
             raise InputError(f"{given.name}: the result is a file whose name ends in .json.")
         return given
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the columns say. InputError: the parameters contradict."""
-        from contactbench.pipeline.calibration.orientation import convention_of
-
-        return convention_of(
-            self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
-        )
 
 
 def load_calibrated(

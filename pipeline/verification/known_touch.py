@@ -13,17 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import Three, TouchSettings
 from contactbench.pipeline.verification.known import (
     SCHEMAS,
     TOUCH,
     TOUCH_ROLES,
     VERSION,
     CheckParameters,
-    NotNegative,
     Outcome,
-    Positive,
-    Three,
     likely,
     load_calibrated,
     or_none,
@@ -121,23 +120,10 @@ MISTAKES = tuple(_mistakes())
 _MUST_SHOW = MISTAKES[:4]
 
 
-class TouchParameters(CheckParameters):
-    """
-    As the options of ``contactbench calibrate check touch``.
+class TouchParameters(TouchSettings, CheckParameters):
+    """As the options of ``contactbench calibrate check touch``."""
 
-    Attributes
-    ----------
-    point : (3,)
-        That was pressed, mm, S: the coordinates of the prepared probe.
-    point_sigma : float
-        How well it is hit, 1 sigma, mm.
-    limit : float
-        Largest error that passes, mm.
-    """
-
-    point: Three
-    point_sigma: NotNegative = 2.0
-    limit: Positive = 5.0
+    point: Three  # that was pressed, mm, S: the coordinates of the prepared probe
 
 
 @dataclass(frozen=True, eq=False)
@@ -419,7 +405,7 @@ def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: s
     roles_of(inputs, TOUCH_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
     probe = load_surface(inputs["probe"])
-    recording = read_touch_recording(inputs["touch"], given.convention(), R_ES)
+    recording = read_touch_recording(inputs["touch"], convention_of(given), R_ES)
     found = check_touch(
         probe,
         calibration.model,

@@ -14,18 +14,16 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
-from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG, WeightSettings
 from contactbench.pipeline.verification.known import (
     SCHEMAS,
     VERSION,
     WEIGHT,
     WEIGHT_ROLES,
     CheckParameters,
-    NotNegative,
-    Number,
     Outcome,
-    Positive,
     likely,
     load_calibrated,
     or_none,
@@ -79,30 +77,8 @@ _AXES = "xyz"
 _ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 
 
-class WeightParameters(CheckParameters):
-    """
-    As the options of ``contactbench calibrate check weight``.
-
-    Attributes
-    ----------
-    mass, mass_sigma : float
-        Of the weight and its standard uncertainty, kg.
-    certificate : str
-        Number of its certificate; empty: it has none.
-    gravity : float, optional
-        Acceleration of free fall at this place, m/s²; left out: 9.80665 ± 0.015.
-    limit : float
-        Largest error of scale that passes, %.
-    reach : float
-        Largest lever that is plausible: distance of the line on which the weight hangs from the sensor's origin, mm.
-    """
-
-    mass: Positive
-    mass_sigma: NotNegative = 0.0
-    certificate: str = ""
-    gravity: Number | None = None
-    limit: Positive = 1.0
-    reach: Positive = 500.0
+class WeightParameters(WeightSettings, CheckParameters):
+    """As the options of ``contactbench calibrate check weight``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -518,7 +494,7 @@ def weight_content(
 
     roles_of(inputs, WEIGHT_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
-    tables = [read_any_poses(inputs[role], given.convention(), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
+    tables = [read_any_poses(inputs[role], convention_of(given), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
     unloaded, loaded = (table.poses for table in tables)
     found = check_weight(
         calibration,

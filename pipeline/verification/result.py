@@ -7,9 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field
 
+from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import Positive, VerificationSettings
 from contactbench.pipeline.verification.figures import Limits, Times
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
@@ -19,7 +21,6 @@ from contactbench.pipeline.verification.verify import VerifySettings, verify
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from contactbench.pipeline.calibration.orientation import Convention
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.figures import Verification
 
@@ -28,13 +29,10 @@ REFERENCE = "reference"
 _BLOCK = 1 << 20
 _TOUCH_N, _RELEASE_N = 2.0, 1.0
 
-_Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-_Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 _Words = Annotated[str, Field(min_length=1, max_length=200)]
-_Three = tuple[_Number, _Number, _Number]
 
 
-class VerificationParameters(BaseModel):
+class VerificationParameters(VerificationSettings):
     """
     As the options of ``contactbench verify touches``; lengths in mm, angles in degrees, times in s.
 
@@ -43,39 +41,13 @@ class VerificationParameters(BaseModel):
     for windows below. ``left_out`` has markers that need not be touched, each with why.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
     name: str
-    windows: Annotated[tuple[tuple[_Positive, _Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
-    samples: int = 50
-    repeats: int = 1
+    windows: Annotated[tuple[tuple[Positive, Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
     order: Annotated[tuple[str, ...], Field(max_length=10_000)] = ()
-    mean_limit_mm: _Positive = 1.0
-    max_limit_mm: _Positive = 2.0
-    p99_limit_s: _Positive = 0.001
-    noise_force: _Positive | None = None
-    noise_torque: _Positive | None = None
-    touch_force: _Positive | None = None
-    release_force: _Positive | None = None
-    euler: str | None = None
-    rotation_vector: bool = False
-    radians: bool = False
-    inverse: bool = False
-    mount: _Three | None = None
+    p99_limit_s: Positive = 0.001
     resamples: int = 2000
-    seed: int = 0
-    times: tuple[int, _Positive, _Positive] | None = None
-    left_out: Annotated[dict[_Words, _Words], Field(max_length=10_000)] = {}
-
-    @classmethod
-    def checked(cls, values: Mapping[str, Any]) -> VerificationParameters:
-        """Return parameters; InputError, with the first that is wrong."""
-        try:
-            return cls.model_validate(dict(values))
-        except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            where = ".".join(map(str, first["loc"]))
-            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
+    times: tuple[int, Positive, Positive] | None = None
+    left_out: dict[_Words, _Words] = Field(default_factory=dict, max_length=10_000)
 
     def settings(self) -> VerifySettings:
         """Return them as the settings of a verification; InputError if one is out of its range."""
@@ -97,19 +69,6 @@ class VerificationParameters(BaseModel):
             self.mount,
             dict(sorted(self.left_out.items())),
         )
-
-    def convention(self) -> Convention | None:
-        """Return how orientations in a CSV file are written; None: as its columns say."""
-        from contactbench.pipeline.calibration.orientation import Convention, Kind
-
-        if self.euler and self.rotation_vector:
-            raise InputError("euler and rotation_vector contradict each other: give one.")
-        degrees = not self.radians
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
-        return Convention(inverse=True) if self.inverse else None
 
 
 def verification(
@@ -162,7 +121,7 @@ def verify_files(
             f"inputs: {', '.join(ROLES)} are needed, and perhaps {REFERENCE}; missing: {', '.join(missing) or 'none'},"
             f" unknown: {', '.join(strangers) or 'none'}."
         )
-    settings, R_ES = given.settings(), _mount(given.mount)
+    settings, R_ES = given.settings(), given.R_ES
     markers = load_markers(inputs["markers"])
     calibration = load_calibration(inputs["calibration"])
     probe, said, aligned = _load_probe(inputs["probe"])
@@ -171,7 +130,7 @@ def verify_files(
     )
     if calibration.verdict.level is Level.REFUSE:
         faults.append("the calibration was refused: calibrate again")
-    recording = read_touch_recording(inputs["recording"], given.convention(), R_ES)
+    recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)
     return verify(
         probe,
         calibration.model,
@@ -216,12 +175,6 @@ def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
         said += known.notes
         aligned = not known.history or known.frame == "S"
     return probe, said, aligned
-
-
-def _mount(degrees: _Three | None) -> Any:
-    from scipy.spatial.transform import Rotation
-
-    return None if degrees is None else Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
 
 
 def _sha256(file: Path) -> str:

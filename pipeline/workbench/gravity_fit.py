@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import Calibration, Level, PoseSample, calibrate
+from contactbench.pipeline.calibration.assumptions import assumed, contact_task, pose_noise
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
@@ -142,7 +143,7 @@ class Solved:
 def plan(settings: GravitySettings) -> Plan:
     """Return the poses to begin with."""
     reach = _reach(settings, None)
-    return plan_poses(PLANNED, reach, task=settings.parameters.task)
+    return plan_poses(PLANNED, reach, task=contact_task(settings.parameters))
 
 
 def solve(
@@ -169,9 +170,9 @@ def solve(
         return Solved(None, _planned(read, planned, settings), ())
     given = settings.parameters
     if given.estimate_mount and len(poses) >= _MOUNT_NEEDS:
-        calibration = estimate_mount(read, **given.assumed).calibration
+        calibration = estimate_mount(read, **assumed(given)).calibration
     else:
-        calibration = calibrate(read, **given.assumed)
+        calibration = calibrate(read, **assumed(given))
     try:
         suggestion = suggest_pose(calibration, _reach(settings, R_WS_now))
     except InputError:
@@ -248,7 +249,7 @@ def _convention(
     quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat()
     raw = RawOrientations(np.roll(quaternions, 1, axis=1), convention)
     found = diagnose(
-        calibration.poses, settings.parameters.noise, prior=Prior(down_W=settings.down_W), raw=raw
+        calibration.poses, pose_noise(settings.parameters), prior=Prior(down_W=settings.down_W), raw=raw
     )
     if found.consistent:
         return None
@@ -302,7 +303,7 @@ def _mounted(
     read = tuple(
         replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
     )
-    mounted = estimate_mount(read, **settings.parameters.assumed)
+    mounted = estimate_mount(read, **assumed(settings.parameters))
     if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
-from contactbench.pipeline.session.making import mount_rotation
+from contactbench.pipeline.settings import mount_rotation
 from contactbench.pipeline.workbench.standings import MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:

@@ -19,18 +19,12 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
-from contactbench.pipeline.preparation.painted import put_on
-from contactbench.pipeline.preparation.prepare import place
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, part_of, place, prepared
+from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
 from contactbench.pipeline.session.files import chunks_of
-from contactbench.pipeline.session.make_probe import (
-    ProbeParameters,
-    alignment_of,
-    dense_of,
-    prepared,
-    probe_files,
-)
+from contactbench.pipeline.session.make_probe import ProbeParameters, probe_files
 from contactbench.pipeline.session.making import PREFIX, read_parameters
 from contactbench.pipeline.session.recompute import lay_out
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
@@ -159,7 +153,7 @@ class ProbeWork:
         Cancelled
         """
         beside = companions_of(file) if file.is_file() else {}
-        found = _inspected(file, units, _part(progress, _COPIED, 1.0), cancelled)
+        found = _inspected(file, units, part_of(progress, _COPIED, 1.0), cancelled)
         folder = self._place()
         for each in (file, *beside.values()):
             _copy(each, folder / each.name, cancelled)
@@ -216,14 +210,14 @@ class ProbeWork:
         self, mesh: Mesh, plan: ProbePlan, progress: Progress = None, cancelled: Cancel = None
     ) -> Ladder:
         """Measure what fewer facets cost and save; as ``contactbench probe ladder``."""
-        placed = self.placed(mesh, plan, _part(progress, 0.0, 0.5), cancelled)
+        placed = self.placed(mesh, plan, part_of(progress, 0.0, 0.5), cancelled)
         given = plan.given
         return measure_ladder(
             placed.probe,
             ExpectedTouches(force=given.forces),
-            engine=given.engine,  # type: ignore[arg-type]  # it was checked with the plan
+            engine=given.engine,
             region_ratio=given.region_ratio,
-            progress=_part(progress, 0.5, 1.0),
+            progress=part_of(progress, 0.5, 1.0),
             cancelled=cancelled,
         )
 
@@ -277,12 +271,6 @@ def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
 
 def _units(units: str) -> Any:
     return units  # `inspect` and `import_mesh` refuse one that they do not know
-
-
-def _part(progress: Progress, low: float, high: float) -> Progress:
-    if progress is None:
-        return None
-    return lambda share: progress(low + share * (high - low))
 
 
 def commit(session: Session, preview: ProbePreview) -> Record:

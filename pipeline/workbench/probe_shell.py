@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.preparation.prepare import place
-from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of
+from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
+from contactbench.pipeline.session.make_probe import ProbeParameters
 from contactbench.pipeline.session.making import read_parameters
 from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.preparation.painted import painted_regions
+from contactbench.pipeline.preparation.shell_regions import painted_regions
 from contactbench.pipeline.session.make_probe import probe_files
 from contactbench.pipeline.session.recompute import laid_out, recomputed
 from contactbench.pipeline.workbench.probe_shell import (

@@ -363,12 +363,12 @@ def outcome_of(
     found = state.current_results.get((KIND, RESULT))
     if found is None:
         return None
-    from contactbench.pipeline.report import ReportError, read_verification
+    from contactbench.pipeline.report import read_verification
 
     file = folder / found.file.path
     try:
         verification = read_verification(file)
-    except ReportError as error:
+    except InputError as error:
         raise InputError(
             f"{file}: the verification cannot be read ({error}): see `contactbench session verify`."
         ) from error

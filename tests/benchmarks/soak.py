@@ -15,10 +15,8 @@ from contactbench.pipeline.devices.protocols.bota import BotaParser
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 from contactbench.pipeline.devices.protocols.elfin import (
     ElfinError,
-    Question,
     ReplyReader,
-    read_numbers,
-    read_state,
+    read_position,
 )
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTES, RdtParser
@@ -120,7 +118,7 @@ PROTOCOLS = (*SUBJECTS, *ROBOTS)
 
 _FRAGMENTS = {
     "elfin": [
-        *(question.encode() for question in Question),
+        b"ReadActPos",
         *(
             b",OK,",
             b",Fail,",
@@ -297,11 +295,10 @@ def _elfin_feed() -> Callable[[bytes], tuple[int, int]]:
     def feed(chunk: bytes) -> tuple[int, int]:
         replies, refused = reader.feed(chunk), 0
         for reply in replies:
-            for question in Question:
-                try:
-                    read_state(reply) if question is Question.STATE else read_numbers(reply, question)
-                except ElfinError:
-                    refused += 1
+            try:
+                read_position(reply)
+            except ElfinError:
+                refused += 1
         if reader.pending > 2048:
             raise SoakError(f"{reader.pending} bytes wait for the end of an answer")
         return len(replies), refused

@@ -60,7 +60,7 @@ def test_the_matrix_is_a_table():
 
 def test_a_sample_that_was_never_sent_is_counted():
     from contactbench.pipeline.devices.emulate import Sent
-    from contactbench.pipeline.devices.faults import Moment, Reading
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading
     from contactbench.pipeline.devices.protocols.registry import driver_for
     from contactbench.pipeline.devices.protocols.sri import sri_frame
     from contactbench.pipeline.devices.url import DeviceAddress
@@ -68,7 +68,7 @@ def test_a_sample_that_was_never_sent_is_counted():
     address = DeviceAddress.parse("sri+tcp://h")
     frames = [sri_frame((float(k), 0, 0, 0, 0, 0), k) for k in range(4)]
     sent = [
-        Sent(k, 0.0, 0.0, Reading((float(k), 0, 0, 0, 0, 0)), Moment(k, 0.0), frame, True, None)
+        Sent(k, 0.0, 0.0, SensorReading((float(k), 0, 0, 0, 0, 0)), FrameMoment(k, 0.0), frame, True, None)
         for k, frame in enumerate(frames)
     ]
     given = driver_for(address).parser.feed(b"".join(frames), 0.0)

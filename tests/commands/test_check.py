@@ -143,7 +143,7 @@ def test_a_refused_calibration_is_said(folder: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("more", "words"),
     [
-        (("--mass", -1), "parameter mass"),
+        (("--mass", -1), "--mass: Input should be greater than 0"),
         (("--gravity", 1.62), "gravity 1.62"),
         (("--calibration", "missing.json"), "missing.json"),
         (("--unloaded", "missing.csv"), "missing.csv"),
@@ -202,7 +202,7 @@ def test_the_point_of_a_marker(folder: Path, tmp_path: Path) -> None:
         (("--point", "0,0"), "--point needs 3"),
         (("--point", "0,0,9000"), "the point"),
         (("--point", "0,0,0", "--marker", "B"), "say where it was pressed"),
-        (("--limit", 0), "parameter limit"),
+        (("--limit", 0), "--limit: Input should be greater than 0"),
         (("--probe", "missing.ply"), "missing.ply"),
     ],
 )

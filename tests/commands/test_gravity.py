@@ -232,7 +232,7 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
         ((*EULER, "--orientation-noise", "much"), "give degrees, at least 0, or one of robot, tracker, hand"),
         ((*EULER, "--orientation-noise", "-1"), "give degrees, at least 0"),
         ((*EULER, "--orientation-noise", "nan"), "give degrees, at least 0"),
-        ((*EULER, "--down", "0,0,0"), "has no direction"),
+        ((*EULER, "--down", "0,0,0"), "that are not all 0"),
         ((*EULER, "--down", "0,0"), "--down needs 3 finite numbers"),
         ((*EULER, "--down", "0,nan,1"), "--down needs 3 finite numbers"),
         ((*EULER, "--delay", "auto"), "a table of still poses has no delay"),

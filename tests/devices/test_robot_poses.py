@@ -10,10 +10,10 @@ from devices.test_reconnecting_stream import Script
 from devices.test_sensor import Heard, fault
 
 from contactbench.pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
-from contactbench.pipeline.devices.faults import Moment, Reading
+from contactbench.pipeline.devices.faults import FrameMoment, SensorReading
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
+from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
-from contactbench.pipeline.devices.protocols.emulated import Quirk
 from contactbench.pipeline.devices.robot_poses import ElfinPoses, UrPoses, poses_from
 from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
@@ -90,7 +90,7 @@ def test_an_older_ur_does_not_tell_its_tool(tool):
 
 
 def _answer():
-    return ElfinModel().frame(Reading(JOINTS), Moment(0, 0.0, 0.0))
+    return ElfinModel().frame(SensorReading(JOINTS), FrameMoment(0, 0.0, 0.0))
 
 
 class Controller(Script):

@@ -12,7 +12,7 @@ from devices.test_sensor import Heard, listen, moving
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.protocols import ati_scale, rdt
 from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
-from contactbench.pipeline.devices.protocols.emulated import Quirk
+from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.rdt import rdt_record
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.readings import Readings

@@ -13,9 +13,9 @@ from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count, MaxDeviation
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.preparation.prepare import prepare
+from contactbench.pipeline.preparation.prepare import prepared
 from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
-from contactbench.pipeline.preparation.targets import ContactTarget
+from contactbench.pipeline.settings import ProbeSettings
 
 MOUNT = from_angles([0, 0, 40], [0, 0, 90])
 LENGTHS = {"alpha": 0.002, "gap": 0.004}
@@ -35,8 +35,8 @@ def hollow(tmp_path):
     return write_stl(tmp_path / "housing.stl", housing())
 
 
-def count(facets):
-    return lambda _: (Count(facets), None)
+def prepare(file, progress=None, cancelled=None, **settings):
+    return prepared({"mesh": file}, ProbeSettings(**settings), progress=progress, cancelled=cancelled)
 
 
 def steps_of(content):
@@ -55,7 +55,9 @@ def test_import_says_how_the_unit_was_found(hollow):
 
 def test_the_steps_one_by_one_give_what_prepare_gives(hollow, tmp_path):
     pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
-    together = prepare(hollow, "mm", Closing.HULL, alignment=MOUNT, target=count(300), **LENGTHS)
+    together = prepare(
+        hollow, units="mm", close=("hull",), mount=(0, 0, 40, 0, 0, 90), facets=300, alpha=2, gap=4
+    )
     save_probe_file(together.content, tmp_path / "together.ply")
     content = import_mesh(hollow, "mm")
     for number, step in enumerate(
@@ -118,7 +120,7 @@ def test_a_deviation_is_kept_and_written_down(tmp_path):
 def test_prepare_leaves_a_mesh_in_its_own_frame_and_says_so(tmp_path):
     file = write_stl(tmp_path / "t.stl", bundled("t-shape", 2000))
     told = []
-    done = prepare(file, target=count(500), progress=told.append)
+    done = prepare(file, facets=500, progress=told.append)
     assert steps_of(done.content) == ["import", "shell", "simplify"]
     assert done.shell.how == "unchanged"
     assert done.content.frame == "P"
@@ -134,14 +136,14 @@ def test_the_result_is_checked_once(tmp_path, monkeypatch):
     monkeypatch.setattr(
         "contactbench.pipeline.preparation.prepare.check_soundness", lambda *_, **__: pytest.fail("again")
     )
-    done = prepare(file, target=count(500))
+    done = prepare(file, facets=500)
     assert done.ready
     assert done.soundness.largest_deviation_deg is not None
 
 
 def test_prepare_can_be_stopped(hollow):
     with pytest.raises(Cancelled):
-        prepare(hollow, target=count(500), cancelled=lambda: True)
+        prepare(hollow, facets=500, cancelled=lambda: True)
 
 
 def test_units_decide_the_size_and_nothing_else(tmp_path):
@@ -152,7 +154,7 @@ def test_units_decide_the_size_and_nothing_else(tmp_path):
         lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (probe.vertices * scale).tolist()]
         lines += [f"f {a} {b} {c}" for a, b, c in (probe.faces + 1).tolist()]
         file.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        made.append(prepare(file, unit, target=count(400)).content.probe)
+        made.append(prepare(file, units=unit, facets=400).content.probe)
     for other in made[1:]:
         assert np.array_equal(other.faces, made[0].faces)
         assert other.vertices == pytest.approx(made[0].vertices, abs=1e-6 * probe.size)
@@ -160,15 +162,15 @@ def test_units_decide_the_size_and_nothing_else(tmp_path):
 
 def test_a_saved_probe_can_be_used_at_once(tmp_path):
     file = write_stl(tmp_path / "t.stl", bundled("t-shape", 2000))
-    save_probe_file(prepare(file, target=count(500)).content, tmp_path / "probe.ply")
+    save_probe_file(prepare(file, facets=500).content, tmp_path / "probe.ply")
     assert load_probe(tmp_path / "probe.ply", "m").health.sentences == ()
     assert len(load_probe_file(tmp_path / "probe.ply").history) == 3
 
 
 def test_by_default_few_facets_are_kept_and_an_excess_is_told_first(tmp_path):
     file = write_stl(tmp_path / "t.stl", bundled("t-shape", 1_500))
-    kept = prepare(file, "mm", target=lambda placed: ContactTarget().of(placed.probe))
+    kept = prepare(file, units="mm")
     assert len(kept.content.probe.faces) == len(load_probe(file, units="mm").faces)
-    spikes = prepare(file, "mm", target=count(4))
+    spikes = prepare(file, units="mm", facets=4)
     assert spikes.sentences[0].endswith("in the mean.")
     assert "more than the 4 asked for" in spikes.sentences[0]

@@ -367,7 +367,7 @@ def test_a_folder_that_cannot_be_synced_leaves_no_file(
     def broken(_: Path) -> None:
         raise OSError(5, "Input/output error")
 
-    monkeypatch.setattr("contactbench.pipeline.recording.chunked.sync_folder", broken)
+    monkeypatch.setattr("contactbench.pipeline.recording.chunk_file.sync_folder", broken)
     with pytest.raises(RecordingError, match="choose another disk"):
         RecordingWriter(tmp_path / "r.mcap", ABOUT)
     assert not (tmp_path / "r.mcap").exists()

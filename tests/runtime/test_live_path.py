@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.protocols.emulated import Model
+    from contactbench.pipeline.devices.protocols.device_model import Model
 
 TURN = np.radians(20.0)  # rad/s
 BATCH_S, HELD_S, HOLD_UPS = 0.016, 0.4, (1.3, 2.5)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
 
-from contactbench.pipeline.commands.regions import Session as CommandSession
+from contactbench.pipeline.commands.regions import ProbeRegions as CommandSession
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.colours import PLAIN
 from contactbench.pipeline.mesh.engines import Cancelled

@@ -33,9 +33,9 @@ from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quie
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
-    Counters,
+    FrameParser,
     ProtocolError,
     SensorDriver,
     finite_status,
@@ -32,7 +32,7 @@ from contactbench.pipeline.devices.sample import Status, WrenchSample
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 37
@@ -51,9 +51,9 @@ _BAUD_CODES = {9600: 0, 57600: 1, 115200: 2, 230400: 3, 460800: 4}
 DEFAULT_BAUD = 460800
 
 
-class BotaParser:
+class BotaParser(FrameParser):
     """
-    `SensorParser` for Bota's binary frames.
+    For Bota's binary frames.
 
     There is no sample count. With the rate given, `lost` is estimated from the sensor's clock.
 
@@ -72,56 +72,21 @@ class BotaParser:
         if rate_hz is not None and not (math.isfinite(rate_hz) and rate_hz > 0):
             raise ProtocolError(f"Bota: the rate must be finite and above 0 Hz, not {rate_hz!r}.")
         self._rate = rate_hz
-        self._scanner = FrameScanner(b"\xaa", FRAME_BYTES, _intact)
+        super().__init__(FrameScanner(b"\xaa", FRAME_BYTES, _intact))
         self._clock = DeviceClock(32, 1e-6)
-        self._last_frame = b""
-        self._duplicates = 0
-        self._invalid = 0
         self._lost = 0
 
-    @property
-    def counters(self) -> Counters:
-        """As `SensorParser`."""
-        scanner = self._scanner
-        return Counters(
-            frames=scanner.frames,
-            bad_checksums=scanner.bad_checksums,
-            skipped_bytes=scanner.skipped_bytes,
-            lost=self._lost,
-            duplicates=self._duplicates,
-            wraps=self._clock.wraps,
-            restarts=self._clock.jumps,
-            invalid=self._invalid,
-        )
+    def _counted(self) -> dict[str, int]:
+        return {"lost": self._lost, "wraps": self._clock.wraps, "restarts": self._clock.jumps}
 
-    @property
-    def pending(self) -> int:
-        """As `SensorParser`."""
-        return self._scanner.pending
-
-    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
-        """As `SensorParser`."""
-        samples: list[WrenchSample] = []
-        for frame in self._scanner.push(data):
-            if frame == self._last_frame:
-                self._duplicates += 1
-                continue
-            self._last_frame = frame
-            samples.append(self._read(frame, time))
-        return samples
-
-    def reset(self) -> None:
-        """As `SensorParser`."""
-        self._scanner.reset()
-
-    def _read(self, frame: bytes, time: float) -> WrenchSample:
+    def _read(self, frame: bytes, time: float) -> list[WrenchSample]:
         bits, fx, fy, fz, mx, my, mz, ticks, temperature, _ = _FRAME.unpack(frame)
         not_finite = finite_status((fx, fy, fz, mx, my, mz, temperature))
         self._invalid += not_finite is not Status.OK
         device_time = self._clock.read(ticks, time)
         if self._rate is not None:
             self._lost += max(round(self._clock.step * self._rate) - 1, 0)
-        return WrenchSample(
+        sample = WrenchSample(
             time,
             (fx, fy, fz),
             (mx, my, mz),
@@ -129,6 +94,7 @@ class BotaParser:
             device_time=device_time,
             temperature=temperature if math.isfinite(temperature) else None,
         )
+        return [sample]
 
 
 def start_commands(rate_hz: float, *, baud: int = DEFAULT_BAUD) -> tuple[Command, ...]:
@@ -234,7 +200,7 @@ class BotaModel(Model):
         """Return the last line of what it prints while it starts."""
         return b"App Init\r\n"
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one frame."""
         return bota_frame(
             reading.values,

@@ -13,28 +13,15 @@ _BITS_PER_BYTE = 10
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """
-    One command to a device.
+    """One command to a device."""
 
-    Attributes
-    ----------
-    data : bytes
-        What to write.
-    reply : bytes or None
-        What the device's answer contains when it agrees; None where no answer comes, or none is known.
-    settle : float
-        Seconds that must pass before the next command; what comes meanwhile belongs to the time before.
-    refusal : bytes or None
-        What the device's answer, a line of text, contains when it does not agree.
-    instead : Command or None
-        What to send when it does not agree.
-    """
-
-    data: bytes
+    data: bytes  # what to write
+    # what the device's answer contains when it agrees; None where no answer comes, or none is known
     reply: bytes | None = None
+    # seconds that must pass before the next command; what comes meanwhile belongs to the time before
     settle: float = 0.0
-    refusal: bytes | None = None
-    instead: Command | None = None
+    refusal: bytes | None = None  # what the device's answer, a line of text, contains when it does not agree
+    instead: Command | None = None  # what to send when it does not agree
 
     def answered(self, heard: bytes) -> bool | None:
         """Tell from all that came since whether the device agreed; None: it has not said yet."""

@@ -10,53 +10,38 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from enum import Enum, StrEnum
+from enum import Enum
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
-from contactbench.pipeline.devices.protocols.emulated import JOINTS, WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 
-PORT = 10003
+_POSITION = "ReadActPos"
+REQUEST = f"{_POSITION},0,;".encode()
+"""All that is ever asked, of the first robot of the controller: joints and Cartesian pose, together."""
+_NUMBERS = 12
 _END = b";"
 # Several times the longest answer known, of 24 numbers.
 _LONGEST_REPLY = 2048
 
-# Narrower than float() and int(), which also read "1_0" and numbers of any length.
+# Narrower than float(), which also reads "1_0" and numbers of any length.
 _DECIMAL = re.compile(r"\s*[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})([eE][+-]?\d{1,3})?\s*")
-_WHOLE = re.compile(r"\s*[+-]?\d{1,10}\s*")
 
 
 class ElfinError(ProtocolError):
     """An answer of the controller that cannot be used."""
 
 
-class Question(StrEnum):
-    """Everything that is ever asked."""
-
-    POSITION = "ReadActPos"
-    """Joints and Cartesian pose, together."""
-    POSE = "ReadPcsActualPos"
-    """Cartesian pose alone, on older controllers."""
-    JOINTS = "ReadActACS"
-    """Joints alone."""
-    STATE = "ReadRobotState"
-    """Flags: moving, enabled, in error..."""
-
-    def request(self) -> bytes:
-        """Return the bytes to send; they go to the first robot of the controller."""
-        return f"{self.value},0,;".encode()
-
-
-class Outcome(Enum):
+class ReplyKind(Enum):
     """How the controller answered."""
 
     OK = "OK"
@@ -69,7 +54,7 @@ class Reply:
     """One answer."""
 
     command: str  # the question that it answers; empty for an unknown command
-    outcome: Outcome
+    kind: ReplyKind
     values: tuple[str, ...] = ()  # what follows OK or Fail
 
 
@@ -128,106 +113,46 @@ class ReplyReader:
             self._buffer += piece
 
 
-@dataclass(frozen=True, slots=True)
-class RobotState:
-    """What a controller says about its robot; unknown flags of newer firmware are left out."""
-
-    moving: bool
-    enabled: bool
-    error: bool
-    error_code: int
-    error_axis: int
-    braking: bool
-    paused: bool
-    emergency_stop: bool
-    safeguard: bool
-    powered: bool
-    board_connected: bool
-    blending_done: bool
-
-
-_STATE_VALUES = 12
-
-
-def read_state(reply: Reply) -> RobotState:
+def read_position(reply: Reply) -> tuple[float, ...]:
     """
-    Read the answer to `Question.STATE`.
-
-    Raises
-    ------
-    ElfinError
-        It answers something else, is a failure, or has the wrong values.
-    """
-    numbers = [_whole(value) for value in _values(reply, Question.STATE)]
-    if len(numbers) < _STATE_VALUES:
-        raise ElfinError(
-            f"Elfin: {Question.STATE} gave {len(numbers)} values instead of {_STATE_VALUES}: "
-            "this controller's software is not supported."
-        )
-    moving, enabled, error, code, axis, *flags = numbers[:_STATE_VALUES]
-    braking, paused, emergency_stop, safeguard, powered, board_connected, blending_done = map(bool, flags)
-    return RobotState(
-        bool(moving),
-        bool(enabled),
-        bool(error),
-        code,
-        axis,
-        braking,
-        paused,
-        emergency_stop,
-        safeguard,
-        powered,
-        board_connected,
-        blending_done,
-    )
-
-
-def read_numbers(reply: Reply, question: Question) -> tuple[float, ...]:
-    """
-    Read the answer to a question about joints or pose, as the controller gives it: degrees and mm.
+    Read joints and Cartesian pose, as the controller gives them: degrees and mm.
 
     Returns
     -------
     tuple of float
-        12 for `Question.POSITION` (also where newer firmware sends 24), else 6.
+        12, also where newer firmware sends 24.
 
     Raises
     ------
     ElfinError
         It answers something else, is a failure, or a value is missing or not a finite number.
     """
-    wanted = 12 if question is Question.POSITION else 6
-    texts = _values(reply, question)
-    if len(texts) < wanted:
-        raise ElfinError(
-            f"Elfin: {question} gave {len(texts)} values instead of {wanted}: "
-            "this controller's software is not supported."
-        )
-    return tuple(_finite(text) for text in texts[:wanted])
-
-
-def _values(reply: Reply, question: Question) -> tuple[str, ...]:
-    if reply.outcome is Outcome.UNKNOWN_COMMAND:
-        raise ElfinError(f"Elfin: the controller does not know {question}: ask in another way.")
-    if reply.command != question:
-        raise ElfinError(f"Elfin: {question} was asked, {reply.command!r} was answered: reconnect.")
-    if reply.outcome is Outcome.FAIL:
+    if reply.kind is ReplyKind.UNKNOWN_COMMAND:
+        raise ElfinError(f"Elfin: the controller does not know {_POSITION}: ask in another way.")
+    if reply.command != _POSITION:
+        raise ElfinError(f"Elfin: {_POSITION} was asked, {reply.command!r} was answered: reconnect.")
+    if reply.kind is ReplyKind.FAIL:
         code = reply.values[0] if reply.values else "none"
         raise ElfinError(
-            f"Elfin: the controller refused {question} with error code {code}: look it up on the robot's panel."
+            f"Elfin: the controller refused {_POSITION} with error code {code}: look it up on the robot's panel."
         )
-    return reply.values
+    if len(reply.values) < _NUMBERS:
+        raise ElfinError(
+            f"Elfin: {_POSITION} gave {len(reply.values)} values instead of {_NUMBERS}: "
+            "this controller's software is not supported."
+        )
+    return tuple(map(_finite, reply.values[:_NUMBERS]))
 
 
 def _reply(piece: bytes) -> Reply | None:
     if not piece.isascii():
         return None
     command, *fields = piece.decode("ascii").strip().removesuffix(",").split(",")
-    if command == Outcome.UNKNOWN_COMMAND.value:
-        return Reply("", Outcome.UNKNOWN_COMMAND, tuple(fields))
+    if command == ReplyKind.UNKNOWN_COMMAND.value:
+        return Reply("", ReplyKind.UNKNOWN_COMMAND, tuple(fields))
     if not command.isalnum() or not fields:
         return None
-    for outcome in (Outcome.OK, Outcome.FAIL):
+    for outcome in (ReplyKind.OK, ReplyKind.FAIL):
         if fields[0] == outcome.value:
             return Reply(command, outcome, tuple(fields[1:]))
     return None
@@ -238,14 +163,6 @@ def _finite(text: str) -> float:
     if not math.isfinite(number):
         raise ElfinError(f"Elfin: {text[:40]!r} is not a finite number: the controller has no position yet.")
     return number
-
-
-def _whole(text: str) -> int:
-    if not _WHOLE.fullmatch(text):
-        raise ElfinError(
-            f"Elfin: {text[:40]!r} is not a whole number: this controller's software is not supported."
-        )
-    return int(text)
 
 
 # ---- emulated: an Elfin3's controller ------------------------------------------------------------
@@ -277,7 +194,7 @@ class ElfinModel(Model):
         super().__init__(rate, quirks)
         self._asked = "ReadActPos"
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:  # noqa: ARG002 - it has no clock
         """Return the answer to the pose request that came last."""
         R_BE, p_BE_B = flange_pose(ELFIN3_TABLE, reading.values)
         joints = np.degrees(reading.values).tolist()

@@ -100,15 +100,9 @@ def fit_order(numbers: Sequence[float], order: FieldOrder, robot: Robot) -> Fit:
     return Fit(order, float(np.degrees(off)), (float(x), float(y), float(z)))
 
 
-def flange_sample(
-    numbers: Sequence[float], order: FieldOrder, time: float, robot: Robot | None = None
-) -> FlangeSample:
+def flange_sample(numbers: Sequence[float], order: FieldOrder, time: float, robot: Robot) -> FlangeSample:
     """
-    Make a sample from the controller's 12 numbers.
-
-    With the arm's kinematics the flange follows from the joints alone. Without, the orientation is that of
-    the active tool frame, taken to be parallel to the flange, and the position is NaN: the controller gives
-    the tool's position, not the flange's.
+    Make a sample from the controller's 12 numbers: the flange follows from the joints alone.
 
     Parameters
     ----------
@@ -118,7 +112,7 @@ def flange_sample(
         As `resolve_order` found it.
     time : float
         When the robot was there, seconds of the host's monotonic clock.
-    robot : Robot, optional
+    robot : Robot
         The arm.
 
     Raises
@@ -128,11 +122,8 @@ def flange_sample(
     InputError
         The arm's kinematics cannot be computed.
     """
-    joints, _, R_BT = _split(numbers, order)
-    if robot is None:
-        return FlangeSample(time, R_BT, np.full(3, np.nan), joints)
-    R_BE, p_BE_B = robot.flange_pose(joints)
-    return FlangeSample(time, R_BE, p_BE_B, joints)
+    joints, _, _ = _split(numbers, order)
+    return FlangeSample(time, *robot.flange_pose(joints), joints)
 
 
 def _split(

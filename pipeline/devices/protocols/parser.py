@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.devices.protocols.commands import Command
+    from contactbench.pipeline.devices.protocols.scanner import FrameScanner
     from contactbench.pipeline.devices.sample import WrenchSample
 
 
@@ -29,51 +31,34 @@ class Counters:
     What a parser has seen since it was made.
 
     Every byte is in a frame, skipped, or still waiting for the rest of its frame.
-
-    Attributes
-    ----------
-    frames : int
-        Frames with the right header, length and checksum, duplicates included.
-    bad_checksums : int
-        Places that began like a frame and failed the check: damaged frames, and header bytes by chance.
-    skipped_bytes : int
-        Bytes outside every frame.
-    lost : int
-        Samples missing by the device's own count or, for Bota, by its clock.
-    duplicates : int
-        Frames repeated byte for byte, or overtaken by later ones: dropped, never given again as new.
-    wraps : int
-        Times the device's count or clock went through zero.
-    restarts : int
-        Times the count or clock went anywhere else: the device was restarted, or its clock was set.
-    bad_numbers : int
-        Single sequence numbers that fitted neither what came before nor what came after.
-    invalid : int
-        Samples with a number that is not finite; they carry `Status.INVALID`.
     """
 
-    frames: int = 0
+    frames: int = 0  # frames with the right header, length and checksum, duplicates included
+    # places that began like a frame and failed the check: damaged frames, and header bytes by chance
     bad_checksums: int = 0
-    skipped_bytes: int = 0
-    lost: int = 0
+    skipped_bytes: int = 0  # bytes outside every frame
+    lost: int = 0  # samples missing by the device's own count or, for Bota, by its clock
+    # frames repeated byte for byte, or overtaken by later ones: dropped, never given again as new
     duplicates: int = 0
-    wraps: int = 0
+    wraps: int = 0  # times the device's count or clock went through zero
+    # times the count or clock went anywhere else: the device was restarted, or its clock was set
     restarts: int = 0
-    bad_numbers: int = 0
-    invalid: int = 0
+    bad_numbers: int = 0  # single sequence numbers that fitted neither what came before nor what came after
+    invalid: int = 0  # samples with a number that is not finite; they carry `Status.INVALID`
 
 
-class SensorParser(Protocol):
+class SensorParser(ABC):
     """Turns the bytes of one sensor into samples."""
 
+    pending = 0
+    """Bytes that wait for the rest of their frame; always fewer than one frame."""
+
     @property
+    @abstractmethod
     def counters(self) -> Counters:
         """A snapshot of what was seen so far."""
 
-    @property
-    def pending(self) -> int:
-        """Bytes that wait for the rest of their frame; always fewer than one frame."""
-
+    @abstractmethod
     def feed(self, data: bytes, time: float) -> list[WrenchSample]:
         """
         Take bytes as they arrive, cut anywhere; for a datagram protocol, one whole datagram.
@@ -91,8 +76,70 @@ class SensorParser(Protocol):
             One per intact frame that ends in these bytes, oldest first.
         """
 
-    def reset(self) -> None:
+    def reset(self) -> None:  # noqa: B027 - a datagram is whole
         """Forget half a frame, after the line was lost. Counters and numbering go on."""
+
+
+class FrameParser(SensorParser):
+    """
+    A parser of frames of one length.
+
+    Parameters
+    ----------
+    scanner : FrameScanner
+    """
+
+    repeats = False
+    """Whether two frames in a row may be equal: they have neither number nor time."""
+
+    def __init__(self, scanner: FrameScanner) -> None:
+        self._scanner = scanner
+        self._last_frame = b""
+        self._duplicates = self._invalid = 0
+
+    @property
+    def counters(self) -> Counters:
+        """A snapshot of what was seen so far."""
+        scanner = self._scanner
+        return Counters(
+            frames=scanner.frames,
+            bad_checksums=scanner.bad_checksums,
+            skipped_bytes=scanner.skipped_bytes,
+            duplicates=self._duplicates,
+            invalid=self._invalid,
+            **self._counted(),
+        )
+
+    @property
+    def pending(self) -> int:  # type: ignore[override]
+        """Bytes that wait for the rest of their frame."""
+        return self._scanner.pending
+
+    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
+        """As `SensorParser`."""
+        samples: list[WrenchSample] = []
+        for frame in self._frames(data):
+            if frame == self._last_frame and not self.repeats:
+                self._duplicates += 1
+                continue
+            self._last_frame = frame
+            samples += self._read(frame, time)
+        return samples
+
+    def reset(self) -> None:
+        """As `SensorParser`."""
+        self._scanner.reset()
+
+    def _frames(self, data: bytes) -> list[bytes]:
+        return self._scanner.push(data)
+
+    def _counted(self) -> dict[str, int]:
+        """Return what the frames' own numbers or times tell, by the names of `Counters`."""
+        return {}
+
+    @abstractmethod
+    def _read(self, frame: bytes, time: float) -> list[WrenchSample]:
+        """Return the samples of one frame, oldest first."""
 
 
 @dataclass(frozen=True, eq=False)

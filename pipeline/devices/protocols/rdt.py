@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     Counters,
     ProtocolError,
     SensorDriver,
+    SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -31,7 +32,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 RECORD_BYTES = 36
@@ -86,9 +87,9 @@ ATI_TYPICAL = CountScale(1e6, 1e6)
 ONROBOT_SCALE = CountScale(1e4, 1e5)
 
 
-class RdtParser:
+class RdtParser(SensorParser):
     """
-    `SensorParser` for RDT records; each `feed` takes one datagram.
+    For RDT records; each `feed` takes one datagram.
 
     A status other than 0 makes a sample ERROR and INVALID: the word covers saturation and faults, and the
     numbers are then no measurement.
@@ -121,11 +122,6 @@ class RdtParser:
             bad_numbers=sequence.bad_numbers,
         )
 
-    @property
-    def pending(self) -> int:
-        """Return 0: a datagram is whole."""
-        return 0
-
     def feed(self, data: bytes, time: float) -> list[WrenchSample]:
         """As `SensorParser`; `data` is one datagram."""
         if len(data) != RECORD_BYTES:
@@ -139,9 +135,6 @@ class RdtParser:
         raw, _, status, *counts = _RECORD.unpack(data)
         number = self._sequence.number(raw)
         return [] if number is None else [self._sample(time, number, status, counts)]
-
-    def reset(self) -> None:
-        """As `SensorParser`."""
 
     def _sample(self, time: float, number: int, status: int, counts: list[int]) -> WrenchSample:
         fx, fy, fz = (count / self.scale.per_newton for count in counts[:3])
@@ -313,7 +306,7 @@ class RdtModel(Model):
         self._obey(data)
         return []
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one record; it stops by itself after as many as were asked for."""
         if self._left is not None:
             self._left -= 1

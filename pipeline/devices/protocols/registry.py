@@ -11,7 +11,7 @@ from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Proto
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.devices.protocols.emulated import Model
+    from contactbench.pipeline.devices.protocols.device_model import Model
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
 
 

@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
-from contactbench.pipeline.devices.protocols.emulated import Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, SensorDriver
+from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
+from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 16
@@ -41,34 +41,19 @@ _STOP = b"\xff" * 50
 _SETTLE_S = 0.1
 
 
-class RobotiqParser:
-    """`SensorParser` for the FT 300's stream."""
+class RobotiqParser(FrameParser):
+    """For the FT 300's stream."""
+
+    repeats = True
 
     def __init__(self) -> None:
-        self._scanner = FrameScanner(b"\x20\x4e", FRAME_BYTES, _intact)
+        super().__init__(FrameScanner(b"\x20\x4e", FRAME_BYTES, _intact))
 
-    @property
-    def counters(self) -> Counters:
-        """As `SensorParser`."""
-        scanner = self._scanner
-        return Counters(
-            frames=scanner.frames,
-            bad_checksums=scanner.bad_checksums,
-            skipped_bytes=scanner.skipped_bytes,
-        )
-
-    @property
-    def pending(self) -> int:
-        """As `SensorParser`."""
-        return self._scanner.pending
-
-    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
-        """As `SensorParser`."""
-        return [_read(frame, time) for frame in self._scanner.push(data)]
-
-    def reset(self) -> None:
-        """As `SensorParser`."""
-        self._scanner.reset()
+    def _read(self, frame: bytes, time: float) -> list[WrenchSample]:
+        fx, fy, fz, mx, my, mz = _FRAME.unpack(frame)
+        force = (fx / _FORCE_SCALE, fy / _FORCE_SCALE, fz / _FORCE_SCALE)
+        torque = (mx / _TORQUE_SCALE, my / _TORQUE_SCALE, mz / _TORQUE_SCALE)
+        return [WrenchSample(time, force, torque)]
 
 
 def start_commands(rate_hz: float = RATE) -> tuple[Command, ...]:
@@ -93,15 +78,6 @@ def stop_commands() -> tuple[Command, ...]:
 
 def _intact(frame: bytes) -> bool:
     return crc16_modbus(frame[:-2]) == int.from_bytes(frame[-2:], "little")
-
-
-def _read(frame: bytes, time: float) -> WrenchSample:
-    fx, fy, fz, mx, my, mz = _FRAME.unpack(frame)
-    return WrenchSample(
-        time,
-        (fx / _FORCE_SCALE, fy / _FORCE_SCALE, fz / _FORCE_SCALE),
-        (mx / _TORQUE_SCALE, my / _TORQUE_SCALE, mz / _TORQUE_SCALE),
-    )
 
 
 def driver(address: DeviceAddress) -> SensorDriver:
@@ -161,7 +137,7 @@ class RobotiqModel(Model):
         super().restart()
         self._stopping = False
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:  # noqa: ARG002 - it has no clock
         """Return one frame."""
         return robotiq_frame(reading.values)
 

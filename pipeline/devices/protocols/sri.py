@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
-from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
-    Counters,
+    FrameParser,
     ProtocolError,
     SensorDriver,
     finite_status,
@@ -36,7 +36,7 @@ from contactbench.pipeline.devices.sample import Status, WrenchSample
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _SYNC = b"\xaa\x55"
@@ -93,9 +93,9 @@ class Layout:
         return 4 + self.package_length
 
 
-class SriParser:
+class SriParser(FrameParser):
     """
-    `SensorParser` for the M8128.
+    For the M8128.
 
     All points of a packet have the arrival time of its last byte. Text, such as the answer to a command, is
     skipped wherever it stands.
@@ -111,52 +111,30 @@ class SriParser:
 
     def __init__(self, layout: Layout | None = None, *, either_trailer: bool = False) -> None:
         self._layout = layout or Layout()
-        self._scanner = _scanner_for(self._layout)
+        super().__init__(_scanner_for(self._layout))
         self._either = either_trailer
         self._other: FrameScanner | None = None  # until the first frame
         self._try_other()
         self._sequence = SequenceCounter(16)
         self._points = slice(_POINTS_AT, _POINTS_AT + _POINT.size * self._layout.points)
-        self._last_frame = b""
-        self._duplicates = 0
-        self._invalid = 0
 
-    @property
-    def counters(self) -> Counters:
-        """As `SensorParser`."""
-        scanner, sequence = self._scanner, self._sequence
-        return Counters(
-            frames=scanner.frames,
-            bad_checksums=scanner.bad_checksums,
-            skipped_bytes=scanner.skipped_bytes,
-            lost=sequence.lost * self._layout.points,
-            duplicates=self._duplicates,
-            wraps=sequence.wraps,
-            restarts=sequence.restarts,
-            bad_numbers=sequence.bad_numbers,
-            invalid=self._invalid,
-        )
+    def _counted(self) -> dict[str, int]:
+        sequence = self._sequence
+        return {
+            "lost": sequence.lost * self._layout.points,
+            "wraps": sequence.wraps,
+            "restarts": sequence.restarts,
+            "bad_numbers": sequence.bad_numbers,
+        }
 
     @property
     def trailer(self) -> Trailer:
         """What frames are taken to end with."""
         return self._layout.trailer
 
-    @property
-    def pending(self) -> int:
-        """As `SensorParser`."""
-        return self._scanner.pending
-
-    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
-        """As `SensorParser`."""
-        samples: list[WrenchSample] = []
-        for frame in self._frames(data):
-            self._read(frame, time, samples)
-        return samples
-
     def reset(self) -> None:
         """As `SensorParser`."""
-        self._scanner.reset()
+        super().reset()
         self._try_other()
 
     def _frames(self, data: bytes) -> list[bytes]:
@@ -177,21 +155,19 @@ class SriParser:
             self._other.frames, self._other.bad_checksums = known.frames, known.bad_checksums
             self._other.skipped_bytes = known.skipped_bytes
 
-    def _read(self, frame: bytes, time: float, samples: list[WrenchSample]) -> None:
-        if frame == self._last_frame:
-            self._duplicates += 1
-            return
-        self._last_frame = frame
+    def _read(self, frame: bytes, time: float) -> list[WrenchSample]:
         (raw,) = _NUMBER.unpack_from(frame, 4)
         number = self._sequence.number(raw)
+        samples: list[WrenchSample] = []
         if number is None:
-            return
+            return samples
         first = number * self._layout.points
         for offset, point in enumerate(_POINT.iter_unpack(frame[self._points])):
             status = finite_status(point)
             self._invalid += status is not Status.OK
             fx, fy, fz, mx, my, mz = point
             samples.append(WrenchSample(time, (fx, fy, fz), (mx, my, mz), first + offset, status))
+        return samples
 
 
 def start_commands(
@@ -326,7 +302,7 @@ class SriModel(Model):
         self._crc32 = self._never_sum
         self.busy = 0.0 if Quirk.FORGIVING in self.quirks else _BUSY_S
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one frame; a jump of the clock is one of the package number."""
         return sri_frame(reading.values, moment.number + round(moment.jump * self.rate), crc32=self._crc32)
 

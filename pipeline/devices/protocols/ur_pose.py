@@ -14,9 +14,15 @@ from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.protocols import ur_rtde
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.commands import check_rate
-from contactbench.pipeline.devices.protocols.emulated import JOINTS as AT_REST
-from contactbench.pipeline.devices.protocols.emulated import WIRE_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, Recipe, RtdeError
+from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
+from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.ur_rtde import (
+    Kind,
+    OutputRecipe,
+    Packet,
+    PacketReader,
+    RtdeError,
+)
 from contactbench.pipeline.devices.sample import FlangeSample
 
 if TYPE_CHECKING:
@@ -24,7 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 
 CLOCK, JOINTS, POSE, TOOL = "timestamp", "actual_q", "actual_TCP_pose", "tcp_offset"
 _ABSURD = 1e3  # m or rad
@@ -33,7 +39,7 @@ VARIABLES = (CLOCK, JOINTS, POSE)
 _WITH_TOOL = (*VARIABLES, TOOL)
 
 
-class Stage(Enum):
+class UrStage(Enum):
     """How far the conversation is."""
 
     VERSION = 1
@@ -70,13 +76,13 @@ class UrStream:
         if self._tool is not None and (len(self._tool) != 6 or not np.isfinite(self._tool).all()):
             raise RtdeError(f"UR: a tool frame has six finite numbers, not {tool!r}.")
         self._reader = PacketReader()
-        self._recipe: Recipe | None = None
+        self._recipe: OutputRecipe | None = None
         self._variables: tuple[str, ...] = _WITH_TOOL
         self._output = b""
-        self._stage = Stage.VERSION
+        self._stage = UrStage.VERSION
 
     @property
-    def stage(self) -> Stage:
+    def stage(self) -> UrStage:
         """How far the conversation is."""
         return self._stage
 
@@ -100,7 +106,7 @@ class UrStream:
         self._reader.reset()
         self._recipe, self._variables = None, _WITH_TOOL
         self._output = b""
-        self._stage = Stage.VERSION
+        self._stage = UrStage.VERSION
         return ur_rtde.version_request()
 
     def take_output(self) -> bytes:
@@ -134,7 +140,7 @@ class UrStream:
             # The controller may send texts at any time.
             if packet.kind is Kind.TEXT:
                 continue
-            if self._stage is Stage.STREAMING and self._recipe is not None:
+            if self._stage is UrStage.STREAMING and self._recipe is not None:
                 values = self._recipe.values(packet)
                 samples.append(flange_sample(values, time, values.get(TOOL, self._tool)))
             else:
@@ -142,20 +148,20 @@ class UrStream:
         return samples
 
     def _converse(self, packet: Packet) -> None:
-        if self._stage is Stage.VERSION:
+        if self._stage is UrStage.VERSION:
             ur_rtde.check_accepted(packet, Kind.VERSION)
             self._output += ur_rtde.outputs_request(self._rate, self._variables)
-            self._stage = Stage.OUTPUTS
-        elif self._stage is Stage.OUTPUTS and self._tool_is_unknown(packet):
+            self._stage = UrStage.OUTPUTS
+        elif self._stage is UrStage.OUTPUTS and self._tool_is_unknown(packet):
             self._variables = VARIABLES
             self._output += ur_rtde.outputs_request(self._rate, self._variables)
-        elif self._stage is Stage.OUTPUTS:
-            self._recipe = Recipe.agreed(packet, self._variables)
+        elif self._stage is UrStage.OUTPUTS:
+            self._recipe = OutputRecipe.agreed(packet, self._variables)
             self._output += ur_rtde.start_request()
-            self._stage = Stage.START
+            self._stage = UrStage.START
         else:
             ur_rtde.check_accepted(packet, Kind.START)
-            self._stage = Stage.STREAMING
+            self._stage = UrStage.STREAMING
 
     def _tool_is_unknown(self, packet: Packet) -> bool:
         """Tell whether an older controller knows all that was asked for but the tool frame."""
@@ -277,7 +283,7 @@ class UrModel(Model):
         super().restart()
         self._agreed, self._recipe = False, ()
 
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one data packet."""
         R_BE, p_BE_B = flange_pose(UR5E_TABLE, reading.values)
         position = p_BE_B + R_BE @ np.array(self._tool[:3])

@@ -119,7 +119,7 @@ def check_accepted(reply: Packet, kind: Kind) -> None:
 
 
 @dataclass(frozen=True)
-class Recipe:
+class OutputRecipe:
     """What the data packets hold."""
 
     number: int  # the controller's name for it, the first byte of every data packet
@@ -128,7 +128,7 @@ class Recipe:
     types: tuple[str, ...]
 
     @classmethod
-    def agreed(cls, reply: Packet, names: tuple[str, ...]) -> Recipe:
+    def agreed(cls, reply: Packet, names: tuple[str, ...]) -> OutputRecipe:
         """
         Read the answer to `outputs_request`.
 

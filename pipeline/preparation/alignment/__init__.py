@@ -1,9 +1,10 @@
 """Where the probe's mesh lies in the sensor frame: typed, by points, by the flange, by its shape, by touches."""
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method, from_json
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod, from_json
 from contactbench.pipeline.preparation.alignment.axes import AxesAlignment, align_axes
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.placement import from_angles, from_transform
 from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
 from contactbench.pipeline.preparation.alignment.rigid import check_transform
 from contactbench.pipeline.preparation.alignment.touch_csv import TouchFileError, read_touches
@@ -15,21 +16,15 @@ from contactbench.pipeline.preparation.alignment.touches import (
     TouchAlignment,
     align_touches,
 )
-from contactbench.pipeline.preparation.alignment.typed import (
-    from_angles,
-    from_matrix,
-    from_quaternion,
-    from_transform,
-)
 
 __all__ = [
     "Advice",
     "Alignment",
     "AlignmentError",
+    "AlignmentMethod",
     "AxesAlignment",
     "CrossValidation",
     "MarkerTouches",
-    "Method",
     "MountBelief",
     "MountingFace",
     "TouchAlignment",
@@ -43,8 +38,6 @@ __all__ = [
     "find_mounting_face",
     "from_angles",
     "from_json",
-    "from_matrix",
-    "from_quaternion",
     "from_transform",
     "read_touches",
 ]

@@ -25,7 +25,7 @@ _REMEDY = "use the file as contactbench wrote it, or align again."
 _LARGEST_FILE = 2**20
 
 
-class Method(StrEnum):
+class AlignmentMethod(StrEnum):
     """How an alignment was found."""
 
     TYPED = "typed"
@@ -45,7 +45,7 @@ class Alignment:
     ----------
     T_SP : (4, 4) float64
         Rigid, translation in metres; read-only.
-    method : Method
+    method : AlignmentMethod
     how : tuple of str
         How it was made, in sentences.
     warnings : tuple of str
@@ -65,7 +65,7 @@ class Alignment:
     """
 
     T_SP: Floats
-    method: Method
+    method: AlignmentMethod
     how: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     covariance: Floats | None = None
@@ -74,7 +74,7 @@ class Alignment:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "T_SP", check_transform(self.T_SP))
-        object.__setattr__(self, "method", Method(self.method))
+        object.__setattr__(self, "method", AlignmentMethod(self.method))
         if (self.covariance is None) != (self.about_S is None):
             raise AlignmentError("covariance, about_S: give both or neither: the one is about the other.")
         if self.covariance is not None and self.about_S is not None:
@@ -202,7 +202,7 @@ class _Document(BaseModel):
 
     schema_: Literal["contactbench.alignment"] = Field(alias="schema")
     version: Literal[1]
-    method: Method
+    method: AlignmentMethod
     T_SP_m: Annotated[list[_Four], Field(min_length=4, max_length=4)]
     how: _Sentences
     warnings: _Sentences

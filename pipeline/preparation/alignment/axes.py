@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform
 
@@ -30,29 +30,17 @@ _SIGNS = ((1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.
 
 @dataclass(frozen=True, eq=False)
 class AxesAlignment:
-    """
-    What the shape says of the mount.
+    """What the shape says of the mount."""
 
-    Attributes
-    ----------
-    alignment : Alignment
-        By the rules; its `how` tells them.
-    alternatives : (4, 4, 4) float64
-        T_SP of the four proper rotations that put the same axes on x, y, z; the chosen one first. Each has the
-        flange end at the same place.
-    spreads_m : (3,) float64
-        Root second moments along x, y, z of S, m; ascending from y over x to z.
-    determined : (3,) bool
-        Whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or more.
-    weight : "volume" or "area"
-        What was weighed.
-    """
-
-    alignment: Alignment
+    alignment: Alignment  # by the rules; its `how` tells them
+    # (4, 4, 4) T_SP of the four proper rotations that put the same axes on x, y, z; the chosen one
+    # first. Each has the flange end at the same place.
     alternatives: Floats
-    spreads_m: Floats
+    spreads_m: Floats  # (3,) root second moments along x, y, z of S, m; ascending from y over x to z
+    # (3,) whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or
+    # more
     determined: NDArray[np.bool_]
-    weight: Weight
+    weight: Weight  # what was weighed
 
 
 def align_axes(
@@ -114,7 +102,7 @@ def align_axes(
             " as well."
         ),
     )
-    alignment = Alignment(chosen[0], Method.AXES, how, tuple(warnings))
+    alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
     return AxesAlignment(alignment, np.stack(chosen), spreads, determined, weight)
 
 

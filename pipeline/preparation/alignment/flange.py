@@ -10,7 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
 from contactbench.pipeline.preparation.alignment.rim import Rim, find_rim
@@ -33,32 +33,17 @@ _NO_DIRECTION = 0.05
 
 @dataclass(frozen=True, eq=False)
 class MountingFace:
-    """
-    A plane patch of the mesh.
+    """A plane patch of the mesh."""
 
-    Attributes
-    ----------
-    facets : (m,) bool
-        Which facets of the mesh belong to it.
-    normal_P : (3,) float64
-        Outward unit normal of the plane fitted to it.
-    centre_P : (3,) float64
-        On the plane, m: of the circle if the rim is round, or else of the area inside the rim.
-    area_m2 : float
-        Of its facets.
-    planarity_rms, planarity_max : float
-        Distances of its vertices from the plane, m.
-    rim : Rim
-        Its outer outline, and the circle fitted to it.
-    """
-
-    facets: NDArray[np.bool_]
-    normal_P: Floats
+    facets: NDArray[np.bool_]  # (m,) which facets of the mesh belong to it
+    normal_P: Floats  # (3,) outward unit normal of the plane fitted to it
+    # (3,) on the plane, m: of the circle if the rim is round, or else of the area inside the rim
     centre_P: Floats
-    area_m2: float
+    area_m2: float  # of its facets
+    # planarity_rms, planarity_max: distances of its vertices from the plane, m
     planarity_rms: float
     planarity_max: float
-    rim: Rim
+    rim: Rim  # its outer outline, and the circle fitted to it
 
     @property
     def round(self) -> bool:
@@ -121,7 +106,6 @@ def align_flange(
     *,
     offset: float = 0.0,
     toward_P: ArrayLike | None = None,
-    along_P: ArrayLike | None = None,
     clock_deg: float = 0.0,
 ) -> Alignment:
     """
@@ -136,8 +120,6 @@ def align_flange(
         Where the sensor's mounting plane lies along z of S, m.
     toward_P : (3,) array_like, optional
         A picked point, m: the direction to it from the centre is the clocking direction.
-    along_P : (3,) array_like, optional
-        Instead: the clocking direction itself, such as an edge.
     clock_deg : float
         Angle of the clocking direction from +x of S about +z, degrees.
 
@@ -149,15 +131,13 @@ def align_flange(
     Raises
     ------
     AlignmentError
-        Two clocking directions, or one that points along the axis.
+        The clocking direction points along the axis.
     """
     if not abs(clock_deg) <= 360:
         raise AlignmentError(f"clock_deg: {clock_deg} is not within ±360 degrees.")
-    if toward_P is not None and along_P is not None:
-        raise AlignmentError("toward_P, along_P: give one clocking direction, not two.")
     R_SP = turn_between(face.normal_P, _DOWN_S)
     warnings = list(_face_warnings(face))
-    direction = _direction(face, toward_P, along_P)
+    direction = _direction(face, toward_P)
     if direction is None:
         warnings.append(
             "No clocking direction was given: the mesh is turned about the axis as little as possible. Pick a"
@@ -183,7 +163,11 @@ def align_flange(
         f" {centre}, on the axis."
     )
     return Alignment(
-        make_transform(R_SP, p_SP_S), Method.FLANGE, (how,), tuple(warnings), residual_m=face.planarity_rms
+        make_transform(R_SP, p_SP_S),
+        AlignmentMethod.FLANGE,
+        (how,),
+        tuple(warnings),
+        residual_m=face.planarity_rms,
     )
 
 
@@ -241,17 +225,15 @@ def _connected(pairs: NDArray[np.int64], among: NDArray[np.bool_], facet: int) -
     return np.asarray(among & (labels == labels[facet]))
 
 
-def _direction(face: MountingFace, toward: ArrayLike | None, along: ArrayLike | None) -> Floats | None:
+def _direction(face: MountingFace, toward: ArrayLike | None) -> Floats | None:
     """Return the clocking direction in P, or None without one."""
-    if toward is None and along is None:
+    if toward is None:
         return None
-    name = "along_P" if toward is None else "toward_P"
-    given = check_numbers(toward if along is None else along, (3,), name)  # type: ignore[arg-type]
-    given = given if toward is None else given - face.centre_P
+    given = check_numbers(toward, (3,), "toward_P") - face.centre_P
     flat: Floats = given - (given @ face.normal_P) * face.normal_P
     if np.linalg.norm(flat) <= _NO_DIRECTION * max(float(np.linalg.norm(given)), 1e-6):
         raise AlignmentError(
-            f"{name}: it points along the axis, so it shows no turn about it: pick it to the side."
+            "toward_P: it points along the axis, so it shows no turn about it: pick it to the side."
         )
     return flat
 

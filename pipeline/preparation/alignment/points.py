@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
 
@@ -70,7 +70,7 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
         " rms is left."
     )
     covariance = _covariance(b - b0, accuracy) * max(1.0, _scatter(left, accuracy))
-    return Alignment(T_SP, Method.POINTS, (how,), warnings, covariance, b0, rms)
+    return Alignment(T_SP, AlignmentMethod.POINTS, (how,), warnings, covariance, b0, rms)
 
 
 def align_frame(
@@ -140,7 +140,7 @@ def align_frame(
     warnings = ("Three points that span a frame leave nothing over: a wrong pick does not show.",)
     covariance = accuracy**2 * J @ J.T
     T_SP = make_transform(R_SP, origin - R_SP @ o)
-    return Alignment(T_SP, Method.FRAME, (how,), warnings, covariance, origin)
+    return Alignment(T_SP, AlignmentMethod.FRAME, (how,), warnings, covariance, origin)
 
 
 def _fit(a: Floats, b: Floats) -> Floats:

@@ -21,27 +21,17 @@ _ROUND, _GAP = 0.02, float(np.radians(44.0))
 
 @dataclass(frozen=True, eq=False)
 class Rim:
-    """
-    The outer outline of a patch.
+    """The outer outline of a patch."""
 
-    Attributes
-    ----------
-    vertices : (k,) int64
-        Vertex indices around it.
-    circle_centre, area_centre : (3,) float64
-        Centre of the fitted circle, and of the area inside the outline, on the plane, m.
-    radius, radius_rms : float
-        Of the circle, and how far the outline's vertices are from it, m.
-    largest_gap : float
-        Largest angle between neighbouring vertices, seen from the circle's centre, rad.
-    """
-
-    vertices: NDArray[np.int64]
+    vertices: NDArray[np.int64]  # (k,) vertex indices around it
+    # circle_centre, area_centre: (3,) centre of the fitted circle, and of the area inside the outline,
+    # on the plane, m
     circle_centre: Floats
     area_centre: Floats
+    # radius, radius_rms: of the circle, and how far the outline's vertices are from it, m
     radius: float
     radius_rms: float
-    largest_gap: float
+    largest_gap: float  # largest angle between neighbouring vertices, seen from the circle's centre, rad
 
     @property
     def round(self) -> bool:

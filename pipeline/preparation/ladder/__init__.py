@@ -1,11 +1,6 @@
 """Quality against speed: what fewer facets cost in contact error, what they save in time, and how many to take."""
 
-from contactbench.pipeline.preparation.ladder.compare import ContactReference, Difference, PartErrors
-from contactbench.pipeline.preparation.ladder.criterion import (
-    FewestFacets,
-    contact_error_criterion,
-    fewest_facets,
-)
+from contactbench.pipeline.preparation.ladder.compare import ContactDifference, ContactReference, PartErrors
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.files import save_ladder
 from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
@@ -15,18 +10,15 @@ from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
 
 __all__ = [
     "DEFAULT_FACETS",
+    "ContactDifference",
     "ContactReference",
-    "Difference",
     "ExpectedTouches",
-    "FewestFacets",
     "Goal",
     "Ladder",
     "LadderError",
     "PartErrors",
     "Recommendation",
     "Rung",
-    "contact_error_criterion",
-    "fewest_facets",
     "measure_ladder",
     "recommend",
     "save_ladder",

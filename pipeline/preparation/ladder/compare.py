@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Reason
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.touches import (
     FEWEST,
@@ -31,43 +31,25 @@ _FOUR_SIGMA = 4.0
 
 
 @dataclass(frozen=True)
-class Difference:
+class ContactDifference:
     """
     How the answers on a simplified mesh differ from those on the full one.
 
     An answer is settled when it is accepted: ``ok``, ``vertex`` or ``by_region``. Distances are taken over the
     touches that both meshes settle, and the others are counted.
-
-    Attributes
-    ----------
-    settled : int
-        Touches that the full mesh settles.
-    compared : int
-        Touches that both settle.
-    mean, p95, largest : float or None
-        Distance between the two points, m; None when nothing can be compared.
-    lost : int
-        Settled on the full mesh, without a point on the simplified one.
-    doubtful : int
-        Settled on the full mesh, a point with a warning on the simplified one.
-    gained : int
-        Settled on the simplified mesh only.
-    changed : int
-        Touches with another reason; those of settled ones are taken as one.
-    jumped : int
-        Settled by both, yet further apart than what counts as ambiguous: wrong without a warning.
     """
 
-    settled: int
-    compared: int
+    settled: int  # touches that the full mesh settles
+    compared: int  # touches that both settle
+    # mean, p95, largest: distance between the two points, m; None when nothing can be compared
     mean: float | None
     p95: float | None
     largest: float | None
-    lost: int
-    doubtful: int
-    gained: int
-    changed: int
-    jumped: int
+    lost: int  # settled on the full mesh, without a point on the simplified one
+    doubtful: int  # settled on the full mesh, a point with a warning on the simplified one
+    gained: int  # settled on the simplified mesh only
+    changed: int  # touches with another reason; those of settled ones are taken as one
+    jumped: int  # settled by both, yet further apart than what counts as ambiguous: wrong without a warning
 
     @property
     def failed_share(self) -> float:
@@ -81,33 +63,18 @@ class Difference:
 
 @dataclass(frozen=True)
 class PartErrors:
-    """
-    The added contact error on one part of the probe.
+    """The added contact error on one part of the probe."""
 
-    Attributes
-    ----------
-    part : {"region", "rest", "all"}
-        The priority regions, what is outside them, or the whole probe when it has none.
-    touches : int
-        How many were located.
-    noisy : Difference
-        With the sensor's noise: what a user will see.
-    noise_free : Difference
-        Without: what the shape alone does.
-    bound : float
-        Noise bound: root mean square error that the sensor's noise alone gives on the full mesh, where it settles a
-        touch and nothing is known of the torsion, m.
-    growth : float or None
-        How much larger the root mean square error against the true points is than on the full mesh: 0.05 is
-        5 % more. Over the touches that both settle alike, without jumps, and that the full mesh places within
-        four sigma of the truth; None when there are none.
-    """
-
-    part: Part
-    touches: int
-    noisy: Difference
-    noise_free: Difference
+    part: Part  # the priority regions, what is outside them, or the whole probe when it has none
+    touches: int  # how many were located
+    noisy: ContactDifference  # with the sensor's noise: what a user will see
+    noise_free: ContactDifference  # without: what the shape alone does
+    # noise bound: root mean square error that the sensor's noise alone gives on the full mesh, where it
+    # settles a touch and nothing is known of the torsion, m
     bound: float
+    # how much larger the root mean square error against the true points is than on the full mesh: 0.05
+    # is 5 % more. Over the touches that both settle alike, without jumps, and that the full mesh places
+    # within four sigma of the truth; None when there are none.
     growth: float | None
 
     def over_bound(self, statistic: Statistic) -> float | None:
@@ -201,7 +168,7 @@ class ContactReference:
 def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
     noisy = solver.locate_batch(drawn.noisy)
     found = _settled(noisy)
-    model = TouchModel(
+    model = MarkerModel(
         noisy.points[found], noisy.normals[found], drawn.noisy[found], solver.noise.covariance, 0.0
     )
     smallest = model.sigmas(np.eye(4))
@@ -220,7 +187,7 @@ def _reasons(batch: Batch) -> str:
     )
 
 
-def _difference(full: Batch, other: Batch, jump: float) -> Difference:
+def _difference(full: Batch, other: Batch, jump: float) -> ContactDifference:
     before, after = _settled(full), _settled(other)
     both = before & after
     apart = np.linalg.norm(full.points[both] - other.points[both], axis=1)
@@ -228,7 +195,7 @@ def _difference(full: Batch, other: Batch, jump: float) -> Difference:
     # Whether a facet or a vertex answers is a matter of the mesh, not of the touch.
     reasons = [np.where(_settled(batch), Reason.OK, batch.reasons) for batch in (full, other)]
     some = len(apart) > 0
-    return Difference(
+    return ContactDifference(
         settled=int(np.count_nonzero(before)),
         compared=len(apart),
         mean=float(apart.mean()) if some else None,

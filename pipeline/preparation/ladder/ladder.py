@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.preparation.ladder.compare import Difference, PartErrors
+    from contactbench.pipeline.preparation.ladder.compare import ContactDifference, PartErrors
     from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation
     from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
     from contactbench.pipeline.timing import Timing
@@ -19,19 +19,10 @@ SCHEMA, VERSION = "contactbench.ladder", 1
 
 @dataclass(frozen=True)
 class Speed:
-    """
-    Nanoseconds of one compiled solve.
+    """Nanoseconds of one compiled solve."""
 
-    Attributes
-    ----------
-    algorithm1 : Timing
-        The paper's loop.
-    contactbench : Timing
-        `ContactSolver.locate`, each touch on its own.
-    """
-
-    algorithm1: Timing
-    contactbench: Timing
+    algorithm1: Timing  # the paper's loop
+    contactbench: Timing  # `ContactSolver.locate`, each touch on its own
 
     @property
     def ratio(self) -> float:
@@ -41,35 +32,17 @@ class Speed:
 
 @dataclass(frozen=True, eq=False)
 class Rung:
-    """
-    One mesh of the ladder.
+    """One mesh of the ladder."""
 
-    Attributes
-    ----------
-    probe : Probe
-        The mesh.
-    asked : int
-        Facets asked for.
-    engine : str
-        What simplified it; "none" for the full mesh.
-    hausdorff, rms : float
-        Deviation from the full mesh, m.
-    file_bytes : int
-        Of the PLY file that `save_probe` writes.
-    errors : tuple of PartErrors
-        Added contact errors; the part that is judged first.
-    speed : Speed or None
-        None when it was not timed.
-    """
-
-    probe: Probe
-    asked: int
-    engine: str
+    probe: Probe  # the mesh
+    asked: int  # facets asked for
+    engine: str  # what simplified it; "none" for the full mesh
+    # hausdorff, rms: deviation from the full mesh, m
     hausdorff: float
     rms: float
-    file_bytes: int
-    errors: tuple[PartErrors, ...]
-    speed: Speed | None
+    file_bytes: int  # of the PLY file that `save_probe` writes
+    errors: tuple[PartErrors, ...]  # added contact errors; the part that is judged first
+    speed: Speed | None  # None when it was not timed
 
     @property
     def facets(self) -> int:
@@ -84,30 +57,14 @@ class Rung:
 
 @dataclass(frozen=True, eq=False)
 class Ladder:
-    """
-    Quality against speed of one probe.
+    """Quality against speed of one probe."""
 
-    Attributes
-    ----------
-    probe : str
-        Its name.
-    expected : ExpectedTouches
-        What it was measured with.
-    goal : Goal
-        What the recommendation keeps.
-    rungs : tuple of Rung
-        By facets, ascending; the last is the full mesh.
-    recommendation : Recommendation
-    notes : tuple of str
-        A sentence for each rung that is missing.
-    """
-
-    probe: str
-    expected: ExpectedTouches
-    goal: Goal
-    rungs: tuple[Rung, ...]
+    probe: str  # its name
+    expected: ExpectedTouches  # what it was measured with
+    goal: Goal  # what the recommendation keeps
+    rungs: tuple[Rung, ...]  # by facets, ascending; the last is the full mesh
     recommendation: Recommendation
-    notes: tuple[str, ...]
+    notes: tuple[str, ...]  # a sentence for each rung that is missing
 
     @property
     def full(self) -> Rung:
@@ -176,7 +133,7 @@ def _plain(rung: Rung, full: Rung) -> dict[str, Any]:
 
 
 def _csv_row(rung: Rung, errors: PartErrors) -> dict[str, object]:
-    def lengths(difference: Difference, prefix: str) -> dict[str, object]:
+    def lengths(difference: ContactDifference, prefix: str) -> dict[str, object]:
         named = {"mean": difference.mean, "p95": difference.p95, "max": difference.largest}
         return {f"{prefix}{name}_mm": None if m is None else 1e3 * m for name, m in named.items()}
 

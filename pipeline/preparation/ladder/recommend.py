@@ -22,27 +22,19 @@ class Goal:
     """
     What simplification may cost.
 
-    Attributes
-    ----------
-    limit_m : float or None
-        Largest added contact error, m. None: as much as lets the total error grow by `growth`.
-    statistic : {"mean", "p95", "max"}
-        Which added error is held against the limit.
-    growth : float
-        How much the total error may grow, 0.05 for 5 %; used when there is no limit in metres.
-    failed : float
-        Share of the touches settled on the full mesh that may be lost, doubtful or jump. Default 2 %: touches near
-        the edge of doubt tip over whatever the mesh.
-
     Raises
     ------
     LadderError
         A value is out of its range.
     """
 
+    # largest added contact error, m. None: as much as lets the total error grow by `growth`.
     limit_m: float | None = None
-    statistic: Statistic = "p95"
+    statistic: Statistic = "p95"  # which added error is held against the limit
+    # how much the total error may grow, 0.05 for 5 %; used when there is no limit in metres
     growth: float = 0.05
+    # share of the touches settled on the full mesh that may be lost, doubtful or jump. Default 2 %:
+    # touches near the edge of doubt tip over whatever the mesh.
     failed: float = 0.02
 
     def __post_init__(self) -> None:
@@ -83,22 +75,11 @@ class Goal:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """
-    The rung to take.
+    """The rung to take."""
 
-    Attributes
-    ----------
-    facets : int or None
-        Of that rung; None when no simplified mesh will do.
-    limit : float
-        Largest added error that would do, m.
-    reason : str
-        Why, in sentences.
-    """
-
-    facets: int | None
-    limit: float
-    reason: str
+    facets: int | None  # of that rung; None when no simplified mesh will do
+    limit: float  # largest added error that would do, m
+    reason: str  # why, in sentences
 
 
 def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:

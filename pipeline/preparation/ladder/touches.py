@@ -30,36 +30,20 @@ class ExpectedTouches:
     """
     What the sensor will read, and how its readings are judged.
 
-    Attributes
-    ----------
-    noise : WrenchNoise
-        Of the compensated, filtered wrench.
-    force : (low, high)
-        |F|, N, uniform.
-    friction_angle : (low, high)
-        Between -F and the outward normal, degrees, uniform, under 90.
-    torsion_arm : float
-        Standard deviation of the local torque over |F|, m.
-    gates : Gates
-        When the solver gives an answer.
-    count : int
-        Touches per part of the probe, at least 100.
-    seed : int
-        Of chance, at least 0.
-
     Raises
     ------
     LadderError
         A value is out of its range.
     """
 
-    noise: WrenchNoise = field(default_factory=WrenchNoise)
-    force: tuple[float, float] = (8.0, 10.0)
+    noise: WrenchNoise = field(default_factory=WrenchNoise)  # of the compensated, filtered wrench
+    force: tuple[float, float] = (8.0, 10.0)  # |F|, N, uniform
+    # between -F and the outward normal, degrees, uniform, under 90
     friction_angle: tuple[float, float] = (0.0, 30.0)
-    torsion_arm: float = 0.0003
-    gates: Gates = field(default_factory=Gates)
-    count: int = 4_000
-    seed: int = 0
+    torsion_arm: float = 0.0003  # standard deviation of the local torque over |F|, m
+    gates: Gates = field(default_factory=Gates)  # when the solver gives an answer
+    count: int = 4_000  # touches per part of the probe, at least 100
+    seed: int = 0  # of chance, at least 0
 
     def __post_init__(self) -> None:
         low, high = self.force
@@ -98,22 +82,11 @@ class ExpectedTouches:
 
 @dataclass(frozen=True, eq=False)
 class DrawnTouches:
-    """
-    Touches of one part of a probe.
+    """Touches of one part of a probe."""
 
-    Attributes
-    ----------
-    part : {"region", "rest", "all"}
-        The priority regions, what is outside them, or the whole probe when it has none.
-    truth : Touches
-        On the facets of the mesh.
-    noisy : (n, 6) float64
-        Its wrenches with the sensor's noise, N and N·m in S.
-    """
-
-    part: Part
-    truth: Touches
-    noisy: npt.NDArray[np.float64]
+    part: Part  # the priority regions, what is outside them, or the whole probe when it has none
+    truth: Touches  # on the facets of the mesh
+    noisy: npt.NDArray[np.float64]  # (n, 6) its wrenches with the sensor's noise, N and N·m in S
 
 
 def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, ...]:

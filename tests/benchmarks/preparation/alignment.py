@@ -19,7 +19,7 @@ from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, M
 from contactbench.pipeline.preparation.alignment.rigid import apply, difference
 from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.simulation import add_noise, draw_touches
 from contactbench.pipeline.study.report import Figure, StudyReport
 
@@ -55,9 +55,9 @@ class Setup:
 
     def fit(self) -> MountFit:
         """Fit the mount to the touches, without the judgement."""
-        on_mesh = put_on_mesh(self.touches, self.probe_P)
+        points, normals, _ = put_on_mesh(self.touches, self.probe_P)
         wrenches = self.touches.wrenches
-        model = TouchModel(on_mesh.points_P, on_mesh.normals_P, wrenches, NOISE.covariance, _PLACEMENT)
+        model = MarkerModel(points, normals, wrenches, NOISE.covariance, _PLACEMENT)
         return fit_mount(model, [self.T_before], MountBelief())
 
 

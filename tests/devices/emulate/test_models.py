@@ -11,16 +11,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, Moment, Reading
+from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, FrameMoment, SensorReading
 from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
-from contactbench.pipeline.devices.protocols.emulated import Model, Quirk
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
 from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.protocols.ur_pose import UrModel, rtde_packet
 
-NOW = Reading(SYNTHETIC), Moment(0, 0.0)
+NOW = SensorReading(SYNTHETIC), FrameMoment(0, 0.0)
 ROBOTIQ_START = bytes.fromhex("0910019A0001020200CDCA")
 UR_OUTPUTS = struct.pack(">d", 125.0) + b"timestamp,actual_q,actual_TCP_pose,ft_raw_wrench"
 
@@ -144,7 +144,7 @@ def test_rdt_gives_as_many_records_as_were_asked_for():
 def test_elfin_answers_in_both_lengths():
     for quirks, count in (([], 24), ([Quirk.OLDER], 12)):
         device = ElfinModel(None, quirks)
-        device.answer = lambda: (Reading(JOINTS), Moment(0, 0.0))
+        device.answer = lambda: (SensorReading(JOINTS), FrameMoment(0, 0.0))
         (answer,) = device.feed(b"ReadActPos,0,;")
         name, verdict, *numbers, end = answer.decode().split(",")
         assert (name, verdict, len(numbers), end) == ("ReadActPos", "OK", count, ";")
@@ -185,7 +185,7 @@ def test_ur_gives_the_pose_of_its_tool_and_says_where_that_is():
         device = UrModel(tool=tool)
         device.feed(AGREED)
         device.feed(rtde_packet(b"O", struct.pack(">d", 125.0) + names))
-        return np.array(struct.unpack(">12d", device.frame(Reading(JOINTS), Moment(0, 0.0))[4:]))
+        return np.array(struct.unpack(">12d", device.frame(SensorReading(JOINTS), FrameMoment(0, 0.0))[4:]))
 
     flange, tool = fields((0.0,) * 6), fields(TOOL)
     assert np.allclose(flange[6:], 0.0)

@@ -199,16 +199,14 @@ def test_elfin_answers_and_fails_by_script():
         end = time.monotonic() + PATIENCE_S
         while not any(reply.outcome is not elfin.Outcome.OK for reply in replies):
             assert time.monotonic() < end
-            line.write(elfin.Question.POSITION.request())
+            line.write(elfin.REQUEST)
             known = len(replies)
             while len(replies) == known:
                 assert time.monotonic() < end
                 replies += reader.feed(line.read(0.05).data)
         line.close()
     assert replies[0].outcome is elfin.Outcome.OK
-    assert elfin.read_numbers(replies[0], elfin.Question.POSITION)[0] == pytest.approx(
-        np.degrees(0.3), abs=1e-5
-    )
+    assert elfin.read_position(replies[0])[0] == pytest.approx(np.degrees(0.3), abs=1e-5)
 
 
 def test_ur_agrees_and_streams():

@@ -61,7 +61,7 @@ def every_command() -> Iterator[bytes]:
             commands += rdt.start_commands(rate, profile=profile)
     commands += [*bota.stop_commands(), *rdt.stop_commands()]
     yield from (command.data for command in commands)
-    yield from (question.request() for question in elfin.Question)
+    yield elfin.REQUEST
     yield from ur_conversation()
 
 

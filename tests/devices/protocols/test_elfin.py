@@ -10,12 +10,10 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.elfin import (
     ElfinError,
-    Outcome,
-    Question,
     Reply,
+    ReplyKind,
     ReplyReader,
-    read_numbers,
-    read_state,
+    read_position,
 )
 from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder, flange_sample, resolve_order
 from contactbench.pipeline.robot import Robot
@@ -46,14 +44,9 @@ def position(
     return [float(number) for number in np.round(halves, 4)]
 
 
-def read(answer: bytes, question: Question = Question.POSITION) -> tuple[float, ...]:
+def read(answer: bytes) -> tuple[float, ...]:
     (reply,) = ReplyReader().feed(answer)
-    return read_numbers(reply, question)
-
-
-def test_requests() -> None:
-    assert Question.POSITION.request() == b"ReadActPos,0,;"
-    assert Question.STATE.request() == b"ReadRobotState,0,;"
+    return read_position(reply)
 
 
 def test_answers_byte_by_byte_and_merged() -> None:
@@ -62,13 +55,13 @@ def test_answers_byte_by_byte_and_merged() -> None:
     assert single == [
         Reply(
             "ReadActPos",
-            Outcome.OK,
+            ReplyKind.OK,
             VALUES,
         )
     ]
     assert reader.feed(ANSWER + b"GrpX,Fail,20011,;" + ANSWER) == [
         *single,
-        Reply("GrpX", Outcome.FAIL, ("20011",)),
+        Reply("GrpX", ReplyKind.FAIL, ("20011",)),
         *single,
     ]
     assert reader.pending == 0
@@ -78,11 +71,6 @@ def test_the_longer_answer_of_newer_software() -> None:
     longer = ANSWER[:-1] + b",".join(b"%d" % n for n in range(12)) + b",;"
     assert read(longer) == read(ANSWER) == (1, 2, 3, 4, 5, 6, 10, 20, 30, 40, 50, 60)
     assert read(b"ReadActPos,OK," + b" -1.5e-3,.5,+2.,0," * 3 + b";") == (-0.0015, 0.5, 2.0, 0.0) * 3
-
-
-def test_poses_and_joints_of_older_software() -> None:
-    assert read(b"ReadPcsActualPos,OK,1,2,3,4,5,6,;", Question.POSE) == (1, 2, 3, 4, 5, 6)
-    assert read(b"ReadActACS,OK,1,2,3,4,5,6,;", Question.JOINTS) == (1, 2, 3, 4, 5, 6)
 
 
 @pytest.mark.parametrize(
@@ -103,27 +91,6 @@ def test_poses_and_joints_of_older_software() -> None:
 def test_answers_that_cannot_be_used(answer: bytes, message: str) -> None:
     with pytest.raises(ElfinError, match=message):
         read(answer)
-
-
-def test_state() -> None:
-    (reply,) = ReplyReader().feed(b"ReadRobotState,OK,1,1,0,0,0,0,0,0,1,1,1,0,;")
-    state = read_state(reply)
-    assert (state.moving, state.enabled, state.error, state.error_code) == (True, True, False, 0)
-    assert (state.safeguard, state.powered, state.board_connected, state.blending_done) == (True,) * 3 + (
-        False,
-    )
-    (reply,) = ReplyReader().feed(b"ReadRobotState,OK,0,0,1,2007,3,0,0,1,0,0,1,1,;")
-    state = read_state(reply)
-    assert (state.error, state.error_code, state.error_axis, state.emergency_stop) == (True, 2007, 3, True)
-
-
-@pytest.mark.parametrize(
-    "values", [b"1,0", b"1,0,0,0,0,0,0,0,0,0,0,x", b"1,0,0,0,0,0,0,0,0,0,0,1.5", b"1" * 30 + b",0" * 11]
-)
-def test_states_that_cannot_be_used(values: bytes) -> None:
-    (reply,) = ReplyReader().feed(b"ReadRobotState,OK," + values + b",;")
-    with pytest.raises(ElfinError, match=r"instead of 12|not a whole number"):
-        read_state(reply)
 
 
 def test_what_is_no_answer_is_counted_and_bounded() -> None:
@@ -183,13 +150,7 @@ def test_flange_from_joints(elfin: Robot) -> None:
     assert np.allclose(sample.R_BE, R, atol=2e-6)
 
 
-def test_without_kinematics_only_the_orientation_is_known() -> None:
-    sample = flange_sample(position(FieldOrder.JOINTS_FIRST), FieldOrder.JOINTS_FIRST, 0.0)
-    assert np.allclose(sample.R_BE, R, atol=2e-6)
-    assert np.isnan(sample.p_BE_B).all()
-
-
 @pytest.mark.parametrize("bad", [[0.0] * 11, [0.0] * 11 + [float("nan")], [1e300] * 12])
-def test_numbers_that_are_no_position(bad: list[float]) -> None:
+def test_numbers_that_are_no_position(elfin: Robot, bad: list[float]) -> None:
     with pytest.raises(ElfinError, match="six angles and a pose"):
-        flange_sample(bad, FieldOrder.JOINTS_FIRST, 0.0)
+        flange_sample(bad, FieldOrder.JOINTS_FIRST, 0.0, elfin)

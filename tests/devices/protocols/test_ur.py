@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     Kind,
+    OutputRecipe,
     Packet,
     PacketReader,
     ProtocolError,
-    Recipe,
     RtdeError,
     check_accepted,
     outputs_request,
@@ -47,7 +47,7 @@ def running(tool: tuple[float, ...] | None = None) -> UrStream:
     assert stream.take_output() == start_request()
     stream.feed(packet(Kind.START, b"\x01"), 0.0)
     assert stream.take_output() == b""
-    assert stream.stage is Stage.STREAMING
+    assert stream.stage is UrStage.STREAMING
     return stream
 
 
@@ -110,7 +110,7 @@ def test_a_refused_version(reply: bytes, message: str) -> None:
 def test_refused_variables(types: bytes, message: str) -> None:
     names = ("timestamp", "actual_q", "actual_TCP_pose")
     with pytest.raises(RtdeError, match=message):
-        Recipe.agreed(Packet(Kind.OUTPUTS, types), names)
+        OutputRecipe.agreed(Packet(Kind.OUTPUTS, types), names)
 
 
 @pytest.mark.parametrize(
@@ -161,12 +161,12 @@ def test_the_conversation_begins_anew() -> None:
     stream = running()
     stream.feed(data()[:20], 0.0)
     stream.start()
-    assert (stream.stage, stream.pending, stream.skipped_bytes) == (Stage.VERSION, 0, 20)
+    assert (stream.stage, stream.pending, stream.skipped_bytes) == (UrStage.VERSION, 0, 20)
 
 
 def test_every_type_is_read() -> None:
     types = ("DOUBLE", "VECTOR6D", "VECTOR3D", "VECTOR6INT32", "UINT64", "UINT32", "INT32", "UINT8", "BOOL")
-    recipe = Recipe(9, types, types)
+    recipe = OutputRecipe(9, types, types)
     payload = struct.pack(">Bd6d3d6iQIiB?", 9, *range(1, 17), 2**40, 3, -4, 5, True)
     values = recipe.values(Packet(Kind.DATA, payload))
     assert values["VECTOR3D"] == (8.0, 9.0, 10.0)

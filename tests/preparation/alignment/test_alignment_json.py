@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from contactbench.pipeline.preparation.alignment import (
     Alignment,
     AlignmentError,
-    Method,
+    AlignmentMethod,
     align_points,
     from_angles,
     from_json,
@@ -85,4 +85,4 @@ def test_a_damaged_file_never_does_worse_than_an_alignment_error(text, at):
         from_json(damaged)
     except AlignmentError:
         return
-    assert Method(json.loads(damaged)["method"]) in Method
+    assert AlignmentMethod(json.loads(damaged)["method"]) in AlignmentMethod

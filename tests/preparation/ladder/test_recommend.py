@@ -9,7 +9,7 @@ import pytest
 from contact_cases import ball
 
 from contactbench.pipeline.preparation.ladder import (
-    Difference,
+    ContactDifference,
     Goal,
     LadderError,
     PartErrors,
@@ -23,7 +23,7 @@ BOUND = 1e-3
 
 
 def _errors(p95: float, *, growth: float = 0.0, failed: int = 0, bound: float = BOUND) -> PartErrors:
-    difference = Difference(1_000, 1_000 - failed, p95 / 2, p95, 3 * p95, failed, 0, 0, failed, 0)
+    difference = ContactDifference(1_000, 1_000 - failed, p95 / 2, p95, 3 * p95, failed, 0, 0, failed, 0)
     return PartErrors("all", 1_000, difference, difference, bound, growth)
 
 
@@ -87,7 +87,7 @@ def test_a_mesh_that_loses_touches_will_not_do() -> None:
 
 
 def test_nothing_settled_is_told() -> None:
-    nothing = Difference(1_000, 0, None, None, None, 1_000, 0, 0, 1_000, 0)
+    nothing = ContactDifference(1_000, 0, None, None, None, 1_000, 0, 0, 1_000, 0)
     errors = replace(_errors(0.0), noisy=nothing, growth=None)
     found = recommend(_rungs(errors, errors), Goal())
     assert found.facets is None

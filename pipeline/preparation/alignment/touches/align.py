@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_transform
 from contactbench.pipeline.preparation.alignment.touches.crossval import (
@@ -20,7 +20,7 @@ from contactbench.pipeline.preparation.alignment.touches.crossval import (
 )
 from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 from contactbench.pipeline.preparation.alignment.touches.words import (
     bias_effect,
@@ -47,47 +47,24 @@ _LARGEST_PLACEMENT_M = 0.05
 
 @dataclass(frozen=True, eq=False)
 class TouchAlignment:
-    """
-    What touches say of the mount, and whether to believe it.
+    """What touches say of the mount, and whether to believe it."""
 
-    Attributes
-    ----------
-    fitted : Alignment
-        By the touches, with its covariance about the touches' centroid.
-    before : (4, 4)
-        The mount it started from, T_SP; of several, the one that explained the touches best.
-    advice : Advice
-        Whether `fitted` predicts touches that it has not seen clearly better than `before`.
-    reasons : tuple of str
-        Why.
-    check : CrossValidation
-    rank : int
-        Of six: how many combinations of shift and rotation the touches show. The others stayed at `before`.
-    unseen : tuple of str
-        What they do not show, a few words for each.
-    names : tuple of str
-        Of the touches.
-    kept : (n,) bool
-        Which touches were used; the others are named in the warnings.
-    deviates : (n,)
-        How far each touch is from what the others say, in sigmas.
-    scatter : float
-        By how much the residuals widened the covariance; 1 if noise and placement explain them.
-    bias_effect : (6, 6)
-        Motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every touch.
-    """
-
-    fitted: Alignment
+    fitted: Alignment  # by the touches, with its covariance about the touches' centroid
+    # (4, 4) the mount it started from, T_SP; of several, the one that explained the touches best
     before: Floats
-    advice: Advice
-    reasons: tuple[str, ...]
+    advice: Advice  # whether `fitted` predicts touches that it has not seen clearly better than `before`
+    reasons: tuple[str, ...]  # why
     check: CrossValidation
+    # of six: how many combinations of shift and rotation the touches show. The others stayed at
+    # `before`.
     rank: int
-    unseen: tuple[str, ...]
-    names: tuple[str, ...]
-    kept: NDArray[np.bool_]
-    deviates: Floats
-    scatter: float
+    unseen: tuple[str, ...]  # what they do not show, a few words for each
+    names: tuple[str, ...]  # of the touches
+    kept: NDArray[np.bool_]  # (n,) which touches were used; the others are named in the warnings
+    deviates: Floats  # (n,) how far each touch is from what the others say, in sigmas
+    scatter: float  # by how much the residuals widened the covariance; 1 if noise and placement explain them
+    # (6, 6) motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every
+    # touch
     bias_effect: Floats
 
     @property
@@ -104,8 +81,6 @@ def align_touches(
     *,
     placement: float = _PLACEMENT_M,
     belief: MountBelief | None = None,
-    robust: bool = True,
-    bias_covariance: ArrayLike | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> TouchAlignment:
     """
@@ -120,16 +95,11 @@ def align_touches(
     mounts : (4, 4) or (k, 4, 4) array_like
         T_SP to start from: the present mount, or several candidates such as those of `align_axes`.
     noise : WrenchNoise, optional
-        Of each wrench, independent from touch to touch. What all touches share belongs in `bias_covariance`.
+        Of each wrench, independent from touch to touch.
     placement : float
         Standard deviation of where a marker is hit, in each direction of the surface, m.
     belief : MountBelief, optional
         How far the mounts may be off.
-    robust : bool
-        Leave out, and name, touches that the others deny.
-    bias_covariance : (6, 6) array_like, optional
-        Of a wrench error common to all touches: what the calibration leaves, N and N·m. It widens the
-        covariance; touches cannot tell it from the mount.
     progress : callable, optional
         Gets the share that is done.
 
@@ -145,27 +115,25 @@ def align_touches(
     """
     noise, belief = noise or WrenchNoise(), belief or MountBelief()
     starts = _starts(mounts)
-    on_mesh = put_on_mesh(touches, probe_P)
+    points_P, normals_P, off_mesh = put_on_mesh(touches, probe_P)
     _check_noise(noise, placement)
-    model = TouchModel(on_mesh.points_P, on_mesh.normals_P, touches.wrenches, noise.covariance, placement)
-    fit = fit_mount(model, starts, belief, robust=robust)
+    model = MarkerModel(points_P, normals_P, touches.wrenches, noise.covariance, placement)
+    fit = fit_mount(model, starts, belief)
     pressed = model.pressed(fit.T_SP)
     _refuse_pulling(pressed)
-    check = cross_validate(probe_P, model, on_mesh.points_P, fit, belief, robust=robust, progress=progress)
+    check = cross_validate(probe_P, model, fit, belief, progress=progress)
     advice, reasons = advise(fit, check)
     effect, _ = bias_effect(fit, model, belief)
     shared = bias_sentence(fit, model, belief)
     warnings = (
-        *on_mesh.warnings,
+        *off_mesh,
         *fit_sentences(fit, touches.names, pressed),
         *unseen_sentences(fit, belief),
         *weak_sentences(fit, belief),
         *implausible_start(fit, belief),
     )
     return TouchAlignment(
-        fitted=_alignment(
-            fit, (check.sentence, shared), check, warnings, _shared_covariance(effect, bias_covariance)
-        ),
+        fitted=_alignment(fit, (check.sentence, shared), check, warnings),
         before=fit.start,
         advice=advice,
         reasons=reasons,
@@ -216,15 +184,8 @@ def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
         )
 
 
-def _shared_covariance(effect: Floats, bias_covariance: ArrayLike | None) -> Floats:
-    if bias_covariance is None:
-        return np.zeros((6, 6))
-    shared = WrenchNoise(0.0, 0.0, bias_covariance).covariance  # checks that it is one
-    return np.asarray(effect @ shared @ effect.T)
-
-
 def _alignment(
-    fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...], shared: Floats
+    fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...]
 ) -> Alignment:
     # The covariance is about where the touches' centroid was with the first mount: it moves with the fit.
     centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
@@ -236,8 +197,10 @@ def _alignment(
         ),
         *told,
     )
-    covariance = _about(fit.covariance + shared, centre - fit.about_S)
-    return Alignment(fit.T_SP, Method.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample))
+    covariance = _about(fit.covariance, centre - fit.about_S)
+    return Alignment(
+        fit.T_SP, AlignmentMethod.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample)
+    )
 
 
 def _about(covariance: Floats, lever: Floats) -> Floats:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment.touches.fit import MountFit
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
     from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
@@ -46,41 +46,25 @@ class CrossValidation:
     Each touch of a fold is left out, the mount fitted to the others, and the solver asked where the wrench
     that was left out touches the mesh with that mount. Where it has no answer, the marker's tangent plane
     stands in for the mesh, so that a bad mount cannot look good by missing the probe.
-
-    Attributes
-    ----------
-    in_sample, out_of_sample, before : (n,) float64
-        Distance from the marker, m: with the fit to all touches, with the fit that did not see the touch,
-        and with the first mount.
-    bound : (n,) float64
-        Root mean square distance that noise and placement alone make with the true mount, m.
-    kept : (n,) bool
-        Touches that the fit to all of them used.
-    missed : int
-        Touches left out for which the solver had no answer.
-    folds : int
-    p_value : float
-        Chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks, one-sided).
     """
 
+    # in_sample, out_of_sample, before: (n,) distance from the marker, m: with the fit to all touches,
+    # with the fit that did not see the touch, and with the first mount
     in_sample: Floats
     out_of_sample: Floats
     before: Floats
-    bound: Floats
-    kept: NDArray[np.bool_]
-    missed: int
+    bound: Floats  # (n,) root mean square distance that noise and placement alone make with the true mount, m
+    kept: NDArray[np.bool_]  # (n,) touches that the fit to all of them used
+    missed: int  # touches left out for which the solver had no answer
     folds: int
+    # chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks,
+    # one-sided)
     p_value: float
 
     @property
     def ratio(self) -> float:
         """Out-of-sample error over what noise and placement alone make; root mean squares. 1 is perfect."""
         return rms(self.out_of_sample) / rms(self.bound)
-
-    @property
-    def ratio_before(self) -> float:
-        """The first mount's error over what noise and placement alone make."""
-        return rms(self.before) / rms(self.bound)
 
     @property
     def sentence(self) -> str:
@@ -101,12 +85,10 @@ class CrossValidation:
 
 def cross_validate(
     probe_P: Probe,
-    model: TouchModel,
-    markers_P: Floats,
+    model: MarkerModel,
     fit: MountFit,
     belief: MountBelief,
     *,
-    robust: bool = True,
     progress: Callable[[float], None] | None = None,
 ) -> CrossValidation:
     """
@@ -119,18 +101,14 @@ def cross_validate(
     ----------
     probe_P : Probe
         In P.
-    model : TouchModel
-    markers_P : (n, 3)
-        Where the touches are held to be, m.
+    model : MarkerModel
     fit : MountFit
         To all touches.
     belief : MountBelief
-    robust : bool
-        As for `fit_mount`.
     progress : callable, optional
         Gets the share that is done.
     """
-    judge = _Judge(probe_P, model, markers_P, fit.start)
+    judge = _Judge(probe_P, model, fit.start)
     n = len(model)
     folds = n if n <= _ONE_BY_ONE else _FOLDS
     out, missed = np.empty(n), 0
@@ -138,7 +116,7 @@ def cross_validate(
         left = np.arange(fold, n, folds)  # neighbours in the file are often neighbours on the probe
         others = np.ones(n, dtype=bool)
         others[left] = False
-        T_SP = fit_mount(model.chosen(others), [fit.start], belief, robust=robust).T_SP
+        T_SP = fit_mount(model.chosen(others), [fit.start], belief).T_SP
         out[left], misses = judge.errors(T_SP, left)
         missed += misses
         if progress is not None:
@@ -186,7 +164,7 @@ def rms(errors: Floats) -> float:
 class _Judge:
     """Contact errors at markers for any mount, by one solver."""
 
-    def __init__(self, probe_P: Probe, model: TouchModel, markers_P: Floats, T_SP: Floats) -> None:
+    def __init__(self, probe_P: Probe, model: MarkerModel, T_SP: Floats) -> None:
         # To move the wrench into P is the same as to move the mesh into S, and the solver is built once.
         # What is uncertain of a wrench is taken as it is with the first mount.
         W = wrench_transform(T_SP)
@@ -196,7 +174,6 @@ class _Judge:
         )
         self._solver = contact.ContactSolver(probe_P, noise, model=contact.TouchModel(model_error=error))
         self._model = model
-        self._markers = markers_P
 
     def errors(self, T_SP: Floats, rows: Sequence[int] | NDArray[np.intp]) -> tuple[Floats, int]:
         """Return the distance (k,) from the marker of each touch, m, and how many had no answer."""
@@ -204,7 +181,7 @@ class _Judge:
         wrenches_P = np.ascontiguousarray(model.wrenches @ wrench_transform(T_SP).T)
         batch = self._solver.locate_batch(wrenches_P)
         answered = np.array(batch.accepted)
-        distance = np.linalg.norm(batch.points - self._markers[rows], axis=1)
+        distance = np.linalg.norm(batch.points - self._model.points_P[rows], axis=1)
         errors: Floats = np.where(answered, distance, model.plane_errors(T_SP))
         return errors, int((~answered).sum())
 

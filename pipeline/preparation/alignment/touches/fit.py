@@ -9,14 +9,14 @@ import numpy as np
 from scipy.special import chdtrc, chdtri
 
 from contactbench.pipeline.preparation.alignment.rigid import apply
-from contactbench.pipeline.preparation.alignment.touches.solve import Problem, loss, minimise
+from contactbench.pipeline.preparation.alignment.touches.solve import MountProblem, loss, minimise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
     from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
@@ -35,45 +35,24 @@ _FEWEST = 3
 
 @dataclass(frozen=True, eq=False)
 class MountFit:
-    """
-    What touches say of the mount.
+    """What touches say of the mount."""
 
-    Attributes
-    ----------
-    T_SP : (4, 4)
-    start : (4, 4)
-        The mount that was started from; what the touches do not show is as it is there.
-    about_S : (3,)
-        What the unknowns are about: the touches' centroid under `start`, m.
-    covariance : (6, 6)
-        Of shift (m) and rotation (rad) about `about_S`; along unseen directions that of the belief.
-    information : (6, 6)
-        Inverse covariance by the touches alone, in units of the belief.
-    seen, unseen : (6, r), (6, 6 - r)
-        Orthonormal directions in units of the belief, that the touches know better or worse than it.
-    kept : (n,) bool
-        Touches that were used.
-    deviates : (n,)
-        How far each touch is from what the others say, in sigmas: sqrt of a chi-square of two.
-    chi_square : float
-        Of the touches kept.
-    freedom : int
-    scatter : float
-        Factor by which the covariance was widened, at least 1.
-    """
-
-    T_SP: Floats
-    start: Floats
-    about_S: Floats
+    T_SP: Floats  # (4, 4)
+    start: Floats  # (4, 4) the mount that was started from; what the touches do not show is as it is there
+    about_S: Floats  # (3,) what the unknowns are about: the touches' centroid under `start`, m
+    # (6, 6) of shift (m) and rotation (rad) about `about_S`; along unseen directions that of the belief
     covariance: Floats
-    information: Floats
+    information: Floats  # (6, 6) inverse covariance by the touches alone, in units of the belief
+    # seen, unseen: (6, r) orthonormal directions in units of the belief, that the touches know better
+    # or worse than it
     seen: Floats
     unseen: Floats
-    kept: NDArray[np.bool_]
+    kept: NDArray[np.bool_]  # (n,) touches that were used
+    # (n,) how far each touch is from what the others say, in sigmas: sqrt of a chi-square of two
     deviates: Floats
-    chi_square: float
+    chi_square: float  # of the touches kept
     freedom: int
-    scatter: float
+    scatter: float  # factor by which the covariance was widened, at least 1
 
     @property
     def rank(self) -> int:
@@ -81,36 +60,31 @@ class MountFit:
         return int(self.seen.shape[1])
 
 
-def fit_mount(
-    model: TouchModel, starts: Sequence[Floats], belief: MountBelief, *, robust: bool = True
-) -> MountFit:
+def fit_mount(model: MarkerModel, starts: Sequence[Floats], belief: MountBelief) -> MountFit:
     """
-    Fit the mount by maximum likelihood.
+    Fit the mount by maximum likelihood; touches that the others deny are left out.
 
     Parameters
     ----------
-    model : TouchModel
+    model : MarkerModel
     starts : sequence of (4, 4)
         Mounts to begin from; the one that explains the touches best is taken, and is what the belief is about.
     belief : MountBelief
-    robust : bool
-        Leave out touches that the others deny. Off, all touches count.
 
     Returns
     -------
     MountFit
     """
     problem, T_SP = _best_start(model, starts, belief)
-    kept = np.ones(len(model), dtype=bool)
-    if robust:
-        sound = _sound(np.sqrt(problem.squares(T_SP))) & model.pressed(T_SP)
-        kept = sound if sound.sum() >= _FEWEST else kept
+    kept = _sound(np.sqrt(problem.squares(T_SP))) & model.pressed(T_SP)
+    if kept.sum() < _FEWEST:
+        kept = np.ones(len(model), dtype=bool)
     for _ in range(_ROUNDS):
         part = replace(problem, model=model.chosen(kept))
         T_SP, seen, unseen = _fit_seen(part, T_SP)
         deviates = _deviates(problem, T_SP, seen, kept)
         sound = _sound(deviates) & model.pressed(T_SP)
-        if not robust or (sound == kept).all() or sound.sum() < _FEWEST:
+        if (sound == kept).all() or sound.sum() < _FEWEST:
             break
         kept = sound
     else:  # the last choice was not fitted yet
@@ -119,10 +93,12 @@ def fit_mount(
     return _summary(problem, part, T_SP, seen, unseen, kept)
 
 
-def _best_start(model: TouchModel, starts: Sequence[Floats], belief: MountBelief) -> tuple[Problem, Floats]:
+def _best_start(
+    model: MarkerModel, starts: Sequence[Floats], belief: MountBelief
+) -> tuple[MountProblem, Floats]:
     found = []
     for start in starts:
-        problem = Problem(model, start, apply(start, model.points_P).mean(axis=0), belief)
+        problem = MountProblem(model, start, apply(start, model.points_P).mean(axis=0), belief)
         T_SP = minimise(problem, start, _ALL, robust=True, believing=True)
         # The equations cannot tell a push from a pull; of flipped starts only one is pushed on.
         pulled = float((~model.pressed(T_SP)).sum())
@@ -131,7 +107,7 @@ def _best_start(model: TouchModel, starts: Sequence[Floats], belief: MountBelief
     return problem, T_SP
 
 
-def _fit_seen(problem: Problem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
+def _fit_seen(problem: MountProblem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the mount, and what is seen and unseen, by touches that are all trusted."""
     seen, unseen = _sight(_information(problem, T_SP))
     if unseen.shape[1]:
@@ -150,7 +126,7 @@ def _fit_seen(problem: Problem, T_SP: Floats) -> tuple[Floats, Floats, Floats]:
     return T_SP, seen, unseen
 
 
-def _information(problem: Problem, T_SP: Floats) -> Floats:
+def _information(problem: MountProblem, T_SP: Floats) -> Floats:
     J = problem.jacobian(T_SP).reshape(-1, 6)
     information: Floats = J.T @ J
     return information
@@ -162,7 +138,7 @@ def _sight(information: Floats) -> tuple[Floats, Floats]:
     return vectors[:, values >= 1.0], vectors[:, values < 1.0]
 
 
-def _deviates(problem: Problem, T_SP: Floats, seen: Floats, kept: NDArray[np.bool_]) -> Floats:
+def _deviates(problem: MountProblem, T_SP: Floats, seen: Floats, kept: NDArray[np.bool_]) -> Floats:
     """Return each touch's distance from what the touches kept, without it, predict."""
     r, J = problem.model.residuals(T_SP), problem.jacobian(T_SP) @ seen
     used = J[kept].reshape(-1, seen.shape[1])
@@ -186,7 +162,12 @@ def _sound(deviates: Floats) -> NDArray[np.bool_]:
 
 
 def _summary(
-    problem: Problem, part: Problem, T_SP: Floats, seen: Floats, unseen: Floats, kept: NDArray[np.bool_]
+    problem: MountProblem,
+    part: MountProblem,
+    T_SP: Floats,
+    seen: Floats,
+    unseen: Floats,
+    kept: NDArray[np.bool_],
 ) -> MountFit:
     chi_square = float(part.squares(T_SP).sum())
     freedom = 2 * len(part.model) - seen.shape[1]

@@ -30,18 +30,6 @@ class MarkerTouches:
     """
     Touches of points that are known on the mesh.
 
-    Attributes
-    ----------
-    points_P : (n, 3) float64
-        The markers in the mesh's frame, m.
-    wrenches : (n, 6) float64
-        Fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin: what the tissue does to the probe,
-        compensated for gravity and bias.
-    normals_P : (n, 3) float64 or None
-        Outward unit normals there; None: those of the mesh.
-    names : tuple of str
-        For people; numbered from 1 when left out.
-
     Raises
     ------
     AlignmentError
@@ -49,10 +37,12 @@ class MarkerTouches:
         normal without length.
     """
 
-    points_P: Floats
+    points_P: Floats  # (n, 3) the markers in the mesh's frame, m
+    # (n, 6) Fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin: what the tissue does to the
+    # probe, compensated for gravity and bias
     wrenches: Floats
-    normals_P: Floats | None = None
-    names: tuple[str, ...] = ()
+    normals_P: Floats | None = None  # (n, 3) outward unit normals there; None: those of the mesh
+    names: tuple[str, ...] = ()  # for people; numbered from 1 when left out
 
     def __post_init__(self) -> None:
         points = check_numbers(self.points_P, (-1, 3), "points_P")
@@ -75,27 +65,16 @@ class MarkerTouches:
         return len(self.points_P)
 
 
-@dataclass(frozen=True, eq=False)
-class OnMesh:
+def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats, tuple[str, ...]]:
     """
-    The touches on their mesh.
+    Move each marker to the nearest point of the mesh, and take the normal there if none was given.
 
-    Attributes
-    ----------
-    points_P, normals_P : (n, 3) float64
+    Returns
+    -------
+    points, normals : (n, 3) float64
         The nearest points of the surface, m, and the outward unit normals there.
     warnings : tuple of str
         About markers that lie off the surface, or whose normal disagrees with it.
-    """
-
-    points_P: Floats
-    normals_P: Floats
-    warnings: tuple[str, ...]
-
-
-def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> OnMesh:
-    """
-    Move each marker to the nearest point of the mesh, and take the normal there if none was given.
 
     Raises
     ------
@@ -125,7 +104,7 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> OnMesh:
             if a < _NORMAL_AGREES
         ]
         normals = touches.normals_P
-    return OnMesh(np.asarray(foot), normals, tuple(warnings))
+    return np.asarray(foot), normals, tuple(warnings)
 
 
 def _check_sizes(points: Floats, wrenches: Floats, names: tuple[str, ...]) -> None:

@@ -33,27 +33,15 @@ _DIFFERENCE = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class TouchModel:
-    """
-    Touches, ready to be compared with a mount.
+class MarkerModel:
+    """Touches, ready to be compared with a mount."""
 
-    Attributes
-    ----------
-    points_P, normals_P : (n, 3)
-        On the mesh, m; outward unit normals.
-    wrenches : (n, 6)
-        In S, N and N·m.
-    covariance : (6, 6)
-        Of a wrench's noise, independent from touch to touch.
-    placement : float
-        Standard deviation of where a marker is hit, in each direction of the surface, m.
-    """
-
+    # points_P, normals_P: (n, 3) on the mesh, m; outward unit normals
     points_P: Floats
     normals_P: Floats
-    wrenches: Floats
-    covariance: Floats
-    placement: float
+    wrenches: Floats  # (n, 6) in S, N and N·m
+    covariance: Floats  # (6, 6) of a wrench's noise, independent from touch to touch
+    placement: float  # standard deviation of where a marker is hit, in each direction of the surface, m
 
     def __len__(self) -> int:
         return len(self.points_P)
@@ -63,9 +51,9 @@ class TouchModel:
         """(n, 2, 3) two unit tangents per touch: they turn with the mesh, so the residual is smooth."""
         return across(self.normals_P)
 
-    def chosen(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> TouchModel:
+    def chosen(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> MarkerModel:
         """Return some of the touches."""
-        return TouchModel(
+        return MarkerModel(
             self.points_P[rows], self.normals_P[rows], self.wrenches[rows], self.covariance, self.placement
         )
 

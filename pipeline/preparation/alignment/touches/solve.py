@@ -13,7 +13,7 @@ from contactbench.pipeline.preparation.alignment.rigid import difference, step
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 
     Floats = NDArray[np.float64]
 
@@ -33,21 +33,14 @@ class MountBelief:
     Touches that know a combination of shift and rotation less well than this do not show it: it stays as it
     was. The ratio of the two is also the length by which rotations and shifts are compared: 95 mm by default.
 
-    Parameters
-    ----------
-    shift : float
-        Of the touched points' centroid, m.
-    rotation : float
-        In radians.
-
     Raises
     ------
     AlignmentError
         Not above 0, or beyond 1 m or pi.
     """
 
-    shift: float = 0.005
-    rotation: float = float(np.radians(3.0))
+    shift: float = 0.005  # of the touched points' centroid, m
+    rotation: float = float(np.radians(3.0))  # in radians
 
     def __post_init__(self) -> None:
         for name, most in (("shift", 1.0), ("rotation", np.pi)):
@@ -64,21 +57,12 @@ class MountBelief:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """
-    What is minimised: the touches' residuals, plus the belief about the mount where it is asked for.
+class MountProblem:
+    """What is minimised: the touches' residuals, plus the belief about the mount where it is asked for."""
 
-    Attributes
-    ----------
-    model : TouchModel
-    start : (4, 4) T_SP to start from, which the belief is about
-    about_S : (3,) what steps turn about, m
-    belief : MountBelief
-    """
-
-    model: TouchModel
-    start: Floats
-    about_S: Floats
+    model: MarkerModel
+    start: Floats  # (4, 4) T_SP to start from, which the belief is about
+    about_S: Floats  # (3,) what steps turn about, m
     belief: MountBelief
 
     def mount(self, z: Floats) -> Floats:
@@ -98,13 +82,13 @@ class Problem:
         return np.asarray((self.model.residuals(T_SP) ** 2).sum(axis=1))
 
 
-def minimise(problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool) -> Floats:
+def minimise(problem: MountProblem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool) -> Floats:
     """
     Descend from a mount to the nearest minimum.
 
     Parameters
     ----------
-    problem : Problem
+    problem : MountProblem
     T_SP : (4, 4)
         Where to begin.
     free : (6, r)
@@ -139,7 +123,7 @@ def minimise(problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, beli
     return T_SP
 
 
-def loss(problem: Problem, T_SP: Floats, *, robust: bool, believing: bool) -> float:
+def loss(problem: MountProblem, T_SP: Floats, *, robust: bool, believing: bool) -> float:
     """Return what `minimise` lowers."""
     squares = problem.squares(T_SP)
     total = float((_HALF**2 * np.log1p(squares / _HALF**2) if robust else squares).sum())
@@ -147,7 +131,7 @@ def loss(problem: Problem, T_SP: Floats, *, robust: bool, believing: bool) -> fl
 
 
 def _normal(
-    problem: Problem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool
+    problem: MountProblem, T_SP: Floats, free: Floats, *, robust: bool, believing: bool
 ) -> tuple[Floats, Floats]:
     """Return the gradient (r,) and the normal matrix (r, r) along the free directions."""
     r, J = problem.model.residuals(T_SP), problem.jacobian(T_SP)

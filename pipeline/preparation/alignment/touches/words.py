@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.preparation.alignment.touches.fit import MountFit
-    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
     from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
@@ -111,7 +111,7 @@ def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_
     return tuple(words)
 
 
-def bias_sentence(fit: MountFit, model: TouchModel, belief: MountBelief) -> str:
+def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str:
     """Say how far an error of the calibration, common to all touches, shifts the mount."""
     shift, absorbed = bias_effect(fit, model, belief)
     parts = []
@@ -129,7 +129,7 @@ def bias_sentence(fit: MountFit, model: TouchModel, belief: MountBelief) -> str:
     )
 
 
-def bias_effect(fit: MountFit, model: TouchModel, belief: MountBelief) -> tuple[Floats, Floats]:
+def bias_effect(fit: MountFit, model: MarkerModel, belief: MountBelief) -> tuple[Floats, Floats]:
     """
     Return what a wrench error common to all touches does to the mount.
 

@@ -13,7 +13,7 @@ from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
 
 WIRE_FAULTS = frozenset(
     {
@@ -111,7 +111,7 @@ class Model(ABC):
         self.first_rate = rate or self.own_rate
         self.rate = self.first_rate
         self.streaming = False
-        self.answer: Callable[[], tuple[Reading, Moment]] | None = None
+        self.answer: Callable[[], tuple[SensorReading, FrameMoment]] | None = None
         self._pending = b""
 
     def restart(self) -> None:
@@ -154,7 +154,7 @@ class Model(ABC):
         """Take at most one command off `_pending`, and return the answers; take none while it is not whole."""
 
     @abstractmethod
-    def frame(self, reading: Reading, moment: Moment) -> bytes:
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
         """Return one frame."""
 
     def damaged(self, frame: bytes) -> bytes:
@@ -180,7 +180,7 @@ class Model(ABC):
             raise EmulatorError(f"quirk {str(quirk)!r}: {self.name} cannot have it; there are: {there}.")
         return frozenset(map(Quirk, named))
 
-    def _now(self) -> tuple[Reading, Moment]:
+    def _now(self) -> tuple[SensorReading, FrameMoment]:
         if self.answer is None:
             raise EmulatorError(f"{self.name}: it is asked before it runs: start the emulator first.")
         return self.answer()

@@ -1,4 +1,4 @@
-"""An alignment from typed numbers: a translation in millimetres and a rotation in one of three forms."""
+"""An alignment from typed numbers: a translation in millimetres and a rotation by angles or a matrix."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import (
     check_numbers,
-    check_rotation,
     check_transform,
     make_transform,
 )
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _LARGEST_ANGLE = 360.0
-# As many digits as people type: 0.7071 squared twice is 0.99998.
-_UNIT = 1e-3
 # An eighth of a turn in radians: angles that are whole multiples of it are suspicious as degrees.
 _EIGHTH, _TYPED = np.pi / 4, 2e-3
 
@@ -61,52 +58,6 @@ def from_angles(xyz_mm: ArrayLike, rxyz_deg: ArrayLike) -> Alignment:
     return _typed(R_SP, xyz_mm, how, warnings)
 
 
-def from_quaternion(xyz_mm: ArrayLike, wxyz: ArrayLike) -> Alignment:
-    """
-    Align by a unit quaternion.
-
-    Parameters
-    ----------
-    xyz_mm : (3,) array_like
-        Origin of P in S, mm.
-    wxyz : (4,) array_like
-        The quaternion of R_SP, scalar first, of length 1 within 0.001; it is normalised.
-
-    Raises
-    ------
-    AlignmentError
-        A number is not finite, the length is not 1, or the translation is 10 m or longer.
-    """
-    q = check_numbers(wxyz, (4,), "quaternion")
-    length = float(np.linalg.norm(q))
-    if not abs(length - 1) <= _UNIT:
-        raise AlignmentError(
-            f"quaternion: its length is {length:.6g}, not 1: give w, x, y, z of a unit quaternion."
-        )
-    w, x, y, z = q
-    R_SP = Rotation.from_quat([x, y, z, w]).as_matrix()
-    return _typed(R_SP, xyz_mm, f"turned by the quaternion w {w:g}, x {x:g}, y {y:g}, z {z:g}")
-
-
-def from_matrix(xyz_mm: ArrayLike, R_SP: ArrayLike) -> Alignment:
-    """
-    Align by a rotation matrix.
-
-    Parameters
-    ----------
-    xyz_mm : (3,) array_like
-        Origin of P in S, mm.
-    R_SP : (3, 3) array_like
-        Its columns are the axes of P in S.
-
-    Raises
-    ------
-    AlignmentError
-        Not a rotation within 1e-6, mirroring, not finite, or the translation is 10 m or longer.
-    """
-    return _typed(check_rotation(R_SP), xyz_mm, "turned by the matrix given")
-
-
 def from_transform(T_SP: ArrayLike) -> Alignment:
     """
     Align by a whole transform (4, 4), its translation in metres.
@@ -124,4 +75,4 @@ def _typed(R_SP: Floats, xyz_mm: ArrayLike, how: str, warnings: tuple[str, ...] 
     p = check_numbers(xyz_mm, (3,), "translation")
     x, y, z = p
     sentence = f"Typed: the mesh's origin at ({x:g}, {y:g}, {z:g}) mm in the sensor frame, the mesh {how}."
-    return Alignment(make_transform(R_SP, p / 1e3), Method.TYPED, (sentence,), warnings)
+    return Alignment(make_transform(R_SP, p / 1e3), AlignmentMethod.TYPED, (sentence,), warnings)

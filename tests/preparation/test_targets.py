@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 
-import pytest
 from contact_cases import ball, bundled
 
-from contactbench.pipeline.mesh import MeshError, Probe
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.simplify import Count, simplify
-from contactbench.pipeline.preparation.ladder import ExpectedTouches, contact_error_criterion, fewest_facets
+from contactbench.pipeline.preparation.ladder import ExpectedTouches
+from contactbench.pipeline.preparation.targets import contact_error_criterion, contact_target
 
 QUICK = ExpectedTouches(count=500)
 
@@ -36,20 +35,11 @@ def test_lost_touches_make_it_infinite() -> None:
 
 def test_the_fewest_facets_keep_the_limit_and_a_tighter_one_needs_more() -> None:
     full = bundled("linear", 10_000, regions=True)
-    found = [fewest_facets(full, limit, QUICK) for limit in (0.2e-3, 0.05e-3)]
-    for one, limit in zip(found, (0.2e-3, 0.05e-3), strict=True):
-        assert one.errors[0].part == "region"
-        assert one.errors[0].noisy.p95 <= limit
-        assert one.errors[0].noisy.failed_share <= 0.02
-        # What is reported is what the criterion measures.
-        assert contact_error_criterion(full, QUICK)(one.simplified.probe) == one.errors[0].noisy.p95
-    assert 4 < found[0].simplified.count < found[1].simplified.count < 10_000
-    fewer = simplify(full, Count(round(0.8 * found[1].simplified.count))).probe
-    assert contact_error_criterion(full, QUICK)(fewer) > 0.02e-3
-
-
-def test_a_limit_must_be_above_zero_and_the_work_can_be_cancelled() -> None:
-    with pytest.raises(MeshError, match="above 0"):
-        fewest_facets(ball(), 0.0, QUICK)
-    with pytest.raises(Cancelled):
-        fewest_facets(ball(), 1e-4, QUICK, cancelled=lambda: True)
+    measure = contact_error_criterion(full, QUICK)
+    found = [simplify(full, contact_target(full, limit, QUICK)[0]) for limit in (0.2e-3, 0.05e-3)]
+    assert [measure(one.probe) <= limit for one, limit in zip(found, (0.2e-3, 0.05e-3), strict=True)] == [
+        True
+    ] * 2
+    assert 4 < found[0].count < found[1].count < 10_000
+    fewer = simplify(full, Count(round(0.8 * found[1].count))).probe
+    assert measure(fewer) > 0.02e-3

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _FASTEST = 1  # JSON shrinks to a sixth at any level
 
 
-class ChunkedFile:
+class ChunkFile:
     """
     Write an MCAP file: one system call per chunk, a summary at the end.
 

@@ -1,0 +1,102 @@
+"""Options of a command, made of settings: each field becomes one, with its sentence, its default and its name."""
+
+from __future__ import annotations
+
+import inspect
+from enum import StrEnum
+from functools import partial
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
+
+import typer
+from pydantic import ValidationError
+
+from contactbench.pipeline.console import numbers
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import first_fault
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pydantic.fields import FieldInfo
+
+    from contactbench.pipeline.settings import Only, Settings
+
+
+def options_of(
+    model: type[Settings], only: Only | None = None
+) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:
+    """Return what makes settings of options, and the options: of all fields that have a sentence, or of some."""
+    told = [name for name, field in model.model_fields.items() if field.description is not None]
+    names = told if only is None else only.names
+    return partial(_chosen, model), [_option(name, model.model_fields[name]) for name in names]
+
+
+def _option(name: str, field: FieldInfo) -> inspect.Parameter:
+    """Return the option of one field: numbers are written between commas, and a choice by its name."""
+    extra: Any = field.json_schema_extra
+    kind, default = _kind_of(field), None if field.is_required() else field.default
+    if default == ():
+        default = None
+    elif isinstance(default, tuple):
+        default = ",".join(f"{number:g}" for number in default)
+    elif get_origin(_bare(field)) is Literal:
+        default = kind(default)
+    # Without a name of its own, an option that is only given or not would also have a --no-name.
+    names = [_option_name(name, field)] if kind is bool or extra["option"] else []
+    option = typer.Option(
+        *names, metavar=extra["metavar"] or None, help=field.description, hidden=extra["hidden"]
+    )
+    if field.is_required():
+        default = inspect.Parameter.empty
+    elif default is None:
+        kind = kind | None
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
+    )
+
+
+def _bare(field: FieldInfo) -> Any:
+    """Return the type of a field, without its range, and whether it may be left out."""
+    kind: Any = field.annotation
+    if get_origin(kind) in (Union, UnionType):
+        kind = next(each for each in get_args(kind) if each is not NoneType)
+    while get_origin(kind) is Annotated:
+        kind = get_args(kind)[0]
+    return kind
+
+
+def _kind_of(field: FieldInfo) -> Any:
+    """Return what the command line takes for a field."""
+    extra: Any = field.json_schema_extra
+    kind = _bare(field)
+    if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis:
+        return list[_choice(get_args(kind)[0])]  # type: ignore[misc]
+    return _choice(kind) if get_origin(kind) is Literal else str if extra["metavar"] else kind
+
+
+def _choice(kind: Any) -> Any:
+    return StrEnum("Choice", {each: each for each in get_args(kind)})
+
+
+def _option_name(name: str, field: FieldInfo) -> str:
+    extra: Any = field.json_schema_extra
+    return extra["option"] or f"--{name.replace('_', '-')}"
+
+
+def _chosen(model: type[Settings], **given: Any) -> Settings:
+    """Return settings from options; InputError if one is wrong."""
+    values: dict[str, Any] = {}
+    for name, value in given.items():
+        field = model.model_fields[name]
+        if isinstance(value, str) and get_origin(_bare(field)) is tuple:
+            values[name] = numbers(value, len(get_args(_bare(field))), _option_name(name, field))
+        elif value is not None:
+            values[name] = [each.value for each in value] if isinstance(value, list) else value
+    try:
+        return model.model_validate({n: v.value if isinstance(v, StrEnum) else v for n, v in values.items()})
+    except ValidationError as error:
+        where, what = first_fault(error)
+        name = where.partition(".")[0]
+        option = _option_name(name, model.model_fields[name])
+        raise InputError(f"{option}: {what}: correct it.") from None

@@ -1,0 +1,314 @@
+"""
+What a person chooses for a step, declared once.
+
+A command takes its options from these fields, a session its parameters, a form its rows: one name, one range, one
+default, one sentence. Lengths are in mm and angles in degrees, as people say them. Nothing here takes long to import.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+
+from contactbench.pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Self
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+# Kilometres and whole turns are mistakes, and squares of much more overflow.
+Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+Three = tuple[Number, Number, Number]
+
+# How well orientations are known by what gives them, degrees: 1 sigma about each axis.
+ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
+
+
+@dataclass(frozen=True)
+class Only:
+    """Some fields of settings, as options of a command: the others keep their defaults."""
+
+    names: tuple[str, ...]
+
+    def __init__(self, *names: str) -> None:
+        object.__setattr__(self, "names", names)
+
+
+def knob(
+    default: Any = ..., text: str = "", *, metavar: str = "", option: str = "", hidden: bool = False
+) -> Any:
+    """
+    Return a field that a command has as an option.
+
+    Parameters
+    ----------
+    default
+        Left out: it must be given.
+    text : str
+        One sentence of help.
+    metavar : str
+        How a value is written on the command line, where that is not plain to see.
+    option : str
+        Its name on the command line, if it is not that of the field.
+    hidden : bool
+        Of earlier versions, and without effect.
+    """
+    return Field(
+        default,
+        description=text,
+        json_schema_extra={"metavar": metavar, "option": option, "hidden": hidden},
+    )
+
+
+class Settings(BaseModel):
+    """What is chosen for a step."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @classmethod
+    def checked(cls, values: Mapping[str, Any]) -> Self:
+        """Return settings; InputError, with the first that is wrong."""
+        try:
+            return cls.model_validate(dict(values))
+        except ValidationError as error:
+            where, what = first_fault(error)
+            raise InputError(f"parameter {where}: {what}: correct it.") from error
+
+
+def first_fault(error: ValidationError) -> tuple[str, str]:
+    """Return the field that is wrong, and what is wrong with it."""
+    first = error.errors(include_url=False)[0]
+    return ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
+
+
+def metres(millimetres: float | None) -> float | None:
+    """Return a length in metres; None stays None."""
+    return None if millimetres is None else millimetres / 1000
+
+
+def mount_rotation(degrees: Three | None) -> NDArray[np.float64] | None:
+    """Return R_ES (3, 3) of angles about the fixed axes x, y, z; None stays None."""
+    from scipy.spatial.transform import Rotation
+
+    if degrees is None:
+        return None
+    R: NDArray[np.float64] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
+    return R
+
+
+# ---- orientations ------------------------------------------------------------------------------
+
+
+class MountSettings(Settings):
+    """How the sensor is mounted."""
+
+    mount: Three | None = knob(
+        None,
+        "Orientations are those of the flange, and the sensor is turned on it by these angles about the fixed axes x,"
+        " then y, then z of the flange, degrees.",
+        metavar="RX,RY,RZ",
+    )
+
+    @property
+    def R_ES(self) -> NDArray[np.float64] | None:
+        """(3, 3) orientation of the sensor on the flange; None: nobody said."""
+        return mount_rotation(self.mount)
+
+
+class OrientationSettings(MountSettings):
+    """How orientations in a table are written."""
+
+    euler: str | None = knob(
+        None,
+        "Orientation is rx,ry,rz: angles about these axes, in the order of the columns; xyz: fixed axes, ZYX: axes that"
+        " turn along.",
+        metavar="ORDER",
+    )
+    rotation_vector: bool = knob(False, "Orientation is rx,ry,rz: axis times angle.")
+    radians: bool = knob(False, "Angles are in rad, not degrees.")
+    inverse: bool = knob(False, "Orientations turn world into sensor components (R_SW).")
+
+
+class PosesSettings(OrientationSettings):
+    """How orientations in a table are written, also as the joints of a robot."""
+
+    robot: str | None = knob(
+        None, "Orientation is that of a robot's flange, by joints j1..j6: elfin3.", metavar="NAME"
+    )
+
+
+def _delay(value: object) -> object:
+    try:
+        return value if value in (None, "auto") else float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise ValueError("give seconds, or auto") from None
+
+
+class CapturesSettings(PosesSettings):
+    """How still poses are found in a recording."""
+
+    delay: Annotated[Number | Literal["auto"] | None, BeforeValidator(_delay)] = knob(
+        None,
+        "How much later a wrench is heard than its pose in a recording of both; auto: as the motion in it shows. A"
+        " doubtful estimate is told and not applied [0].",
+        metavar="SECONDS|auto",
+    )
+
+
+# ---- calibration -------------------------------------------------------------------------------
+
+
+def _orientation_noise(value: object) -> object:
+    if value is None or value in ORIENTATION_NOISE_DEG:
+        return None if value is None else ORIENTATION_NOISE_DEG[str(value)]
+    try:
+        degrees = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        degrees = math.nan
+    if not 0 <= degrees < 180:
+        raise ValueError(f"give degrees, at least 0, or one of {', '.join(ORIENTATION_NOISE_DEG)}")
+    return degrees
+
+
+class NoiseSettings(Settings):
+    """How well poses are known; what is left out is estimated from them."""
+
+    noise_force: Number | None = knob(
+        None, "Standard deviation of a pose's mean force, N [estimated from the poses]."
+    )
+    noise_torque: Number | None = knob(None, "The same of its torque, N·m; both or none.")
+    orientation_noise: Annotated[Number | None, BeforeValidator(_orientation_noise)] = knob(
+        None,
+        "How well the orientations are known, 1 sigma about each axis: degrees, or what gives them (robot 0.05, tracker"
+        " 0.2, hand 0.5) [estimated from the poses].",
+        metavar="DEGREES|robot|tracker|hand",
+    )
+
+    @property
+    def orientation_sigma(self) -> float | None:
+        """About each axis, rad; None: it is estimated from the poses."""
+        return None if self.orientation_noise is None else math.radians(self.orientation_noise)
+
+
+class DownSettings(Settings):
+    """Where gravity points."""
+
+    down: Three = knob(
+        (0.0, 0.0, -1.0),
+        "Where gravity points in the world frame of the orientations, of any length; 0,0,1 for a robot that hangs from"
+        " the ceiling and gives its poses in its base's frame.",
+        metavar="X,Y,Z",
+    )
+
+    @property
+    def down_W(self) -> tuple[float, float, float]:
+        """The same as a unit vector in W; InputError if it has no direction."""
+        length = math.hypot(*self.down)
+        if not length > 0:
+            raise InputError("--down has no direction: give where gravity points, such as 0,0,-1.")
+        x, y, z = self.down
+        return x / length, y / length, z / length
+
+
+class TaskSettings(Settings):
+    """The touches that a calibration is for."""
+
+    tip: Three = knob(
+        (0.0, 0.0, 100.0), "Where the probe will be touched, mm in the sensor frame.", metavar="X,Y,Z"
+    )
+    contact_force: Number = knob(10.0, "Force of those touches, N.")
+
+
+class CalibrationSettings(PosesSettings, NoiseSettings, DownSettings, TaskSettings):
+    """How a calibration is made from still poses."""
+
+    estimate_mount: bool = knob(
+        False, "Orientations are those of the flange, and how the sensor is turned on it is unknown."
+    )
+
+    @property
+    def R_ES(self) -> NDArray[np.float64] | None:
+        """(3, 3) orientation of the sensor on the flange; None: nobody said. InputError if it is to be estimated."""
+        if self.mount is not None and self.estimate_mount:
+            raise InputError("--mount and --estimate-mount contradict each other: give one.")
+        return super().R_ES
+
+
+# ---- checks of a calibration -------------------------------------------------------------------
+
+
+class WeightSettings(PosesSettings):
+    """How a known weight is judged."""
+
+    mass: Positive = knob(text="Mass of the weight, kg.")
+    mass_sigma: NotNegative = knob(
+        0.0, "Standard uncertainty of the mass, kg; half of a certificate's U (k = 2)."
+    )
+    certificate: str = knob("", "Number of the weight's certificate.")
+    gravity: Number | None = knob(None, "Local acceleration of free fall, m/s² [9.80665 ± 0.015].")
+    limit: Positive = knob(1.0, "Largest error of scale that passes, %.")
+    reach: Positive = knob(500.0, "Largest plausible distance of the weight's string from the sensor, mm.")
+
+
+class TouchSettings(PosesSettings):
+    """How a press on a known point is judged."""
+
+    point_sigma: NotNegative = knob(2.0, "How well the point is hit, 1 sigma, mm.")
+    limit: Positive = knob(5.0, "Largest error that passes, mm.")
+
+
+class VerificationSettings(OrientationSettings):
+    """How touches of markers are judged."""
+
+    samples: int = knob(50, "Samples of each touch, once it has settled.")
+    repeats: int = knob(1, "Accepted touches wanted of each marker.")
+    touch_force: Positive | None = knob(None, "A touch begins at this |F|, N [2, less for windows below].")
+    release_force: Positive | None = knob(None, "A touch ends below this |F|, N [1, less for windows below].")
+    mean_limit_mm: Positive = knob(1.0, "Largest mean error, mm.", option="--limit-mean")
+    max_limit_mm: Positive = knob(2.0, "Largest error, mm.", option="--limit-max")
+    noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
+    noise_torque: Positive | None = knob(None, "The same of a torque, N·m.")
+    seed: int = knob(0, "Seed of the bootstrap.")
+
+
+# ---- probe -------------------------------------------------------------------------------------
+
+
+class ProbeSettings(Settings):
+    """How a probe is made of a mesh file."""
+
+    units: Literal["auto", "mm", "m", "cm", "in"] = knob(
+        "auto", "Unit of the file's numbers; auto guesses from its size and says why."
+    )
+    close: tuple[Literal["auto", "fair", "ruled", "hull", "open"], ...] = knob(
+        (),
+        "How to close the openings, largest first, once for each; the last one counts for the others. fair: least"
+        " bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]",
+    )
+    alpha: float | None = knob(None, "Size of the shell's facets, mm [1/190 of the size].")
+    gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
+    mount: tuple[Number, Number, Number, Number, Number, Number] | None = knob(
+        None,
+        "Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh stays in its"
+        " own frame.",
+        metavar="X,Y,Z,RX,RY,RZ",
+        option="--place",
+    )
+    facets: int | None = knob(None, "Facets to keep.")
+    max_deviation: float | None = knob(None, "Or: as few as stay within this of the shell, mm.")
+    max_contact_error: float | None = knob(
+        None, "Or: as few as move 95 % of contacts by less than this, mm [0.1]."
+    )
+    forces: tuple[float, float] = knob((8.0, 10.0), "Forces of touches to expect, N.", metavar="LOW,HIGH")
+    engine: Literal["auto", "fast-simplification", "meshlab", "best"] = knob(
+        "auto", "Of earlier versions; without effect.", hidden=True
+    )
+    region_ratio: float = knob(1.0, "Facets per area in regions, over that in the rest.")

@@ -84,58 +84,55 @@ def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike 
 # ---- settings -------------------------------------------------------------------------------------
 
 # Parts of a bundle's controller, their fields, and those of the settings; of a pair, with the place in it.
-_FIELDS: dict[str, dict[str, tuple[str, int | None]]] = {
-    part: {name: (field, None) if isinstance(field, str) else field for name, field in given.items()}
-    for part, given in {
-        "": {
-            "variant": "variant",
-            "desired_force_N": "desired_force",
-            "period_s": "period",
-            "servo_lag_s": "servo_lag",
-        },
-        "force": {
-            "mass_kg": "force_mass",
-            "damping_Nspm": "force_damping",
-            "stiffness_Npm": "force_stiffness",
-            "gain_per_s": "force_gain",
-        },
-        "angle": {
-            "inertia": "angle_inertia",
-            "damping": "angle_damping",
-            "stiffness": "angle_stiffness",
-            "gain_per_s": "angle_gains",
-            "settling_s": "settling",
-        },
-        "lead": {
-            "bandwidth_per_s": "bandwidth",
-            "smoothing_s": "smoothing",
-            "lean_rad": ("lean", 0),
-            "lean_s": ("lean", 1),
-        },
-        "touch": {
-            "approach_speed_mps": "approach_speed",
-            "approach_travel_m": "approach_travel",
-            "retract_speed_mps": "retract_speed",
-            "retract_travel_m": "retract_travel",
-            "touch_force_N": "touch_force",
-            "low_force_N": "low_force",
-            "ramp_s": "ramp",
-            "probing_m": "probing",
-            "attempts": "attempts",
-        },
-        "tool": {
-            "left_force_N": ("calibration_sigma", 0),
-            "left_torque_Nm": ("calibration_sigma", 1),
-            "taring_s": "taring",
-            "gyration_m": "gyration",
-        },
-        "watch": {
-            "stale_s": "stale",
-            "give_up_s": "give_up",
-            "following_s": "following",
-            "max_tilt_rad": "max_tilt",
-        },
-    }.items()
+_FIELDS: dict[str, dict[str, str | tuple[str, int]]] = {
+    "": {
+        "variant": "variant",
+        "desired_force_N": "desired_force",
+        "period_s": "period",
+        "servo_lag_s": "servo_lag",
+    },
+    "force": {
+        "mass_kg": "force_mass",
+        "damping_Nspm": "force_damping",
+        "stiffness_Npm": "force_stiffness",
+        "gain_per_s": "force_gain",
+    },
+    "angle": {
+        "inertia": "angle_inertia",
+        "damping": "angle_damping",
+        "stiffness": "angle_stiffness",
+        "gain_per_s": "angle_gains",
+        "settling_s": "settling",
+    },
+    "lead": {
+        "bandwidth_per_s": "bandwidth",
+        "smoothing_s": "smoothing",
+        "lean_rad": ("lean", 0),
+        "lean_s": ("lean", 1),
+    },
+    "touch": {
+        "approach_speed_mps": "approach_speed",
+        "approach_travel_m": "approach_travel",
+        "retract_speed_mps": "retract_speed",
+        "retract_travel_m": "retract_travel",
+        "touch_force_N": "touch_force",
+        "low_force_N": "low_force",
+        "ramp_s": "ramp",
+        "probing_m": "probing",
+        "attempts": "attempts",
+    },
+    "tool": {
+        "left_force_N": ("calibration_sigma", 0),
+        "left_torque_Nm": ("calibration_sigma", 1),
+        "taring_s": "taring",
+        "gyration_m": "gyration",
+    },
+    "watch": {
+        "stale_s": "stale",
+        "give_up_s": "give_up",
+        "following_s": "following",
+        "max_tilt_rad": "max_tilt",
+    },
 }
 
 
@@ -166,11 +163,13 @@ def settings_of(
 def controller_of(settings: ControlSettings) -> ControllerPart:
     """Return what a bundle holds of settings, beside their limits."""
 
-    def plain(field: str, place: int | None) -> Any:
-        value = getattr(settings, field) if place is None else getattr(settings, field)[place]
+    def plain(field: str | tuple[str, int]) -> Any:
+        if isinstance(field, tuple):
+            return getattr(settings, field[0])[field[1]]
+        value = getattr(settings, field)
         return list(value) if isinstance(value, tuple) else getattr(value, "value", value)
 
-    parts = {part: {name: plain(*field) for name, field in given.items()} for part, given in _FIELDS.items()}
+    parts = {part: {name: plain(field) for name, field in given.items()} for part, given in _FIELDS.items()}
     return ControllerPart.model_validate(parts.pop("") | parts)
 
 
@@ -188,8 +187,10 @@ def _values(controller: ControllerPart) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for part, given in _FIELDS.items():
         holder = getattr(controller, part) if part else controller
-        for name, (field, place) in given.items():
+        for name, field in given.items():
             value = getattr(holder, name)
-            value = tuple(value) if isinstance(value, list) else value
-            found[field] = value if place is None else (*found.get(field, ()), value)
+            if isinstance(field, tuple):
+                found[field[0]] = (*found.get(field[0], ()), value)
+            else:
+                found[field] = tuple(value) if isinstance(value, list) else value
     return found | {"variant": Variant(controller.variant)}

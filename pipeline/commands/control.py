@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 
-class Frames:
+class FrameWriter:
     """
     Writes them, until nobody reads them any more.
 
@@ -212,7 +212,7 @@ def run(
         quaternion_ES=mount_of_angles(turned.mount),
         seed=seed,
     )
-    show = Frames(robot) if frames else None
+    show = FrameWriter(robot) if frames else None
     with ended_by_signals() as ended:
 
         def watch(command: ControlCommand, loop: Loop) -> None:

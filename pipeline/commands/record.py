@@ -412,11 +412,11 @@ def import_bag(
 
     Exit code 1: something in the bag is damaged or missing; what can be read is written.
     """
-    from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
+    from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
     from contactbench.pipeline.robot import Robot
 
     arm = None if joints.robot is None else Robot.named(joints.robot)
-    wanted = Wanted(wrench_topic, pose_topic, arm, base, flange, header_stamps)
+    wanted = ImportChoice(wrench_topic, pose_topic, arm, base, flange, header_stamps)
     with Bar("importing") as bar:
         done = import_ros2(bag, out, wanted, bar)
     _warn(done.warnings)

@@ -30,7 +30,7 @@ from contactbench.pipeline.recording.messages import (
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
-from contactbench.pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
+from contactbench.pipeline.recording.tracks import FlangeColumns, FlangeTrack, WrenchColumns, WrenchTrack
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -220,8 +220,8 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
     RecordingError
         The file cannot be read, is no recording of contactbench, or is too long for arrays.
     """
-    wrenches: dict[str, WrenchRows] = {}
-    flanges: dict[str, FlangeRows] = {}
+    wrenches: dict[str, WrenchColumns] = {}
+    flanges: dict[str, FlangeColumns] = {}
     events: list[Event] = []
     room = MOST_SAMPLES
     with RecordingReader(path, progress) as reader:
@@ -229,9 +229,9 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
         for topic, sample in reader:
             room -= 1
             if isinstance(sample, WrenchSample):
-                wrenches.setdefault(topic, WrenchRows()).add(sample)
+                wrenches.setdefault(topic, WrenchColumns()).add(sample)
             elif isinstance(sample, FlangeSample):
-                flanges.setdefault(topic, FlangeRows()).add(sample)
+                flanges.setdefault(topic, FlangeColumns()).add(sample)
             else:
                 events.append(sample)
             if room < 0:

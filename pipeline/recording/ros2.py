@@ -9,7 +9,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from contactbench.pipeline.recording.ros2_poses import Frames, joint_pose, pose
+from contactbench.pipeline.recording.ros2_poses import TransformTree, joint_pose, pose
 from contactbench.pipeline.recording.ros2_survey import Survey, Topic, ros2_type, survey
 from contactbench.pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
 from contactbench.pipeline.recording.stream import McapMessage, McapStream
@@ -27,7 +27,7 @@ _FEW = 2  # moments at the ends of a bag may be cut in half
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ImportChoice:
     """What to import; what is left out is chosen where there is one of a kind."""
 
     wrench_topic: str | None = None
@@ -51,7 +51,10 @@ class Imported:
 
 
 def import_ros2(
-    bag: Path, out: Path, wanted: Wanted | None = None, progress: Callable[[int, int], None] | None = None
+    bag: Path,
+    out: Path,
+    wanted: ImportChoice | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Imported:
     """
     Make a recording of a bag's wrenches (WrenchStamped) and flange poses (TF, PoseStamped or JointState).
@@ -65,7 +68,7 @@ def import_ros2(
         An MCAP file.
     out : path
         Must not exist.
-    wanted : Wanted, optional
+    wanted : ImportChoice, optional
     progress : callable, optional
         Gets the bytes read so far, and those in the file.
 
@@ -77,7 +80,7 @@ def import_ros2(
     InputError
         The robot's kinematics cannot be loaded.
     """
-    wanted = wanted or Wanted()
+    wanted = wanted or ImportChoice()
     found = survey(bag)
     wrench = _choose_wrench(bag, found.topics, wanted)
     warnings: list[str] = []
@@ -125,10 +128,10 @@ class _Import:
         self,
         writer: RecordingWriter,
         found: Survey,
-        wanted: Wanted,
+        wanted: ImportChoice,
         wrench: Topic,
         where: Topic | None,
-        frames: Frames | None,
+        frames: TransformTree | None,
     ) -> None:
         self._writer, self._begin, self._wanted, self._frames = writer, found.begin, wanted, frames
         self._wrench, self._where = wrench, where
@@ -188,7 +191,9 @@ class _Import:
         self._writer.wrench(sample)
         self.wrenches += 1
 
-    def _take_transforms(self, message: McapMessage, body: Any, frames: Frames, *, static: bool) -> None:
+    def _take_transforms(
+        self, message: McapMessage, body: Any, frames: TransformTree, *, static: bool
+    ) -> None:
         bad = frames.update(body, message.log_time, static=static)
         stamp = None if static else frames.due()
         found = None if stamp is None else frames.pose()
@@ -223,7 +228,7 @@ def _stamp(header: Any) -> int:
     return stamp
 
 
-def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: Wanted) -> Topic:
+def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -> Topic:
     if any(topic.encoding == "ros1" and topic.type == WRENCH_STAMPED for topic in topics):
         raise RecordingError(
             f"{bag}: this is a bag of ROS 1, which writes its messages in another way: convert it to ROS 2 first, with"
@@ -253,7 +258,9 @@ def _choose(
     return there[0] if there else None
 
 
-def _choose_pose(bag: Path, topics: tuple[Topic, ...], wanted: Wanted, warnings: list[str]) -> Topic | None:
+def _choose_pose(
+    bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice, warnings: list[str]
+) -> Topic | None:
     types: tuple[str, ...] = _POSE_TYPES if wanted.robot is None else (JOINT_STATE,)
     if wanted.pose_topic is None and wanted.robot is None:
         types = (TF, POSE_STAMPED)
@@ -267,7 +274,7 @@ def _choose_pose(bag: Path, topics: tuple[Topic, ...], wanted: Wanted, warnings:
     return chosen
 
 
-def _frames(bag: Path, found: Survey, where: Topic, wanted: Wanted) -> Frames:
+def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> TransformTree:
     pairs = found.pairs
     moving = frozenset(child for topic, child in found.moving if topic == where.name)
     if (wanted.base is None) != (wanted.flange is None):
@@ -278,13 +285,13 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: Wanted) -> Frames:
         for name in (base, flange):
             if name not in known:
                 raise RecordingError(f"{bag}: there is no frame {name}; there are: {_some(known)}.")
-        return Frames(base, flange, moving)
+        return TransformTree(base, flange, moving)
     if len(pairs) != 1:
         names = _some({f"{parent} -> {child}" for parent, child in pairs})
         raise RecordingError(
             f"{bag}: say between which frames the flange's pose is: --base NAME --flange NAME. There are: {names}."
         )
-    return Frames(*next(iter(pairs)), moving)
+    return TransformTree(*next(iter(pairs)), moving)
 
 
 def _some(names: set[str]) -> str:

@@ -26,7 +26,7 @@ _MOST_FRAMES = 1000
 _UNIT = 1e-3  # how far from 1 the norm of a quaternion may be
 
 
-class Frames:
+class TransformTree:
     """
     The latest transforms between frames, and the pose of one in another.
 

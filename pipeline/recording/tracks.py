@@ -110,7 +110,7 @@ class FlangeTrack:
     arrivals: NDArray[np.float64]
 
 
-class WrenchRows:
+class WrenchColumns:
     """Collect samples in columns: an hour at 1 kHz fits where 3.6 million objects would not."""
 
     def __init__(self) -> None:
@@ -138,7 +138,7 @@ class WrenchRows:
         )
 
 
-class FlangeRows:
+class FlangeColumns:
     """Collect poses in columns; where samples differ in the number of joints, the missing ones are NaN."""
 
     def __init__(self) -> None:

@@ -23,7 +23,13 @@ from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTE
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
 from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
 from contactbench.pipeline.devices.protocols.ur_pose import UrStream
-from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
+from contactbench.pipeline.devices.protocols.ur_rtde import (
+    Packet,
+    PacketKind,
+    PacketReader,
+    RtdeError,
+    packet,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
 
@@ -136,8 +142,8 @@ _FRAGMENTS = {
         b"ReadRobotState,OK," + b"0," * 12 + b";",
     ],
     "ur": [
-        *(packet(kind) for kind in Kind),
-        *(packet(Kind.DATA, b"\x01" + filler * 104) for filler in (b"\x00", b"\x7f", b"\xff", b"\x3f")),
+        *(packet(kind) for kind in PacketKind),
+        *(packet(PacketKind.DATA, b"\x01" + filler * 104) for filler in (b"\x00", b"\x7f", b"\xff", b"\x3f")),
         *(b"\x00", b"\x00\x6c", b"\x00\x6cU\x01", b"\x0f\xffM", b"\xff\xffU"),
     ],
 }
@@ -326,9 +332,9 @@ def _ur_feed() -> Callable[[bytes], tuple[int, int]]:
 def _running_ur() -> UrStream:
     stream = UrStream(125.0)
     stream.start()
-    stream.feed(packet(Kind.VERSION, b"\x01"), 0.0)
-    stream.feed(packet(Kind.OUTPUTS, b"\x01DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"), 0.0)
-    stream.feed(packet(Kind.START, b"\x01"), 0.0)
+    stream.feed(packet(PacketKind.VERSION, b"\x01"), 0.0)
+    stream.feed(packet(PacketKind.OUTPUTS, b"\x01DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"), 0.0)
+    stream.feed(packet(PacketKind.START, b"\x01"), 0.0)
     return stream
 
 

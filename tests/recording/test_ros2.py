@@ -13,7 +13,7 @@ from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.recording import RecordingError, read_recording
-from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
+from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
 from contactbench.pipeline.recording.ros2_survey import survey
 from contactbench.pipeline.recording.ros2_types import (
     DEFINITIONS,
@@ -101,7 +101,7 @@ def test_wrenches_and_the_only_transform(bag: Bag, tmp_path: Path) -> None:
 
 
 def test_header_stamps(bag: Bag, tmp_path: Path) -> None:
-    import_ros2(bag.close(), tmp_path / "r.mcap", Wanted(header_stamps=True))
+    import_ros2(bag.close(), tmp_path / "r.mcap", ImportChoice(header_stamps=True))
     track = read_recording(tmp_path / "r.mcap").wrenches["/wrench"]
     np.testing.assert_allclose(track.times, np.arange(50) * 0.01 - 0.5, atol=1e-12)
     np.testing.assert_allclose(track.device_time, np.arange(50) * 0.01, atol=1e-12)
@@ -123,11 +123,11 @@ def test_a_chain_of_transforms_with_a_static_one(bag: Bag, tmp_path: Path) -> No
     ):
         import_ros2(file, tmp_path / "r.mcap")
     with pytest.raises(RecordingError, match="no frame tool0; there are: base, cart"):
-        import_ros2(file, tmp_path / "r.mcap", Wanted(base="base", flange="tool0"))
+        import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="base", flange="tool0"))
     with pytest.raises(RecordingError, match="go together"):
-        import_ros2(file, tmp_path / "r.mcap", Wanted(base="base"))
+        import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="base"))
     assert not (tmp_path / "r.mcap").exists()
-    done = import_ros2(file, tmp_path / "r.mcap", Wanted(base="/base", flange="flange"))
+    done = import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="/base", flange="flange"))
     assert done.poses == 20
     poses = read_recording(tmp_path / "r.mcap").flanges["/flange"]
     np.testing.assert_allclose(poses.R_BE[4], (turned(4) * mount).as_matrix(), atol=1e-12)
@@ -143,13 +143,13 @@ def test_joints_with_a_robot(bag: Bag, tmp_path: Path) -> None:
     without = import_ros2(file, tmp_path / "without.mcap")
     assert "say of which robot, --robot NAME" in without.warnings[0]
     assert without.poses == 0
-    done = import_ros2(file, tmp_path / "r.mcap", Wanted(robot=Robot.named("elfin3")))
+    done = import_ros2(file, tmp_path / "r.mcap", ImportChoice(robot=Robot.named("elfin3")))
     assert (done.poses, done.pose_topic) == (5, "/joint_states")
     poses = read_recording(tmp_path / "r.mcap").flanges["/flange"]
     np.testing.assert_array_equal(poses.joints[0], [0.3, -0.4, 1.1, 0.5, -0.7, 0.9])
     np.testing.assert_allclose(poses.p_BE_B[0], [0.528910, 0.113500, 0.556217], atol=2e-5)
     with pytest.raises(RecordingError, match="say of which robot"):
-        import_ros2(file, tmp_path / "x.mcap", Wanted(pose_topic="/joint_states"))
+        import_ros2(file, tmp_path / "x.mcap", ImportChoice(pose_topic="/joint_states"))
 
 
 def test_poses_and_messages_that_are_none(bag: Bag, tmp_path: Path) -> None:
@@ -168,8 +168,8 @@ def test_a_choice_that_is_not_clear_lists_the_topics(bag: Bag, tmp_path: Path) -
     with pytest.raises(RecordingError, match=r"several topics: /ft/wrench .*, /other .*--wrench-topic NAME"):
         import_ros2(file, tmp_path / "r.mcap")
     with pytest.raises(RecordingError, match="/x is none of: /ft/wrench"):
-        import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/x"))
-    assert import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/other")).wrenches == 1
+        import_ros2(file, tmp_path / "r.mcap", ImportChoice(wrench_topic="/x"))
+    assert import_ros2(file, tmp_path / "r.mcap", ImportChoice(wrench_topic="/other")).wrenches == 1
     assert [(topic.name, topic.count) for topic in survey(file).topics] == [("/ft/wrench", 50), ("/other", 1)]
 
 
@@ -220,7 +220,7 @@ def test_hostile_messages_are_refused(kind: str) -> None:
 
 
 STILL = Rotation.identity()
-CHAIN = Wanted(base="base", flange="flange")
+CHAIN = ImportChoice(base="base", flange="flange")
 
 
 def test_links_in_several_messages_make_no_mixtures(bag: Bag, tmp_path: Path) -> None:
@@ -268,7 +268,7 @@ def test_the_time_is_that_of_the_links_between_the_frames(bag: Bag, tmp_path: Pa
         flange = transform(number, "base", "flange", turned(number), (0, 0, number))
         bag.add("/tf", TF, number, {"transforms": [flange, other]})
     file = bag.close()
-    import_ros2(file, tmp_path / "h.mcap", Wanted(base="base", flange="flange", header_stamps=True))
+    import_ros2(file, tmp_path / "h.mcap", ImportChoice(base="base", flange="flange", header_stamps=True))
     track = read_recording(tmp_path / "h.mcap").flanges["/flange"]
     np.testing.assert_allclose(track.times, 0.01 * np.arange(5) - 0.5, atol=1e-12)
     import_ros2(file, tmp_path / "r.mcap", CHAIN)
@@ -302,13 +302,13 @@ def test_a_bad_transform_takes_away_its_own_frame_only(child: str, bag: Bag, tmp
         ),
         (
             ("base flange",),
-            Wanted(base="flange", flange="base"),
+            ImportChoice(base="flange", flange="base"),
             "give --base and --flange the other way round",
         ),
     ],
 )
 def test_frames_that_give_no_pose_are_told(
-    items: tuple[str, ...], wanted: Wanted, why: str, bag: Bag, tmp_path: Path
+    items: tuple[str, ...], wanted: ImportChoice, why: str, bag: Bag, tmp_path: Path
 ) -> None:
     for number in range(3):
         pairs = [item.split() for item in items]

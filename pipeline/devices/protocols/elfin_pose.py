@@ -42,7 +42,7 @@ class FieldOrder(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Fit:
+class OrderFit:
     """How well joints and pose agree under one order."""
 
     order: FieldOrder
@@ -57,7 +57,7 @@ class Fit:
         )
 
 
-def resolve_order(numbers: Sequence[float], robot: Robot) -> Fit:
+def resolve_order(numbers: Sequence[float], robot: Robot) -> OrderFit:
     """
     Find the order of joints and pose.
 
@@ -91,13 +91,13 @@ def resolve_order(numbers: Sequence[float], robot: Robot) -> Fit:
     )
 
 
-def fit_order(numbers: Sequence[float], order: FieldOrder, robot: Robot) -> Fit:
+def fit_order(numbers: Sequence[float], order: FieldOrder, robot: Robot) -> OrderFit:
     """Compare joints and pose under one order; parameters and errors as `resolve_order`."""
     joints, position, R_BT = _split(numbers, order)
     R_BE, p_BE_B = robot.flange_pose(joints)
     off = Rotation.from_matrix(R_BE.T @ R_BT).magnitude()
     x, y, z = R_BE.T @ (position - p_BE_B)
-    return Fit(order, float(np.degrees(off)), (float(x), float(y), float(z)))
+    return OrderFit(order, float(np.degrees(off)), (float(x), float(y), float(z)))
 
 
 def flange_sample(numbers: Sequence[float], order: FieldOrder, time: float, robot: Robot) -> FlangeSample:

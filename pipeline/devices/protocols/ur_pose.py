@@ -17,9 +17,9 @@ from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.ur_rtde import (
-    Kind,
     OutputRecipe,
     Packet,
+    PacketKind,
     PacketReader,
     RtdeError,
 )
@@ -138,7 +138,7 @@ class UrStream:
         samples: list[FlangeSample] = []
         for packet in self._reader.feed(data):
             # The controller may send texts at any time.
-            if packet.kind is Kind.TEXT:
+            if packet.kind is PacketKind.TEXT:
                 continue
             if self._stage is UrStage.STREAMING and self._recipe is not None:
                 values = self._recipe.values(packet)
@@ -149,7 +149,7 @@ class UrStream:
 
     def _converse(self, packet: Packet) -> None:
         if self._stage is UrStage.VERSION:
-            ur_rtde.check_accepted(packet, Kind.VERSION)
+            ur_rtde.check_accepted(packet, PacketKind.VERSION)
             self._output += ur_rtde.outputs_request(self._rate, self._variables)
             self._stage = UrStage.OUTPUTS
         elif self._stage is UrStage.OUTPUTS and self._tool_is_unknown(packet):
@@ -160,12 +160,12 @@ class UrStream:
             self._output += ur_rtde.start_request()
             self._stage = UrStage.START
         else:
-            ur_rtde.check_accepted(packet, Kind.START)
+            ur_rtde.check_accepted(packet, PacketKind.START)
             self._stage = UrStage.STREAMING
 
     def _tool_is_unknown(self, packet: Packet) -> bool:
         """Tell whether an older controller knows all that was asked for but the tool frame."""
-        if packet.kind is not Kind.OUTPUTS or TOOL not in self._variables:
+        if packet.kind is not PacketKind.OUTPUTS or TOOL not in self._variables:
             return False
         types = packet.payload[1:].split(b",")
         return (

@@ -27,7 +27,7 @@ class RtdeError(ProtocolError):
     """A refusal by the controller, or a packet that does not hold what was agreed."""
 
 
-class Kind(IntEnum):
+class PacketKind(IntEnum):
     """Kinds of packets that are sent or understood."""
 
     VERSION = ord("V")
@@ -38,7 +38,7 @@ class Kind(IntEnum):
     TEXT = ord("M")
 
 
-_KINDS = frozenset(Kind)
+_KINDS = frozenset(PacketKind)
 
 _FORMATS = {
     "DOUBLE": "d",
@@ -58,18 +58,18 @@ _FORMATS = {
 class Packet:
     """One packet: its kind and what follows the header."""
 
-    kind: Kind
+    kind: PacketKind
     payload: bytes
 
 
-def packet(kind: Kind, payload: bytes = b"") -> bytes:
+def packet(kind: PacketKind, payload: bytes = b"") -> bytes:
     """Return the bytes of a packet."""
     return _HEADER.pack(_HEADER.size + len(payload), kind) + payload
 
 
 def version_request() -> bytes:
     """Ask for protocol version 2."""
-    return packet(Kind.VERSION, struct.pack(">H", _VERSION))
+    return packet(PacketKind.VERSION, struct.pack(">H", _VERSION))
 
 
 def outputs_request(rate_hz: float, names: tuple[str, ...]) -> bytes:
@@ -87,20 +87,20 @@ def outputs_request(rate_hz: float, names: tuple[str, ...]) -> bytes:
     payload = struct.pack(">d", rate_hz) + ",".join(names).encode("ascii")
     if _HEADER.size + len(payload) > _LONGEST_PACKET:
         raise RtdeError(f"UR: {len(names)} variables are too many for one packet: ask for fewer.")
-    return packet(Kind.OUTPUTS, payload)
+    return packet(PacketKind.OUTPUTS, payload)
 
 
 def start_request() -> bytes:
     """Ask for the stream to begin."""
-    return packet(Kind.START)
+    return packet(PacketKind.START)
 
 
 def pause_request() -> bytes:
     """Ask for the stream to end."""
-    return packet(Kind.PAUSE)
+    return packet(PacketKind.PAUSE)
 
 
-def check_accepted(reply: Packet, kind: Kind) -> None:
+def check_accepted(reply: Packet, kind: PacketKind) -> None:
     """
     Refuse an answer to a version, start or pause request that does not accept it.
 
@@ -137,7 +137,7 @@ class OutputRecipe:
         RtdeError
             A variable is not there or is in use, the types are unknown, or it is another answer.
         """
-        if reply.kind is not Kind.OUTPUTS or len(reply.payload) < 1:
+        if reply.kind is not PacketKind.OUTPUTS or len(reply.payload) < 1:
             raise RtdeError(f"UR: variables were asked for, {_shown(reply)} was answered: reconnect.")
         types = tuple(reply.payload[1:].decode("ascii", "replace").split(","))
         if len(types) != len(names):
@@ -169,7 +169,7 @@ class OutputRecipe:
         RtdeError
             The packet is of another kind, recipe or length, or a number is not finite.
         """
-        if data.kind is not Kind.DATA or len(data.payload) != self.payload_bytes:
+        if data.kind is not PacketKind.DATA or len(data.payload) != self.payload_bytes:
             raise RtdeError(
                 f"UR: {_shown(data)} came instead of {self.payload_bytes} bytes of data: reconnect."
             )
@@ -234,7 +234,9 @@ class PacketReader:
             elif position + size > len(buffer):
                 break
             else:
-                found.append(Packet(Kind(kind), bytes(buffer[position + _HEADER.size : position + size])))
+                found.append(
+                    Packet(PacketKind(kind), bytes(buffer[position + _HEADER.size : position + size]))
+                )
                 self.packets += 1
                 position += size
         del buffer[:position]

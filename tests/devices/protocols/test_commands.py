@@ -23,7 +23,7 @@ from contactbench.pipeline.devices.protocols import (
     ur_rtde,
 )
 from contactbench.pipeline.devices.protocols.ur_pose import UrStream
-from contactbench.pipeline.devices.protocols.ur_rtde import Kind, packet
+from contactbench.pipeline.devices.protocols.ur_rtde import PacketKind, packet
 
 _ALLOWED = (
     rb"AT\+GSD(=STOP)?\r\n",
@@ -69,9 +69,9 @@ def ur_conversation() -> Iterator[bytes]:
     stream = UrStream(125.0)
     yield stream.start()
     for kind, answer in (
-        (Kind.VERSION, b"\x01"),
-        (Kind.OUTPUTS, b"\x07DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"),
-        (Kind.START, b"\x01"),
+        (PacketKind.VERSION, b"\x01"),
+        (PacketKind.OUTPUTS, b"\x07DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"),
+        (PacketKind.START, b"\x01"),
     ):
         stream.feed(packet(kind, answer), 0.0)
         if output := stream.take_output():

@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import (
-    Kind,
     OutputRecipe,
     Packet,
+    PacketKind,
     PacketReader,
     ProtocolError,
     RtdeError,
@@ -33,19 +33,19 @@ NAMES = ("timestamp", "actual_q", "actual_TCP_pose")
 
 
 def data(*, recipe: int = 1, clock: float = 7.5, pose: tuple[float, ...] = POSE) -> bytes:
-    return packet(Kind.DATA, struct.pack(">B13d", recipe, clock, *JOINTS, *pose))
+    return packet(PacketKind.DATA, struct.pack(">B13d", recipe, clock, *JOINTS, *pose))
 
 
 def running(tool: tuple[float, ...] | None = None) -> UrStream:
     stream = UrStream(125.0, tool)
     assert stream.start() == version_request()
-    stream.feed(packet(Kind.VERSION, b"\x01"), 0.0)
+    stream.feed(packet(PacketKind.VERSION, b"\x01"), 0.0)
     assert stream.take_output() == outputs_request(125.0, (*NAMES, "tcp_offset"))
-    stream.feed(packet(Kind.OUTPUTS, b"\x00" + TYPES + b",NOT_FOUND"), 0.0)  # an older controller
+    stream.feed(packet(PacketKind.OUTPUTS, b"\x00" + TYPES + b",NOT_FOUND"), 0.0)  # an older controller
     assert stream.take_output() == outputs_request(125.0, NAMES)
-    stream.feed(packet(Kind.OUTPUTS, b"\x01" + TYPES), 0.0)
+    stream.feed(packet(PacketKind.OUTPUTS, b"\x01" + TYPES), 0.0)
     assert stream.take_output() == start_request()
-    stream.feed(packet(Kind.START, b"\x01"), 0.0)
+    stream.feed(packet(PacketKind.START, b"\x01"), 0.0)
     assert stream.take_output() == b""
     assert stream.stage is UrStage.STREAMING
     return stream
@@ -63,7 +63,7 @@ def test_published_packets() -> None:
 def test_a_stream_byte_by_byte_and_merged() -> None:
     stream = running()
     samples = [sample for byte in data() for sample in stream.feed(bytes([byte]), 2.0)]
-    samples += stream.feed(data() + packet(Kind.TEXT, b"hello") + data(), 3.0)
+    samples += stream.feed(data() + packet(PacketKind.TEXT, b"hello") + data(), 3.0)
     assert [sample.time for sample in samples] == [2.0, 3.0, 3.0]
     assert samples[0].device_time == 7.5
     assert samples[0].joints == pytest.approx(JOINTS)
@@ -85,9 +85,9 @@ def test_the_tool_frame_is_taken_off() -> None:
 @pytest.mark.parametrize(
     ("reply", "message"),
     [
-        (packet(Kind.VERSION, b"\x00"), "refused the version"),
-        (packet(Kind.START, b"\x01"), "a start packet of 1 bytes was answered"),
-        (packet(Kind.VERSION), "a version packet of 0 bytes was answered"),
+        (packet(PacketKind.VERSION, b"\x00"), "refused the version"),
+        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes was answered"),
+        (packet(PacketKind.VERSION), "a version packet of 0 bytes was answered"),
     ],
 )
 def test_a_refused_version(reply: bytes, message: str) -> None:
@@ -110,7 +110,7 @@ def test_a_refused_version(reply: bytes, message: str) -> None:
 def test_refused_variables(types: bytes, message: str) -> None:
     names = ("timestamp", "actual_q", "actual_TCP_pose")
     with pytest.raises(RtdeError, match=message):
-        OutputRecipe.agreed(Packet(Kind.OUTPUTS, types), names)
+        OutputRecipe.agreed(Packet(PacketKind.OUTPUTS, types), names)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_refused_variables(types: bytes, message: str) -> None:
         (data()[:-1].replace(b"\x00\x6c", b"\x00\x6b", 1), "of 104 bytes came instead of 105"),
         (data(clock=math.nan), "not finite"),
         (data(pose=(1e200,) * 6), "is not a pose"),
-        (packet(Kind.START, b"\x01"), "a start packet of 1 bytes came instead"),
+        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes came instead"),
     ],
 )
 def test_data_that_were_not_agreed(wrong: bytes, message: str) -> None:
@@ -131,19 +131,22 @@ def test_data_that_were_not_agreed(wrong: bytes, message: str) -> None:
 def test_variables_of_another_type_are_refused() -> None:
     stream = UrStream(125.0)
     stream.start()
-    stream.feed(packet(Kind.VERSION, b"\x01") + packet(Kind.OUTPUTS, b"\x01DOUBLE,DOUBLE,DOUBLE,DOUBLE"), 0.0)
-    stream.feed(packet(Kind.START, b"\x01"), 0.0)
+    outputs = packet(PacketKind.OUTPUTS, b"\x01DOUBLE,DOUBLE,DOUBLE,DOUBLE")
+    stream.feed(packet(PacketKind.VERSION, b"\x01") + outputs, 0.0)
+    stream.feed(packet(PacketKind.START, b"\x01"), 0.0)
     with pytest.raises(RtdeError, match="six joints and a pose"):
-        stream.feed(packet(Kind.DATA, struct.pack(">B4d", 1, 0, 0, 0, 0)), 0.0)
+        stream.feed(packet(PacketKind.DATA, struct.pack(">B4d", 1, 0, 0, 0, 0)), 0.0)
 
 
 def test_the_controllers_own_tool_gives_the_flange_whatever_was_typed() -> None:
     tool = (0.01, -0.02, 0.2, 0.0, 0.0, math.pi / 2)
     stream = UrStream(125.0, (0.0,) * 6)
     stream.start()
-    stream.feed(packet(Kind.VERSION, b"\x01") + packet(Kind.OUTPUTS, b"\x01" + TYPES + b",VECTOR6D"), 0.0)
-    stream.feed(packet(Kind.START, b"\x01"), 0.0)
-    (sample,) = stream.feed(packet(Kind.DATA, struct.pack(">B19d", 1, 7.5, *JOINTS, *POSE, *tool)), 0.0)
+    stream.feed(
+        packet(PacketKind.VERSION, b"\x01") + packet(PacketKind.OUTPUTS, b"\x01" + TYPES + b",VECTOR6D"), 0.0
+    )
+    stream.feed(packet(PacketKind.START, b"\x01"), 0.0)
+    (sample,) = stream.feed(packet(PacketKind.DATA, struct.pack(">B19d", 1, 7.5, *JOINTS, *POSE, *tool)), 0.0)
     R_BT, R_ET = Rotation.from_rotvec(POSE[3:]), Rotation.from_rotvec(tool[3:])
     assert pytest.approx((R_BT * R_ET.inv()).as_matrix()) == sample.R_BE
     assert sample.R_BE @ np.array(tool[:3]) + sample.p_BE_B == pytest.approx(POSE[:3])
@@ -168,7 +171,7 @@ def test_every_type_is_read() -> None:
     types = ("DOUBLE", "VECTOR6D", "VECTOR3D", "VECTOR6INT32", "UINT64", "UINT32", "INT32", "UINT8", "BOOL")
     recipe = OutputRecipe(9, types, types)
     payload = struct.pack(">Bd6d3d6iQIiB?", 9, *range(1, 17), 2**40, 3, -4, 5, True)
-    values = recipe.values(Packet(Kind.DATA, payload))
+    values = recipe.values(Packet(PacketKind.DATA, payload))
     assert values["VECTOR3D"] == (8.0, 9.0, 10.0)
     assert values["VECTOR6INT32"] == (11, 12, 13, 14, 15, 16)
     assert (values["UINT64"], values["INT32"], values["BOOL"]) == ((2**40,), (-4,), (True,))
@@ -181,7 +184,7 @@ def test_names_that_no_packet_can_carry(names: tuple[str, ...]) -> None:
 
 
 def test_a_pause_is_accepted() -> None:
-    check_accepted(Packet(Kind.PAUSE, b"\x01"), Kind.PAUSE)
+    check_accepted(Packet(PacketKind.PAUSE, b"\x01"), PacketKind.PAUSE)
 
 
 @given(st.lists(st.binary(max_size=200), max_size=20))

@@ -1,6 +1,7 @@
 """Files of poses and recordings with a known truth, written as users write them."""
 
 import csv
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +22,15 @@ TRUTH = GravityModel(
 NOISE = PoseNoise(0.05, 0.002)
 
 
+@cache
+def planned(count: int) -> Any:
+    """Orientations that are well chosen: a search of seconds, done once."""
+    return plan_poses(count, by_hand()).R_WS
+
+
 def weighed(count: int = 9, seed: int = 4) -> Weighing:
     """A 0.62 kg tool in well chosen poses."""
-    return weigh(TRUTH, plan_poses(count, by_hand()).R_WS, NOISE, np.random.default_rng(seed))
+    return weigh(TRUTH, planned(count), NOISE, np.random.default_rng(seed))
 
 
 def spun(count: int = 6, seed: int = 4) -> Weighing:

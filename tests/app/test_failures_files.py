@@ -8,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 from PySide6.QtCore import Qt
@@ -328,7 +327,6 @@ def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
     other = subprocess.Popen([sys.executable, "-c", _KILLED, str(folder)], stdout=subprocess.PIPE, text=True)
     try:
         assert other.stdout.readline().strip() == "recording"
-        time.sleep(0.6)  # half a second may be lost
     finally:
         other.send_signal(signal.SIGKILL)
         other.wait()

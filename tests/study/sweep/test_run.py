@@ -5,10 +5,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
+from waiting import until
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
@@ -142,9 +142,7 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
     with subprocess.Popen(
         [*command, "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
     ) as process:
-        deadline = time.monotonic() + 120
-        while _lines(out) < 3 and time.monotonic() < deadline:
-            time.sleep(0.005)
+        until(lambda: _lines(out) >= 3, 120)
         process.send_signal(getattr(signal, ending))
         assert process.wait(60) in (code, 0)  # a fast machine may have finished
     kept = _lines(out)

@@ -56,7 +56,7 @@ def by_general_optimiser(poses: Stack, sigmas: np.ndarray, start: np.ndarray) ->
 
 
 @given(st.integers(0, 10_000), st.integers(3, 12), st.sampled_from([0.0, 10.0, 500.0]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_exact_readings_give_the_exact_parameters(seed, count, bias):
     rng = rng_of(seed)
     load, R_WS = draw_load(rng), Rotation.random(count, rng).as_matrix()

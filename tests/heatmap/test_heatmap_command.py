@@ -20,6 +20,13 @@ from contactbench.pipeline.session import Session
 N = 300
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _coarsely_drawn():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("contactbench.pipeline.heatmap.finer._MOST", 8_000)
+        yield
+
+
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory):
     """Touches of two places, 6 and 9 N, as wrenches and as a recording with the weight in it."""

@@ -102,7 +102,7 @@ def test_a_silent_line_gives_nothing_in_time(pair: Pair):
     for timeout in (0.0, 0.02):
         before = time.monotonic()
         assert pair.line.read(timeout).data == b""
-        assert timeout - 0.005 <= time.monotonic() - before < 0.5
+        assert timeout - 0.005 <= time.monotonic() - before < 5
 
 
 @both

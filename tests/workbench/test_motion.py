@@ -39,8 +39,8 @@ def begin(bundle):
 def test_the_command_is_given_what_was_chosen():
     chosen = MotionChoice("virtual://arm", "vertical", 5.0, 8.0, "plain").arguments(Path("b.zip"))
     assert " ".join(chosen) == (
-        "bench control run b.zip --robot virtual://arm --motion vertical --period 5 --size 8 --seconds 600 --variant plain"
-        " --unverified --real-time --frames"
+        "bench control run b.zip --robot virtual://arm --motion vertical --period 5 --size 8 --seconds 600"
+        " --variant plain --unverified --real-time --frames"
     )
     assert "--mount 0,0,0" in " ".join(MotionChoice(unturned=True).arguments(Path("b.zip")))
     assert "--variant" not in MotionChoice().arguments(Path("b.zip"))

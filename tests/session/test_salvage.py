@@ -138,7 +138,7 @@ def test_damage_anywhere_keeps_every_record_that_is_not_damaged(whole):
         tried += 1
         lossless += not gone
     assert tried > 140
-    assert lossless > 25
+    assert lossless > 20
 
 
 def test_every_damaged_session_opens_or_is_refused_in_words_and_its_copy_is_sound(whole, tmp_path):

@@ -30,15 +30,13 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(autouse=True, scope="package")
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Prepare each probe once, of a coarser file: it gives the same every time, and is the longest part of a demo."""
+    """Prepare each probe once: it gives the same every time, and is the longest part of a demo."""
     prepare = housing.prepare_probe
 
     @cache
     def made(name: str) -> tuple[Path, Any]:
         folder = tmp_path_factory.mktemp(name)
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(housing, "_CAD_FACETS", 6_000)
-            return folder, prepare(folder, name)
+        return folder, prepare(folder, name)
 
     def copy(folder: Path, name: str) -> Any:
         source, result = made(name)

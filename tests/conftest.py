@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +21,8 @@ os.environ["PYTHONPATH"] = os.pathsep.join(
 def pytest_configure(config):  # noqa: ARG001 - the hook's name
     """Start a screen for this process, where it has none or would share one with another worker."""
     global _screen
+    # Whoever starts us in the background may have had Ctrl-C ignored, which the processes of tests would inherit.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     shared = "PYTEST_XDIST_WORKER" in os.environ
     if shutil.which("Xvfb") is None or (os.environ.get("DISPLAY") and not shared):
         return

@@ -15,6 +15,7 @@ import pytest
 import trimesh
 import typer
 from typer.testing import CliRunner
+from waiting import until
 
 import contactbench
 from contactbench.pipeline import cli
@@ -452,10 +453,7 @@ def test_ctrl_c_leaves_the_old_output(bench):
         assert child.stderr is not None
         child.stdin.write(WRENCHES)
         child.stdin.flush()
-        deadline = time.monotonic() + 60
-        while not list(bench.glob(".contacts.csv.*.tmp")):
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
+        until(lambda: list(bench.glob(".contacts.csv.*.tmp")))
         child.send_signal(signal.SIGINT)
         said = child.stderr.read()
         assert child.wait(60) == 130

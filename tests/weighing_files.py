@@ -1,6 +1,7 @@
 """Files of poses and recordings with a known truth, written as users write them."""
 
 import csv
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -43,9 +44,15 @@ def draw_weighing(
     return weigh(draw_load(rng, mass), R_WS, draw_noise(rng, force_noise, torque_noise), rng)
 
 
+@cache
+def planned(count: int) -> Any:
+    """Orientations that are well chosen: a search of seconds, done once."""
+    return plan_poses(count, by_hand()).R_WS
+
+
 def weighed(count: int = 9, seed: int = 4) -> Weighing:
     """A 0.62 kg tool in well chosen poses."""
-    return weigh(TRUTH, plan_poses(count, by_hand()).R_WS, NOISE, np.random.default_rng(seed))
+    return weigh(TRUTH, planned(count), NOISE, np.random.default_rng(seed))
 
 
 def spun(count: int = 6, seed: int = 4) -> Weighing:

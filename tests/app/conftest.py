@@ -78,6 +78,13 @@ def delete_now():
     QApplication.processEvents()
 
 
+def beats(qtbot, window, count=8):
+    """Let the window go on for some beats of its heart, in which it lays out, draws and ticks."""
+    heart = window.heartbeat
+    first = heart.stalls().beats
+    qtbot.waitUntil(lambda: heart.stalls().beats >= first + count, timeout=60_000)
+
+
 def close(qtbot, window):
     """Close a window, and wait until it is."""
     window.close()

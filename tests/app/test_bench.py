@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import pytest
+from waiting import until
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.session import Session
@@ -50,15 +51,8 @@ def test_messages(qtbot, bench):
 
 
 def test_closing_stops_work_and_frees_the_session(bench, tmp_path):
-    job = bench.jobs.start("Work", lambda _p, cancelled: _until(cancelled))
+    job = bench.jobs.start("Work", lambda _p, cancelled: until(cancelled))
     bench.close()
     assert job.cancelled()
     with Session.open(tmp_path / "s"):
         pass
-
-
-def _until(cancelled):
-    import time
-
-    while not cancelled():
-        time.sleep(0.005)

@@ -4,9 +4,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
+from waiting import until
 
 from contactbench.app import commands
 from contactbench.pipeline.errors import InputError
@@ -83,11 +83,7 @@ def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
         str(tmp_path / "s"),
     ]
     with subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True) as window:
-        deadline = time.monotonic() + 60
-        recent = tmp_path / "home" / "config" / "window.json"
-        while time.monotonic() < deadline and not recent.exists():
-            time.sleep(0.1)
-        assert recent.exists()  # the session is shown
+        until((tmp_path / "home" / "config" / "window.json").exists)  # the session is shown
         window.send_signal(signal.SIGINT)
         _, said = window.communicate(timeout=60)
     assert window.returncode == 0, said

@@ -1,4 +1,4 @@
-import time
+import threading
 
 import pytest
 from PySide6.QtCore import Qt
@@ -210,12 +210,15 @@ def test_a_command_that_failed_is_told_and_leaves_nothing_to_undo(bench, qtbot):
 
 
 def test_undone_before_it_is_over(bench):
+    undone = threading.Event()
+
     def slow(session):
-        time.sleep(0.2)
+        assert undone.wait(10)
         session.set_parameter("calibration.inverse", True)
 
     bench.undo.push(SessionCommand(bench, "turn round", slow))
     bench.undo.undo()
+    undone.set()
     settle(bench)
     assert settings(bench)["calibration.inverse"] is False
     bench.undo.redo()

@@ -8,14 +8,15 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 from PySide6.QtCore import Qt
+from waiting import until
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import bad_meshes
 
 from contactbench.app.pages.gravity_run import Phase
+from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.workbench.steps import Step
@@ -323,12 +324,18 @@ application.run(Path(sys.argv[1]), virtual=True)
 """
 
 
+def on_disk(folder):
+    """Return how many wrenches of an unfinished recording are on the disk."""
+    (file,) = (folder / "raw").glob("unfinished-*.mcap")
+    return sum(len(each.times) for each in read_recording(file).wrenches.values())
+
+
 def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
     folder = tmp_path / "s"
     other = subprocess.Popen([sys.executable, "-c", _KILLED, str(folder)], stdout=subprocess.PIPE, text=True)
     try:
         assert other.stdout.readline().strip() == "recording"
-        time.sleep(0.6)  # half a second may be lost
+        until(lambda: on_disk(folder) > 200)
     finally:
         other.send_signal(signal.SIGKILL)
         other.wait()

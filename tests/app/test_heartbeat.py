@@ -2,6 +2,8 @@ from __future__ import annotations
 
 import time
 
+from waiting import be_slow
+
 from contactbench.app.heartbeat import Heartbeat
 
 
@@ -11,7 +13,7 @@ def test_a_stall_is_measured_and_told(qtbot):
     qtbot.waitUntil(lambda: heart.stalls().beats > 3, timeout=10_000)
     heart.restart()
     with qtbot.waitSignal(heart.stalled, timeout=10_000) as stalled:
-        time.sleep(0.25)
+        be_slow(0.25)
     assert stalled.args[0] >= 0.2
     assert heart.stalls().longest >= 0.2
     assert heart.stalls().worked < 0.2, "asleep is not at work"

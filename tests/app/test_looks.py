@@ -37,7 +37,7 @@ from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.theme import colours, contrast, use_theme
 
-from .conftest import shown
+from .conftest import beats, shown
 
 THEMES = ("light", "dark")
 LONG = 60_000
@@ -146,8 +146,8 @@ def _tabs(page):
 
 def _lasting(qtbot, window):
     """Faults that are still there when everything has found its place."""
-    for _ in range(25):
-        qtbot.wait(80)
+    for _ in range(100):
+        beats(qtbot, window)
         found = _faults(window)
         if not found:
             break

@@ -52,10 +52,10 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     assert not controls.start.isEnabled()
     qtbot.waitUntil(lambda: controls.state.text() == "In contact", timeout=LONG_MS)
     qtbot.waitUntil(lambda: window.run.newest.force_N > 2.0, timeout=LONG_MS)
-    qtbot.wait(300)
-    assert "it touches" in controls.happened.text()
+    qtbot.waitUntil(lambda: "it touches" in controls.happened.text(), timeout=LONG_MS)
     assert controls.force.text().endswith("N")
-    assert np.abs(scene.picture().astype(int) - before).max() > 50  # phantom and arrow have come
+    # Phantom and arrow come.
+    qtbot.waitUntil(lambda: np.abs(scene.picture().astype(int) - before).max() > 50, timeout=LONG_MS)
     assert "wanted 5.00" in window.picture.force.read_out
     controls.stop.click()
     qtbot.waitUntil(lambda: not window.run.running and controls.start.isEnabled(), timeout=LONG_MS)

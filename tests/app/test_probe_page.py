@@ -253,10 +253,9 @@ def test_a_file_can_be_dropped_on_the_page(qtbot, page, tmp_path):
 def test_nothing_is_cut_in_a_narrow_panel(qtbot, page, tmp_path):
     prepared(qtbot, page, egg(tmp_path))
     page.resize(340, 700)
-    qtbot.wait(50)
-    room = page.area.viewport().width()
-    assert page.area.widget().minimumSizeHint().width() <= room
-    assert page.area.widget().width() <= room
+    view, inside = page.area.viewport(), page.area.widget()
+    qtbot.waitUntil(lambda: inside.width() <= view.width() <= 340, timeout=PATIENCE)
+    assert inside.minimumSizeHint().width() <= view.width()
 
 
 def test_a_doubtful_mesh_is_not_praised(qtbot, tmp_path):

@@ -143,7 +143,8 @@ def test_a_stroke_that_is_drawn_while_the_regions_are_kept_is_not_lost(window, q
     draw(window, (0, 0, 1))  # is kept soon, while the next stroke is drawn
     scene.brush_began.emit(pick(page, 1, 0, 0), NO_KEY)
     before = int((page.work.model.labels > 0).sum())
-    qtbot.wait(300)
+    if page.keeper._timer.isActive():
+        qtbot.waitSignal(page.keeper._timer.timeout, timeout=LONG).wait()
     assert page.work.drawing
     assert page.keeper.dirty, "kept would be half a stroke"
     scene.brush_moved.emit(pick(page, 0.9, 0.4, 0))

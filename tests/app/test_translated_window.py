@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from contactbench.app import translation
 from contactbench.pipeline.workbench.steps import Step
 
-from .conftest import shown
+from .conftest import beats, shown
 
 _AROUND_PX = {QCheckBox: 24, QRadioButton: 24, QComboBox: 26}
 
@@ -77,11 +77,10 @@ def test_what_is_cut_is_found(qtbot):
 
 def _still_cut(qtbot, window):
     """Return what is cut once the page is laid out and filled: both take a moment."""
-    qtbot.wait(100)
-    for _ in range(30):
+    for _ in range(100):
+        beats(qtbot, window)
         if not (found := list(cut(window))):
             break
-        qtbot.wait(100)
     return found
 
 

@@ -18,7 +18,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.controls import guard_wheels
 
-from .conftest import PlainPage, close, shown
+from .conftest import PlainPage, beats, close, shown
 
 LONG = 30_000
 
@@ -94,7 +94,7 @@ def test_what_a_page_raises_is_told_and_the_window_lives(
     window = make_window()
     shown(qtbot, window, lambda: window.sessions.new(tmp_path / "s"))
     qtbot.waitUntil(lambda: bool(seen), timeout=10_000)
-    qtbot.wait(200)
+    beats(qtbot, window, 10)
     assert len(seen) == 1  # not thirty times a second
     window.show_step(Step.GRAVITY)
     assert window.pages.step is Step.GRAVITY
@@ -343,7 +343,10 @@ def test_a_scene_that_cannot_be_made_gives_the_session_back(qtbot, make_window, 
 def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened, monkeypatch):
     window = opened
 
+    tried = []
+
     def refuses(*_, **__):
+        tried.append(1)
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     texts = window.messages.texts
@@ -352,7 +355,8 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
             full.setattr(os, name, refuses)
         window.bench.do("Noting", lambda session: session.note("lost"))
         qtbot.waitUntil(lambda: any("goes on by itself" in text for text in texts()), timeout=LONG)
-        qtbot.wait(2500)
+        times = len(tried)
+        qtbot.waitUntil(lambda: len(tried) > times + 1, timeout=LONG)  # it goes on trying
         assert window.bench.desk.refuses
     qtbot.waitUntil(lambda: any("can be written again" in text for text in texts()), timeout=LONG)
     assert not window.bench.desk.refuses

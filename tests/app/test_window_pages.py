@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 
 from contactbench.pipeline.workbench.steps import Step
 
-from .conftest import close, shown
+from .conftest import beats, close, shown
 
 
 def test_every_page_is_visited_on_the_virtual_bench_without_a_complaint(qtbot, make_window):
@@ -18,11 +18,11 @@ def test_every_page_is_visited_on_the_virtual_bench_without_a_complaint(qtbot, m
         qtbot.mouseClick(window.steps.row(step), Qt.MouseButton.LeftButton)
         assert window.pages.step is step
         assert window.pages.current.step is step
-        qtbot.wait(150)
+        beats(qtbot, window)
         assert window.pages.current.minimumSizeHint().width() <= 400, step
     assert [text for text in window.messages.texts() if "went wrong" in text] == []
     window.resize(1280, 800)
-    qtbot.wait(50)
+    beats(qtbot, window)
     assert (window.width(), window.height()) == (1280, 800)  # nothing asks for more
     close(qtbot, window)
     assert "error" not in window.messages.weights()

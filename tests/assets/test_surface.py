@@ -9,7 +9,7 @@ def probe(request):
     return surface(request.param)
 
 
-def grid(seed, n=20_000):
+def grid(seed, n=4_000):
     rng = np.random.default_rng(seed)
     return rng.uniform(0, 2 * np.pi, n), rng.uniform(0.002, 0.998, n)
 
@@ -32,7 +32,7 @@ def test_normals_agree_with_central_differences_of_points(probe):
 
 
 def test_second_derivatives_agree_with_differences_of_the_first(probe):
-    phi, t = grid(2, 5000)
+    phi, t = grid(2, 1000)
     h = 1e-6
     jet, scale = probe.jet(phi, t), 1.0
     right, left = probe.jet(phi + h, t), probe.jet(phi - h, t)
@@ -59,35 +59,35 @@ def test_normals_are_unit_and_continuous_across_both_ends(probe):
 
 def test_normals_turn_gradually_everywhere(probe):
     """C1: over a hundredth of a millimetre no normal turns more than a 0.8 mm rounding would turn it."""
-    points, normals, phi, t = probe.sample(20_000, np.random.default_rng(3))
+    points, normals, phi, t = probe.sample(4_000, np.random.default_rng(3))
     jet = probe.jet(phi, t)
     step_t = 1e-5 / np.linalg.norm(jet.t, axis=1)
     # Near the segment's ends one step in phi may be a long way round; half a degree is plenty there.
     step_phi = np.minimum(1e-5 / np.maximum(np.linalg.norm(jet.phi, axis=1), 1e-9), 0.01)
     for other in (probe.normals(phi, np.clip(t + step_t, 0, 1)), probe.normals(phi + step_phi, t)):
         assert np.linalg.norm(other - normals, axis=1).max() < 1e-5 / 0.8e-3
-    assert points.shape == (20_000, 3)
+    assert points.shape == (4_000, 3)
 
 
 def test_flange_rim_curvatures_are_those_of_a_cylinder():
     probe = surface("linear")
     _, _, phi, t = probe.sample(
-        2000, np.random.default_rng(4), where=lambda p, n: (np.abs(p[:, 2] - 4e-3) < 1e-4) & (n[:, 2] < 0.1)
+        100, np.random.default_rng(4), where=lambda p, n: (np.abs(p[:, 2] - 4e-3) < 1e-4) & (n[:, 2] < 0.1)
     )
     curvatures = probe.principal_curvatures(phi, t)
     assert np.allclose(curvatures, [0.0, 1 / 25e-3], atol=1e-6)
 
 
 def test_no_rounding_is_tighter_than_a_millimetre(probe):
-    phi, t = np.meshgrid(np.linspace(0, np.pi / 2, 181), np.linspace(0, 1, 2001))
+    phi, t = np.meshgrid(np.linspace(0, np.pi / 2, 91), np.linspace(0, 1, 1001))
     assert np.abs(probe.principal_curvatures(phi.ravel(), t.ravel())).max() < 1 / 1e-3
 
 
 def test_samples_are_on_the_surface_and_uniform_by_area(probe):
-    points, normals, phi, t = probe.sample(200_000, np.random.default_rng(5))
+    points, normals, phi, t = probe.sample(20_000, np.random.default_rng(5))
     assert np.array_equal(points, probe.points(phi, t))
     assert np.array_equal(normals, probe.normals(phi, t))
-    assert np.abs(probe.project(points[:5000])[2]).max() < 1e-12
+    assert np.abs(probe.project(points[:1000])[2]).max() < 1e-12
     # The closed base is a disc: 22 mm of its radius are flat, and the share inside it is known.
     base = (normals[:, 2] < -0.99) & (points[:, 2] < 1e-4)
     radius = np.hypot(*points[base, :2].T)
@@ -111,7 +111,7 @@ def test_sampling_is_repeatable_and_can_be_restricted(probe):
 
 @pytest.mark.parametrize("offset", [-4e-4, -1e-5, 1e-5, 1e-3])
 def test_projection_of_offset_points_returns_the_foot(probe, offset):
-    points, normals, _, _ = probe.sample(5000, np.random.default_rng(7))
+    points, normals, _, _ = probe.sample(1000, np.random.default_rng(7))
     foot, normal, distance = probe.project(points + offset * normals)
     assert np.abs(foot - points).max() < 1e-9
     assert np.abs(normal - normals).max() < 1e-6
@@ -120,15 +120,15 @@ def test_projection_of_offset_points_returns_the_foot(probe, offset):
 
 def test_projection_far_away_is_orthogonal_and_no_worse_than_the_samples(probe):
     rng = np.random.default_rng(8)
-    samples, normals, _, _ = probe.sample(20_000, rng)
-    query = samples[:2000] + 30e-3 * normals[:2000]
+    samples, normals, _, _ = probe.sample(4_000, rng)
+    query = samples[:500] + 30e-3 * normals[:500]
     foot, normal, distance = probe.project(query)
     gap = query - foot
-    nearest = np.min([np.linalg.norm(query - s, axis=1) for s in samples[::40]], axis=0)
+    nearest = np.min([np.linalg.norm(query - s, axis=1) for s in samples[::10]], axis=0)
     assert (np.abs(distance) <= nearest + 1e-12).all()
     slant = np.linalg.norm(np.cross(gap, normal), axis=1)
     # A few of these points are at a centre of curvature, where the foot itself is not determined.
-    assert np.quantile(slant, 0.998) < 1e-9
+    assert np.quantile(slant, 0.99) < 1e-9
     assert slant.max() < 1e-4
 
 

@@ -173,7 +173,7 @@ def test_bumped_poses_are_no_mistake(given, which):
 
 def test_two_bumps_do_not_hide_one_another():
     rng = np.random.default_rng(7)
-    for seed in range(12):
+    for seed in range(4):
         which = np.sort(rng.choice(8, 2, replace=False)).tolist()
         poses = held(turned(8, seed), seed=seed)
         for index in which:

@@ -431,17 +431,17 @@ def load_or_refuse(data: bytes, file: Path) -> bool:
     return True
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_flipped_bits(good, tmp_path, seed):
     file = saved(good, tmp_path, created=WHEN)
     data, chance = file.read_bytes(), np.random.default_rng(seed)
     loaded = 0
-    for _ in range(150):
+    for _ in range(40):
         changed = bytearray(data)
         for _ in range(chance.choice([1, 1, 1, 3, 20])):
             changed[chance.integers(len(data))] ^= 1 << int(chance.integers(8))
         loaded += load_or_refuse(bytes(changed), file)
-    assert loaded < 100
+    assert loaded < 27
 
 
 VALUES: list[Any] = [
@@ -462,10 +462,10 @@ def pick(chance: np.random.Generator, values: list[Any]) -> Any:
     return values[chance.integers(len(values))]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_swapped_values(content, tmp_path, seed):
     chance = np.random.default_rng(seed)
-    for _ in range(150):
+    for _ in range(40):
         changed = copy.deepcopy(content)
         for _ in range(chance.choice([1, 1, 2, 5])):
             place, key = pick(chance, list(places(changed)))
@@ -491,7 +491,7 @@ def data(good, tmp_path_factory) -> bytes:
     return saved(good, tmp_path_factory.mktemp("good")).read_bytes()
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(start=st.integers(0, 40_000), stop=st.integers(0, 40_000), middle=st.binary(max_size=30))
 def test_cut_and_pasted(tmp_path_factory, data, start, stop, middle):
     file = tmp_path_factory.getbasetemp() / "pasted.json"

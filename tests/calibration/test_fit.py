@@ -57,7 +57,7 @@ def by_general_optimiser(poses: Stack, sigmas: np.ndarray, start: np.ndarray) ->
 
 
 @given(st.integers(0, 10_000), st.integers(3, 12), st.sampled_from([0.0, 10.0, 500.0]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_exact_readings_give_the_exact_parameters(seed, count, bias):
     rng = rng_of(seed)
     load, R_WS = draw_load(rng), Rotation.random(count, rng).as_matrix()
@@ -106,7 +106,7 @@ def test_a_noisy_axis_counts_less():
     rng = rng_of(3)
     noise = PoseNoise([0.01, 0.01, 1.0], 10.0)
     off = []
-    for _ in range(40):
+    for _ in range(20):
         weighing = weigh(draw_load(rng), Rotation.random(12, rng).as_matrix(), noise, rng)
         poses = stack(weighing.poses)
         fit = maximise(poses, noise.sigmas, two_stage(poses))
@@ -119,7 +119,7 @@ def test_torques_help_to_find_the_weight():
     rng = rng_of(4)
     noise = PoseNoise(0.3, 0.0005)
     first, both = [], []
-    for _ in range(60):
+    for _ in range(30):
         weighing = weigh(draw_load(rng, (0.5, 0.5)), Rotation.random(8, rng).as_matrix(), noise, rng)
         poses = stack(weighing.poses)
         start = two_stage(poses)
@@ -172,7 +172,7 @@ def test_held_parameters_stay_and_are_called_unknown():
 def test_estimated_noise_scatters_as_its_degrees_of_freedom_say():
     rng = rng_of(8)
     squares, freedoms, counted = np.zeros(2), np.zeros(2), 0
-    for _ in range(150):
+    for _ in range(60):
         weighing = draw_weighing(rng, poses=(4, 10))
         poses = stack(weighing.poses)
         _, noise = unknown(poses)
@@ -184,13 +184,13 @@ def test_estimated_noise_scatters_as_its_degrees_of_freedom_say():
     chance = 3.5 * np.sqrt(2 / freedoms)
     assert (np.abs(squares / freedoms - 1) < chance).all()
     assert freedoms.sum() == pytest.approx(counted, rel=0.05)
-    assert chance.max() < 0.12
+    assert chance.max() < 0.2
 
 
 def test_poses_kept_for_being_near_do_not_make_the_noise_look_small():
     rng = rng_of(9)
     ratios = []
-    for _ in range(5):
+    for _ in range(3):
         noise = PoseNoise(0.1, 0.003)
         weighing = weigh(draw_load(rng), Rotation.random(200, rng).as_matrix(), noise, rng)
         poses = stack(weighing.poses)

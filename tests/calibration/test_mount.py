@@ -128,7 +128,7 @@ def wrench_covariance(result, R_WE):
 
 
 @pytest.mark.parametrize("known", [True, False])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_without_noise_everything_is_recovered(seed, known):
     case = set_up(np.random.default_rng(seed), noisy=0.0)
     result = case.estimate(known=known)
@@ -141,7 +141,7 @@ def test_without_noise_everything_is_recovered(seed, known):
 def test_errors_are_those_of_the_bound_and_of_the_covariance():
     rng = np.random.default_rng(11)
     over_bound, turn, joint, deviates, refusals = [], [], [], [], 0
-    for _ in range(150):
+    for _ in range(50):
         case = set_up(rng)
         result = case.estimate()
         error = case.error(result)
@@ -151,18 +151,18 @@ def test_errors_are_those_of_the_bound_and_of_the_covariance():
         deviates += result.calibration.deviates.ravel().tolist()
         refusals += refused(result)
     ratio = np.sqrt(np.mean(np.square(over_bound), axis=0))
-    # 150 sets: 1 +- 0.06 for a ratio, 0.95 +- 0.018 for a coverage; three times that.
-    assert ratio == pytest.approx(np.ones(3), abs=0.18)
-    assert 0.89 < np.mean(turn) < 0.99
-    assert 0.89 < np.mean(joint) < 0.99
+    # 50 sets: 1 +- 0.1 for a ratio, 0.95 +- 0.03 for a coverage; three times that.
+    assert ratio == pytest.approx(np.ones(3), abs=0.3)
+    assert 0.86 < np.mean(turn) <= 1
+    assert 0.86 < np.mean(joint) <= 1
     assert np.mean(np.square(deviates)) == pytest.approx(1, abs=0.1)  # each pose as if it were left out
-    assert refusals < 20  # light loads and much noise: more than 1.5 mm at the contact
+    assert refusals < 8  # light loads and much noise: more than 1.5 mm at the contact
 
 
 def test_noise_that_is_estimated_covers_too():
     rng = np.random.default_rng(12)
     turn, joint = [], []
-    for _ in range(80):
+    for _ in range(25):
         # So few that the noise is uncertain by a fifth and more.
         case = set_up(rng, Rotation.random(int(rng.integers(5, 8)), random_state=rng).as_matrix())
         result = case.estimate(known=False)
@@ -176,7 +176,7 @@ def test_noise_that_is_estimated_covers_too():
 def test_noise_that_was_given_too_small_costs_no_poses_but_widens():
     rng = np.random.default_rng(13)
     turn = []
-    for _ in range(25):
+    for _ in range(8):
         case = set_up(rng, noisy=4.0, mass=2.0)
         result = case.estimate()
         assert not result.calibration.plausible
@@ -187,7 +187,7 @@ def test_noise_that_was_given_too_small_costs_no_poses_but_widens():
 
 def test_narrow_valleys_are_followed_to_the_end():
     rng = np.random.default_rng(16)
-    for _ in range(30):
+    for _ in range(4):
         axes = np.append(rng.normal(size=(8, 2)), np.zeros((8, 1)), axis=1)
         case = set_up(rng, turned_about(axes, np.full(8, 4.0), rng), mass=2.0)
         calibration = case.estimate().calibration
@@ -226,7 +226,7 @@ def test_the_same_poses_give_the_same_answer():
 )
 def test_poses_that_cannot_show_the_mount_are_refused(poses, word, known):
     rng = np.random.default_rng(21)
-    for _ in range(8):
+    for _ in range(3):
         tilt = 0.0 if poses is spun else 3.0
         case = set_up(rng, poses(rng, int(rng.integers(5, 11))), tilt=tilt)
         result = case.estimate(known=known)
@@ -240,7 +240,7 @@ def test_poses_that_cannot_show_the_mount_are_refused(poses, word, known):
 @pytest.mark.parametrize("known", [True, False])
 def test_without_weight_no_rotation_is_claimed(known):
     rng = np.random.default_rng(22)
-    for _ in range(10):
+    for _ in range(4):
         case = set_up(rng, mass=1e-6)
         result = case.estimate(known=known)
         assert refused(result)
@@ -252,7 +252,7 @@ def test_without_weight_no_rotation_is_claimed(known):
 
 def test_a_weight_that_is_not_felt_is_within_its_uncertainty():
     rng = np.random.default_rng(26)
-    for _ in range(10):
+    for _ in range(4):
         case = set_up(rng, Rotation.random(8, random_state=rng).as_matrix(), mass=0.012)
         case.noise = PoseNoise(0.1, 0.002)
         clean = case.model.predict(case.R_WE @ case.R_SE.T)
@@ -294,7 +294,7 @@ def test_the_axis_that_is_not_seen_is_named_in_the_flange():
 def test_bumped_poses_are_named_and_do_not_bend_the_answer(known):
     rng = np.random.default_rng(31)
     inside, false_alarms = [], 0
-    for _ in range(25):
+    for _ in range(8):
         n = int(rng.integers(8, 13))
         case = set_up(rng, Rotation.random(n, random_state=rng).as_matrix())
         bumped = set(rng.choice(n, 2, replace=False).tolist())
@@ -310,7 +310,7 @@ def test_bumped_poses_are_named_and_do_not_bend_the_answer(known):
         inside.append(
             square_error(case.error(result)[12:], result.rotation_covariance) < rotation_ellipsoid(result)
         )
-    assert false_alarms <= 2
+    assert false_alarms <= 1
     assert np.mean(inside) > 0.8
 
 
@@ -331,7 +331,7 @@ def test_a_rotation_that_few_poses_agree_on_is_refused(n, bumped):
 @pytest.mark.parametrize("sign", [(-1, 1, 1), (-1, -1, -1)])
 def test_a_left_handed_frame_and_a_negated_wrench_are_refused_in_words(sign, known):
     rng = np.random.default_rng(32)
-    for _ in range(5):
+    for _ in range(2):
         case = set_up(rng, mass=1.0)
         case.wrenches *= np.tile(sign, 2)
         result = case.estimate(known=known)
@@ -343,7 +343,7 @@ def test_a_left_handed_frame_and_a_negated_wrench_are_refused_in_words(sign, kno
 @pytest.mark.parametrize("known", [True, False])
 def test_orientations_the_wrong_way_round_are_refused(known):
     rng = np.random.default_rng(33)
-    for _ in range(15):
+    for _ in range(4):
         case = set_up(rng, mass=1.0)
         case.R_WE = case.R_WE.transpose(0, 2, 1).copy()
         assert refused(case.estimate(known=known))
@@ -367,7 +367,7 @@ def test_the_calibration_is_that_of_the_sensor():
 def test_the_joint_covariance_covers_at_orientations_that_were_not_posed():
     rng = np.random.default_rng(42)
     inside = []
-    for _ in range(60):
+    for _ in range(25):
         case = set_up(rng, mass=0.5)
         result = case.estimate()
         R_WE = Rotation.random(2, random_state=rng).as_matrix()
@@ -375,7 +375,7 @@ def test_the_joint_covariance_covers_at_orientations_that_were_not_posed():
         errors = result.calibration.model.compensate(R_WE @ result.R_SE.T, read)
         covariances = wrench_covariance(result, R_WE)
         inside += [square_error(e, C) < chdtri(6, 0.05) for e, C in zip(errors, covariances, strict=True)]
-    assert 0.88 < np.mean(inside) < 0.99
+    assert 0.85 < np.mean(inside) <= 1
 
 
 def test_the_weight_is_known_where_the_mount_is_not():

@@ -70,7 +70,7 @@ def test_reference_sets(name):
 
 def test_four_poses_within_ten_degrees_are_weak():
     conditions = []
-    for seed in range(60):
+    for seed in range(25):
         rng = np.random.default_rng(seed)
         sight = seen(turns(*rng.uniform(-10, 10, (4, 3))) @ Rotation.random(None, rng).as_matrix())
         assert (sight.force_rank, sight.torque_rank) == (6, 6)
@@ -84,7 +84,7 @@ def test_four_poses_within_ten_degrees_are_weak():
 
 
 @given(st.integers(0, 10_000), st.integers(2, 12), st.floats(0.05, 3))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 def test_ranks_and_conditions_are_those_of_the_stacked_equations(seed, count, spread):
     rng = np.random.default_rng(seed)
     axes = spread * rng.standard_normal((count, 3))
@@ -190,7 +190,7 @@ def test_spun_poses_hide_the_centre_of_mass_from_a_calibration():
 def test_a_weight_hidden_by_the_poses_is_not_called_none(tilt):
     """A hand that turns a probe about the vertical tilts it by some tenths of a degree."""
     silent = 0
-    for seed in range(30):
+    for seed in range(8):
         rng = np.random.default_rng(seed)
         spins = Rotation.from_rotvec(np.outer(rng.uniform(0, 2 * np.pi, 8), [0, 0, 1.0]))
         wobble = Rotation.from_rotvec(np.radians(tilt) * rng.standard_normal((8, 3)))

@@ -33,7 +33,7 @@ def one(values, convention: Convention) -> np.ndarray:
 
 
 @given(ANGLES, st.sampled_from(ORDERS))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 def test_euler_angles_about_fixed_and_turning_axes(angles, order):
     first, second, third = (about(axis, angle) for axis, angle in zip(order, angles, strict=True))
     fixed = one(angles, Convention(Kind.EULER, order=order))
@@ -58,7 +58,7 @@ def test_orders_that_are_none_are_refused(order):
 
 
 @given(ANGLES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_every_kind_names_the_same_rotation(angles):
     turn = Rotation.from_euler("xyz", angles, degrees=True)
     R_WS = turn.as_matrix()

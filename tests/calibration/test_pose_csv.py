@@ -353,7 +353,7 @@ samples = st.builds(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(poses=st.lists(samples, min_size=1, max_size=4))
 def test_written_poses_come_back(poses, tmp_path_factory):
     file = tmp_path_factory.mktemp("poses") / "poses.csv"

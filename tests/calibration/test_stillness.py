@@ -92,15 +92,15 @@ class Tally:
 @pytest.mark.parametrize(
     ("kinds", "seeds"),
     [
-        ({}, 6),
-        ({"hum": 0.3, "quantised": True, "missing": 0.05}, 5),
-        ({"hum": 0.3, "mains": 60.0, "jitter": 0.3}, 4),
-        ({"spikes": 0.005}, 4),
-        ({"corner": 1.0}, 5),
-        ({"corner": 0.05}, 4),
-        ({"rate": 100.0}, 4),
-        ({"rate": 1000.0, "poses": 4}, 2),
-        ({"white": WHITE / 20, "quantised": True}, 4),  # the median deviation is 0
+        ({}, 2),
+        ({"hum": 0.3, "quantised": True, "missing": 0.05}, 2),
+        ({"hum": 0.3, "mains": 60.0, "jitter": 0.3}, 2),
+        ({"spikes": 0.005}, 2),
+        ({"corner": 1.0}, 2),
+        ({"corner": 0.05}, 2),
+        ({"rate": 100.0}, 2),
+        ({"rate": 1000.0, "poses": 4}, 1),
+        ({"white": WHITE / 20, "quantised": True}, 2),  # the median deviation is 0
     ],
     ids=lambda value: "-".join(value) or "clean" if isinstance(value, dict) else None,
 )
@@ -128,16 +128,16 @@ def test_a_sensor_that_filters_its_readings_is_learnt():
 
 
 def test_bumps_are_not_captured():
-    tally = Tally(range(5), bumps=1.0, dwell=6.0)
-    assert tally.poses == 40
+    tally = Tally(range(2), bumps=1.0, dwell=6.0)
+    assert tally.poses == 16
     assert (tally.false, tally.bumped) == (0, 0)
     assert tally.missed <= 1
 
 
 def test_touches_are_refused_once_there_is_a_model():
-    tally = Tally(range(4), touches=0.4, use_R=True, model=MODEL)
+    tally = Tally(range(2), touches=0.4, use_R=True, model=MODEL)
     assert (tally.false, tally.touched, tally.missed) == (0, 0, 0)
-    assert tally.poses < 32
+    assert tally.poses < 16
 
 
 def test_captures_calibrate():

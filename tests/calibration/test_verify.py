@@ -41,7 +41,7 @@ def calibrated(rng, number=8, *, known=True):
 @pytest.mark.parametrize("count", [1, 5])
 def test_p_values_are_uniform(known, count):
     p = []
-    for seed in range(200):
+    for seed in range(60):
         rng = np.random.default_rng(seed)
         p.append(verify_still(calibrated(rng, known=known), poses(rng, count)).p_value)
     assert kstest(p, "uniform").pvalue > 1e-3
@@ -50,11 +50,11 @@ def test_p_values_are_uniform(known, count):
 
 def test_the_contact_error_is_as_predicted():
     ratios = []
-    for seed in range(100):
+    for seed in range(40):
         rng = np.random.default_rng(seed)
         verification = verify_still(calibrated(rng), poses(rng, 10))
         ratios.append(verification.contact_rms / verification.predicted_contact_error)
-    assert np.sqrt(np.mean(np.square(ratios))) == pytest.approx(1.0, abs=0.1)
+    assert np.sqrt(np.mean(np.square(ratios))) == pytest.approx(1.0, abs=0.15)
 
 
 def test_a_good_calibration_passes():

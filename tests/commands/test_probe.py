@@ -82,7 +82,7 @@ def test_nothing_is_made_of_numbers_whose_unit_nobody_can_tell(tmp_path, command
 
 def test_a_shell_that_is_not_sound_ends_with_1(hollow, tmp_path, monkeypatch):
     monkeypatch.setattr(Shell, "faults", ("It crosses itself.",))
-    result = invoke("shell", hollow, "--out", tmp_path / "shell.ply")
+    result = invoke("shell", hollow, "--alpha", "2", "--gap", "4", "--out", tmp_path / "shell.ply")
     assert result.exit_code == 1
     assert said(result).count("It crosses itself.") == 1
 

@@ -10,13 +10,13 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import numpy as np
 import pytest
 from benchmarks.fault_lines import resting
 from recording.recording_cases import record
 from typer.testing import CliRunner
+from waiting import be_slow
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
@@ -120,7 +120,7 @@ def test_a_slow_disk_does_not_hold_the_device_up(tmp_path, monkeypatch):
 
     def slow(self):
         threads.add(threading.current_thread().name)
-        time.sleep(0.2)
+        be_slow(0.2)
         flush(self)
 
     monkeypatch.setattr(RecordingWriter, "flush", slow)
@@ -198,10 +198,8 @@ def test_signals_end_a_recording_well_however_often_they_come(tmp_path, number):
             while "streaming" not in line:
                 assert line
                 line = process.stderr.readline()
-            time.sleep(0.2)
             for _ in range(3):
                 process.send_signal(getattr(signal, number))
-                time.sleep(0.001)
             rest = process.stderr.read()
     assert process.returncode == 0, rest
     assert "Traceback" not in rest

@@ -327,7 +327,7 @@ def test_noise_free_touches_are_found_within_the_mesh_error(name):
 
 def test_wrong_answers_are_flagged_on_the_t_shape():
     rng = np.random.default_rng(13)
-    touches = draw_touches(assets.surface("t-shape"), 20_000, rng, above=0.02)
+    touches = draw_touches(assets.surface("t-shape"), 10_000, rng, above=0.02)
     wrenches = add_noise(touches.wrenches, WrenchNoise(), rng)
     probe = bundled("t-shape", 2000)
     ours, paper = (

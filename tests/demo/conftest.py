@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import shutil
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -27,17 +28,18 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
 
 
-@pytest.fixture(scope="session")
-def meshes(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
-    """What preparing makes of each probe: the same every time, and the longest part of a demo."""
-    folders = {name: tmp_path_factory.mktemp(name) for name in demo.PROBE_NAMES}
-    return {name: (folder, housing.prepare_probe(folder, name)) for name, folder in folders.items()}
-
-
 @pytest.fixture(autouse=True, scope="package")
-def prepared(meshes: dict[str, tuple[Path, Any]]) -> Iterator[None]:
+def prepared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Prepare each probe once: it gives the same every time, and is the longest part of a demo."""
+    prepare = housing.prepare_probe
+
+    @cache
+    def made(name: str) -> tuple[Path, Any]:
+        folder = tmp_path_factory.mktemp(name)
+        return folder, prepare(folder, name)
+
     def copy(folder: Path, name: str) -> Any:
-        source, result = meshes[name]
+        source, result = made(name)
         shutil.copytree(source, folder, dirs_exist_ok=True)
         return result
 

@@ -134,9 +134,9 @@ def test_without_physics_it_is_said_and_done_by_formula(tmp_path: Path) -> None:
     assert found.table().row_count > 0
 
 
-def test_markers_that_are_far_off_fail(done: demo.DemoReport) -> None:
-    result = done.probes[0]
+def test_markers_that_are_far_off_fail(benched: demo.DemoReport) -> None:
+    result = benched.probes[0]
     wrong = replace(report.ours(result.drawn), mean_mm=1.0, bound_mm=0.4)
-    failed = replace(done, probes=(replace(result, touched=(wrong,)),))
+    failed = replace(benched, probes=(replace(result, touched=(wrong,)),))
     assert not failed.verified
     assert "FAILED: even the mean is more than 1.5 times the 0.40 mm" in " ".join(failed.sentences())

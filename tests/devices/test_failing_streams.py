@@ -6,9 +6,11 @@ import sys
 import threading
 import time
 
+import numpy as np
 import pytest
 from devices.test_reconnecting_stream import Script, frames, sri
 from devices.test_sensor import Heard
+from waiting import until
 
 from contactbench.pipeline.devices import reconnecting_stream
 from contactbench.pipeline.devices.robot_poses import ElfinPoses
@@ -17,13 +19,6 @@ from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.transport import LineLost, LineUnavailable
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
-
-
-def until(what, seconds=5.0):
-    deadline = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 def raising(*_):
@@ -86,7 +81,7 @@ def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
             until(lambda: line.opened == 2)
         else:  # a serial line is there as long as its plug is
             heard.until(lambda: State.SILENT in heard.states())
-            time.sleep(0.4)
+            until(lambda: time.monotonic() > line.opened_at[0] + 0.5)
             assert line.opened == 1
 
 
@@ -100,8 +95,8 @@ def test_a_device_that_takes_connections_and_gives_nothing_is_tried_less_and_les
     line = Script(says)
     line.write = lambda _: None
     with SensorStream("rdt+udp://h?cpf=1&cpt=1", heard.take, heard.change, line=line) as stream:
-        time.sleep(0.9)
-        assert line.opened <= 4
+        until(lambda: line.opened == 4)
+        assert (np.diff(line.opened_at) > (0.1, 0.2, 0.5)).all()
         assert stream.health.reconnected == 0  # no attempt is a reconnection
 
 

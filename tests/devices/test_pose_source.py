@@ -143,7 +143,7 @@ def test_a_file_that_is_not_there(tmp_path):
 numbers = st.one_of(st.floats(), st.floats(-1, 1), st.just(1.0), st.just(0.0))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.lists(st.lists(numbers, min_size=8, max_size=8), min_size=1, max_size=4))
 def test_any_numbers_are_rotations_or_an_error(tmp_path_factory, rows):
     lines = [",".join(map(repr, row)) for row in rows]

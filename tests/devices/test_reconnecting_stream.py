@@ -8,6 +8,7 @@ import time
 import pytest
 from benchmarks.fault_lines import resting
 from devices.test_sensor import Heard
+from waiting import be_slow, until
 
 from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.devices.robot_poses import ElfinPoses
@@ -25,17 +26,21 @@ class Script:
 
     def __init__(self, says):
         self.says = says
-        self.written = []
-        self.opened = 0
+        self.written, self.opened_at = [], []
+        self.reads = 0
         self._pending = b""
         self._wait = threading.Event()
 
+    @property
+    def opened(self):
+        return len(self.opened_at)
+
     def open(self):
-        self.opened += 1
-        self._since = time.monotonic()
+        self.opened_at.append(time.monotonic())
 
     def read(self, timeout):
-        data, self._pending = self._pending + self.says(self, time.monotonic() - self._since), b""
+        self.reads += 1
+        data, self._pending = self._pending + self.says(self, time.monotonic() - self.opened_at[-1]), b""
         if not data:
             self._wait.wait(timeout)
         return Chunk(data, time.monotonic())
@@ -71,16 +76,20 @@ def sri(line, heard):
 
 def test_it_never_says_streaming_while_no_sample_comes():
     heard = Heard()
-    with sri(Script(frames(0.4)), heard) as stream:
+    line = Script(frames(0.4))
+    with sri(line, heard) as stream:
         heard.until(lambda: State.STREAMING in heard.states())
-        while State.SILENT not in heard.states():
+
+        def silent():
             if time.monotonic() - heard.samples[-1].time > 0.2:
                 assert stream.health.state is not State.STREAMING
-            time.sleep(0.005)
+            return State.SILENT in heard.states()
+
+        until(silent)
         told = next(when for when, health in heard.changes if health.state is State.SILENT)
         assert told - heard.samples[-1].time < 0.2
-        count = len(heard.changes)
-        time.sleep(0.1)
+        count, reads = len(heard.changes), line.reads
+        until(lambda: line.reads > reads + 5)
         assert len(heard.changes) == count  # a silence that goes on is no news
 
 
@@ -89,7 +98,8 @@ def test_a_suspicion_stays_until_it_is_acknowledged():
     with sri(Script(frames(9.0, rezero=0.6)), heard) as stream:
         heard.until(lambda: any(health.suspicions for _, health in heard.changes))
         assert not stream.health.well
-        time.sleep(0.1)
+        count = len(heard.samples)
+        heard.until(lambda: len(heard.samples) > count + 10)
         assert "re-zeroed" in stream.health.suspicions[0]
         stream.acknowledge()
         assert stream.health.suspicions == ()
@@ -148,7 +158,7 @@ def test_what_is_told_is_the_state_that_was_reached_also_after_a_slow_listener()
 
     def slow(samples):
         if not heard.samples:
-            time.sleep(0.3)
+            be_slow(0.3)
         heard.take(samples)
 
     line = Script(frames(9.0))

@@ -93,7 +93,7 @@ def test_re_zeros_are_suspected_and_touches_are_not():
     assert false.measured == 0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(
     st.lists(st.tuples(st.floats(0, 3, allow_nan=False), *[st.floats(width=32)] * 6), min_size=1, max_size=60)
 )

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from devices.test_reconnecting_stream import Script
 from devices.test_sensor import Heard, fault
+from waiting import until
 
 from contactbench.pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
 from contactbench.pipeline.devices.faults import FrameMoment, SensorReading
@@ -119,13 +120,23 @@ class Controller(Script):
 def test_a_pose_belongs_to_the_middle_between_question_and_answer():
     heard = Heard()
     line = Controller(0.03)
-    asked = []
-    write = line.write
-    line.write = lambda data: (asked.append(time.monotonic()), write(data))
+    looked, asked, rounds = [0.0], [], []
+    write, read = line.write, line.read
+
+    def heard_of(timeout):
+        chunk = read(timeout)
+        if chunk.data:
+            rounds.append((asked[-1], chunk.time))
+        looked.append(chunk.time)
+        return chunk
+
+    # It is asked at some moment between the last look and the writing.
+    line.write = lambda data: (asked.append((looked[-1], time.monotonic())), write(data))
+    line.read = heard_of
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=20"), heard.take, heard.change, line=line):
         heard.until(lambda: len(heard.samples) > 4)
-    for sample, when in zip(heard.samples, asked, strict=False):
-        assert 0.012 < sample.time - when < 0.03
+    for sample in heard.samples:
+        assert any((a + end) / 2 <= sample.time <= (b + end) / 2 for (a, b), end in rounds)
 
 
 def test_answers_that_took_long_are_dropped_and_told():
@@ -133,7 +144,8 @@ def test_answers_that_took_long_are_dropped_and_told():
     line = Controller(0.12)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):
         heard.until(lambda: any("were dropped" in finding for finding in heard.findings()))
-        time.sleep(0.5)
+        asked = len(line.written)
+        until(lambda: len(line.written) > asked + 3)
     assert heard.samples == []
     assert line.most == 1  # however slow it is, no second question waits
     assert not any("no frame in them" in finding for finding in heard.findings())
@@ -145,6 +157,5 @@ def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
     line = Controller(9.0)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):
         heard.until(lambda: any("had no answer" in finding for finding in heard.findings()))
-        time.sleep(0.2)
-    assert line.opened == 2
+        until(lambda: line.opened == 2)
     assert line.most == 1

@@ -8,6 +8,7 @@ import time
 import pytest
 from devices.test_reconnecting_stream import Script
 from devices.test_sensor import Heard, listen, moving
+from waiting import until
 
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.protocols import ati_scale, rdt
@@ -70,8 +71,7 @@ def test_a_device_is_left_alone_after_a_stop(kind):
     line = Timed(lambda _line, _now: b"")
     address = f"{kind}+serial:///dev/x"
     with SensorStream(address, heard.take, heard.change, line=line):
-        while len(written) < 2:
-            time.sleep(0.005)
+        until(lambda: len(written) >= 2)
     assert written[1][0] - written[0][0] > 0.05
 
 

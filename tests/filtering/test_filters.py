@@ -154,7 +154,7 @@ def test_a_third_of_the_samples_missing(per_sample):
     rng = np.random.default_rng(3)
     regular = np.arange(-1000, 200) / RATE
     kalman = KalmanFilter(per_sample=per_sample)
-    responses = [step_response(kalman, regular[rng.random(1200) > 0.3]) for _ in range(300)]
+    responses = [step_response(kalman, regular[rng.random(1200) > 0.3]) for _ in range(100)]
     grid = np.linspace(0.02, 0.5, 200)
     rises = 1 - np.exp(-grid[:, None] / (0.0707 * np.array([1, 0.7**-0.5, 1 / 0.7])))
     misses = abs(np.mean(responses, axis=0)[:, None] - rises).max(axis=0)
@@ -163,19 +163,18 @@ def test_a_third_of_the_samples_missing(per_sample):
     assert (misses[0] < 0.09) != per_sample
 
 
-@pytest.mark.parametrize("rate", [50.0, 200.0, 1000.0])
-@pytest.mark.parametrize("missing", [0.0, 0.3])
+@pytest.mark.parametrize(("rate", "missing"), [(50.0, 0.3), (200.0, 0.0), (1000.0, 0.3)])
 def test_the_variance_is_true(rate, missing):
     """On a random walk seen through white noise, the squared error over the variance told is 1 on average."""
     rng = np.random.default_rng(4)
     kalman = KalmanFilter(rate, q=4e-5)
     figures = kalman.figures()
-    truth = rng.normal(0, figures.q**0.5, (600, 2000)).cumsum(axis=0)
+    truth = rng.normal(0, figures.q**0.5, (600, 500)).cumsum(axis=0)
     seen = truth + rng.normal(0, figures.r**0.5, truth.shape)
     seen[rng.random(600) < missing] = np.nan
     kalman.update_block(seen)
     ratio = (kalman.state - truth[-1]) ** 2 / kalman.variance
-    assert ratio.mean() == pytest.approx(1, abs=5 * (2 / 2000) ** 0.5)
+    assert ratio.mean() == pytest.approx(1, abs=5 * (2 / 500) ** 0.5)
 
 
 def test_a_missing_sample_is_a_longer_step():
@@ -216,7 +215,7 @@ def test_live_and_offline_agree_to_the_last_bit(name, missing):
 
 
 def test_live_and_offline_agree_with_irregular_times():
-    samples = recording(6, count=40_000, channels=2, missing=0.01)  # longer than the blocks inside
+    samples = recording(6, count=12_000, channels=2, missing=0.01)  # longer than the blocks inside
     times = np.random.default_rng(7).uniform(0.001, 0.02, len(samples)).cumsum()
     live = KalmanFilter()
     steps = np.diff(times, prepend=times[0] - 1)

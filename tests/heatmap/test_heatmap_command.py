@@ -20,6 +20,13 @@ from contactbench.pipeline.session import Session
 N = 300
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _coarsely_drawn():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("contactbench.pipeline.heatmap.finer._MOST", 8_000)
+        yield
+
+
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory):
     """Touches of two places, 6 and 9 N, as wrenches and as a recording with the weight in it."""
@@ -205,7 +212,7 @@ def test_only_sure_places_are_shown(bench):
     ]
     file = bench / "reasons.csv"
     file.write_text("\n".join([text[0], *rows]), encoding="utf-8")
-    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
+    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply", "--bandwidth", 3)
     assert said["contacts"] == N - 3
     assert said["left_out"] == {"ambiguous": 1, "outside_region": 1, "two_touches": 1}
     assert said["warnings"] == []
@@ -215,7 +222,7 @@ def test_only_sure_places_are_shown(bench):
         ),
         encoding="utf-8",
     )
-    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
+    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply", "--bandwidth", 3)
     assert f"{N // 2 - 1} of {N} contacts could be at another place as well" in said["warnings"][0]
 
 

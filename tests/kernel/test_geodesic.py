@@ -249,7 +249,7 @@ def test_an_edge_of_many_facets_stays_connected() -> None:
     assert len(second) <= 8 * fins
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(4, 40), st.integers(1, 120), st.booleans())
 def test_any_triangles_end(seed: int, points: int, count: int, geodesic: bool) -> None:
     """Soup: no manifold, slivers, coincident corners; distances are at least the straight ones."""

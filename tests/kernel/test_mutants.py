@@ -25,27 +25,24 @@ def headers() -> dict[str, bytes]:
 
 
 @needs_compiler
-def test_two_mutants_are_noticed_and_the_checkout_stays_as_it_is() -> None:
+def test_a_wrong_line_is_noticed_a_harmless_one_survives_and_the_checkout_stays_as_it_is(
+    tmp_path: Path,
+) -> None:
     before = headers()
-    result = run("confidence-without-the-half", "facet-bound-too-high")
-    assert result.returncode == 0, result.stdout + result.stderr
-    assert headers() == before
-    for name in ("confidence-without-the-half", "facet-bound-too-high"):
-        assert re.search(rf"^{name} +\w+\.hpp:\d+: .+$", result.stdout, re.MULTILINE), result.stdout
-    assert "mutants: 2 of 2 noticed" in result.stdout
-
-
-@needs_compiler
-def test_a_mutant_that_changes_nothing_survives(tmp_path: Path) -> None:
     table = tmp_path / "mutants.toml"
     line = "inline constexpr int reason_count = 15;"
     table.write_text(
-        f'[harmless]\nfile = "answer.hpp"\nold = "{line}"\nnew = "{line}  // the same"\n', encoding="utf-8"
+        f'[harmless]\nfile = "answer.hpp"\nold = "{line}"\nnew = "{line}  // the same"\n'
+        '[wrong]\nfile = "answer.hpp"\nold = "others += std::exp(-0.5 * delta);"\n'
+        'new = "others += std::exp(-delta);"\n',
+        encoding="utf-8",
     )
     result = run("--table", str(table))
     assert result.returncode == 1, result.stdout + result.stderr
+    assert headers() == before
     assert re.search(r"^harmless +SURVIVED$", result.stdout, re.MULTILINE)
-    assert "mutants: 0 of 1 noticed" in result.stdout
+    assert re.search(r"^wrong +\w+\.hpp:\d+: .+$", result.stdout, re.MULTILINE), result.stdout
+    assert "mutants: 1 of 2 noticed" in result.stdout
 
 
 def test_every_line_of_the_table_is_in_its_header_once() -> None:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
-from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake
+from kernel.test_runtime_library import Library
+from native import installed, needs_cmake
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 
-pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
+pytestmark = needs_cmake
 
 # In the order of cb_controller: where in the bundle, and how many numbers.
 DOUBLES = [
@@ -36,11 +37,7 @@ LIMITS = ("max_force_N", "max_torque_Nm", "max_speed_mps", "max_turn_radps")
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
-    prefix = tmp_path_factory.mktemp("installed")
-    cmake("-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
-    cmake("--build", BUILD)
-    cmake("--install", BUILD, "--prefix", prefix)
-    return Library(prefix)
+    return Library(installed(tmp_path_factory.mktemp("installed")))
 
 
 class Controller(ctypes.Structure):

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle, of_version_2
-from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake, edited, put, run
+from kernel.test_runtime_library import Library, edited, put
+from native import CMAKE, SOURCE, cmake, installed, needs_cmake, run
 
 from contactbench.pipeline.config.runtime.pack import KNOWN
 from contactbench.pipeline.config.runtime.planes import encode_planes
@@ -24,16 +25,12 @@ from contactbench.pipeline.mesh.ply import read_ply
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
+pytestmark = needs_cmake
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
-    prefix = tmp_path_factory.mktemp("installed")
-    cmake("-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
-    cmake("--build", BUILD)
-    cmake("--install", BUILD, "--prefix", prefix)
-    return Library(prefix)
+    return Library(installed(tmp_path_factory.mktemp("installed")))
 
 
 @pytest.fixture

@@ -20,13 +20,13 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 @needs_compiler
 def test_tests_and_fuzzer_pass_under_the_sanitizers() -> None:
-    result = run("3000")
+    result = run("500")
     report = result.stdout + result.stderr
     assert result.returncode == 0, report
     passed = re.search(r"^(\d+) checks passed$", result.stdout, re.MULTILINE)
     assert passed is not None, report
     assert int(passed[1]) > 100_000
-    assert "sanitize: passed, 3000 inputs fuzzed, no sanitizer report" in result.stdout
+    assert "sanitize: passed, 500 inputs fuzzed, no sanitizer report" in result.stdout
     assert "runtime error" not in report
     assert "AddressSanitizer" not in report
 

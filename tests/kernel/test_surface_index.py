@@ -55,7 +55,7 @@ def test_points_of_the_surface_are_found_where_they_are():
     assert place == pytest.approx(centres, abs=1e-16)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(arrays(np.float64, (9, 3), elements=st.floats(-1, 1, width=16)), st.integers(0, 2**32 - 1))
 def test_any_triangles_even_flat_ones(vertices, seed):
     rng = np.random.default_rng(seed)

@@ -64,7 +64,7 @@ def messages_before(data: bytes) -> dict[int, int]:
 
 
 def test_a_file_that_is_cut_anywhere_gives_its_whole_chunks(tmp_path: Path) -> None:
-    file = record(tmp_path / "r.mcap", 200, 100)
+    file = record(tmp_path / "r.mcap", 100, 50)
     data = file.read_bytes()
     everything, warnings, complete = samples(file)
     assert (warnings, complete) == ([], True)
@@ -73,7 +73,7 @@ def test_a_file_that_is_cut_anywhere_gives_its_whole_chunks(tmp_path: Path) -> N
     about = next(end for opcode, _, end in bounds(data) if opcode == Opcode.METADATA)
     ends = [end for _, _, end in bounds(data)]
     cuts = {*ends, *(end - 1 for end in ends), *(end + 3 for end in ends)}
-    cuts |= set(np.random.default_rng(0).integers(0, len(data), 60).tolist())
+    cuts |= set(np.random.default_rng(0).integers(0, len(data), 20).tolist())
     for cut in sorted(cut for cut in cuts if cut < len(data)):
         part = tmp_path / "part.mcap"
         part.write_bytes(data[:cut])
@@ -112,7 +112,7 @@ def test_mutated_files_give_samples_or_a_sentence(tmp_path: Path) -> None:
     rng = np.random.default_rng(3)
     mutant = tmp_path / "m.mcap"
     refused = 0
-    for number in range(600):
+    for number in range(150):
         changed = bytearray(data)
         for _ in range(rng.integers(1, 4)):
             # Half of them in the heads of records, where lengths are.
@@ -140,7 +140,7 @@ def test_mutated_files_give_samples_or_a_sentence(tmp_path: Path) -> None:
         assert len(found) == len(everything) or warnings
         if number % 5 == 0:
             read_recording(mutant)
-    assert 10 < refused < 400
+    assert 2 < refused < 100
 
 
 # ---- made to do harm ---------------------------------------------------------------------------

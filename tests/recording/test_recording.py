@@ -50,7 +50,7 @@ def test_a_recording_comes_back_bit_for_bit(tmp_path: Path) -> None:
     )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(
     samples=st.lists(
         st.builds(

@@ -85,7 +85,7 @@ def brute_gap(poses, distance_of: Clearance) -> float:
     return min(gaps)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(q=inside, z_min=st.sampled_from([-1e3, 0.0]))
 def test_conflicts_are_those_of_brute_force(link_poses, q, z_min):
     clearance = Clearance(z_min=z_min, p_ET_E=(0.03, 0, 0.2))

@@ -148,7 +148,7 @@ def test_an_existing_place_is_left_alone(archive, folder):
     assert check(folder).sound
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(st.data())
 def test_flipped_bytes_give_a_whole_session_or_none(tmp_path_factory, data):
     base = tmp_path_factory.getbasetemp() / "flips"

@@ -10,11 +10,9 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
-from weighing_files import TRUTH, weighed, write_euler
+from weighing_files import TRUTH, planned, weighed, write_euler
 
 from contactbench.pipeline import cli
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter
 from contactbench.pipeline.session import Session, SessionError
@@ -52,7 +50,7 @@ def folder(tmp_path):
 def recording(tmp_path_factory):
     """A robot that goes through five poses, and stays in each."""
     file = tmp_path_factory.mktemp("recording") / "a.mcap"
-    stops = Rotation.from_matrix(plan_poses(5, by_hand()).R_WS)
+    stops = Rotation.from_matrix(planned(5))
     rng = np.random.default_rng(3)
     t = 0.0
     with RecordingWriter(file, RecordingInfo(1_700_000_000_000_000_000, 0.0)) as writer:

@@ -7,12 +7,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
+from waiting import until
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
@@ -160,9 +160,7 @@ def test_samples_are_on_the_disk_though_no_more_come(tmp_path):
     writer = RecordingWriter(tmp_path / "a.mcap", RecordingInfo.now(), chunk_seconds=1e6, sync_seconds=1e6)
     with writer, Recorder(writer, flush_seconds=0.01) as recorder:
         recorder.samples(samples(10))
-        deadline = time.monotonic() + 10
-        while not read_recording(tmp_path / "a.mcap").wrenches and time.monotonic() < deadline:
-            time.sleep(0.01)
+        until(lambda: read_recording(tmp_path / "a.mcap").wrenches)
         assert len(read_recording(tmp_path / "a.mcap").wrenches["/wrench"].times) == 10
 
 
@@ -192,9 +190,7 @@ def test_a_killed_recording_is_adopted_by_repair(folder):
         with subprocess.Popen(
             [*command, "--serial", "SN 7", "--name", "a.mcap"], cwd=ROOT, stderr=subprocess.DEVNULL
         ) as child:
-            deadline = time.monotonic() + 60
-            while time.monotonic() < deadline and not _has_samples(recorded(folder)):
-                time.sleep(0.05)
+            until(lambda: _has_samples(recorded(folder)))
             child.send_signal(signal.SIGKILL)
             child.wait(60)
     assert check(folder).sound

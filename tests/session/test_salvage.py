@@ -95,7 +95,7 @@ def titles(stale):
 def _damages(size):
     """Yield (name, function of bytes) for every region of a journal, sampled with a fixed seed."""
     chance = random.Random(11)  # noqa: S311 places, no secrets
-    for at in sorted(chance.sample(range(size), 70)):
+    for at in sorted(chance.sample(range(size), 25)):
         bit, length = chance.randrange(8), chance.randrange(1, 600)
         yield f"bit {at}", lambda d, at=at, bit=bit: d[:at] + bytes([d[at] ^ 1 << bit]) + d[at + 1 :]
         yield (
@@ -137,8 +137,8 @@ def test_damage_anywhere_keeps_every_record_that_is_not_damaged(whole):
         assert not (name.startswith(("bit", "junk between")) and gone), f"{name}: nothing has to be lost"
         tried += 1
         lossless += not gone
-    assert tried > 400
-    assert lossless > 70
+    assert tried > 140
+    assert lossless > 20
 
 
 def test_every_damaged_session_opens_or_is_refused_in_words_and_its_copy_is_sound(whole, tmp_path):

@@ -27,7 +27,7 @@ def spoken() -> list[str]:
 
 @pytest.fixture(scope="module")
 def report(spoken: list[str]) -> HardCasesReport:
-    return hard_cases.run(samples=200, seed=1, progress=spoken.append)
+    return hard_cases.run(samples=100, seed=1, progress=spoken.append)
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_the_literal_loop_breaks_where_it_should(report: HardCasesReport) -> Non
 
 def test_report_is_plain_data(report: HardCasesReport) -> None:
     data = json.loads(json.dumps(report.to_json(), allow_nan=False))
-    assert data["samples"] == 200
+    assert data["samples"] == 100
     assert data["passed"] is report.passed
     assert {"name", "what", "tries", "expectation", "contactbench", "algorithm1", "passed"} <= set(
         data["cases"][0]
@@ -67,8 +67,11 @@ def test_report_is_plain_data(report: HardCasesReport) -> None:
     assert data["cases"][0]["contactbench"]["reasons"] == {"TANGENTIAL": data["cases"][0]["tries"]}
 
 
-def test_same_seed_gives_the_same_report(report: HardCasesReport) -> None:
-    assert hard_cases.run(samples=200, seed=1) == report
+def test_same_seed_gives_the_same_cases(report: HardCasesReport, monkeypatch: pytest.MonkeyPatch) -> None:
+    some = dict(list(hard_cases.GROUPS.items())[:4])
+    monkeypatch.setattr(hard_cases, "GROUPS", some)
+    again = hard_cases.run(samples=100, seed=1)
+    assert again.cases == report.cases[: len(again.cases)]
 
 
 def test_views_hold_every_case(report: HardCasesReport) -> None:

@@ -65,9 +65,12 @@ def test_it_fits_into_the_panel_in_both_themes_and_shows_each_quantity(qtbot, ch
         use_theme(theme)
         for across in range(chart.across.count()):
             chart.across.setCurrentIndex(across)
-            qtbot.wait(20)
             assert chart.minimumSizeHint().width() <= 320
-            for point in TRADE.points:
-                assert chart._plot.geometry().contains(chart.where(point.facets).toPoint())
+            qtbot.waitUntil(
+                lambda: all(
+                    chart._plot.geometry().contains(chart.where(point.facets).toPoint())
+                    for point in TRADE.points
+                )
+            )
     chart.show_trade(None)
     assert chart.accessibleDescription() == ""

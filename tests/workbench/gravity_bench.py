@@ -6,9 +6,8 @@ import time
 from functools import cache
 
 import numpy as np
+from weighing_files import planned
 
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.session.live import LiveRecording
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
@@ -18,16 +17,11 @@ STILL_S = 4.5  # of which the wrist turns for the first
 
 
 @cache
-def planned():
-    return plan_poses(6, by_hand()).R_WS
-
-
-@cache
 def batches(count=6, bumped=None, begin=0):
     """Return what comes of a bench that goes through planned poses; one of them is pushed meanwhile."""
     bench = VirtualBench()
     found = []
-    for number, R in enumerate(planned()[begin : begin + count]):
+    for number, R in enumerate(planned(6)[begin : begin + count]):
         bench.turn_to(R, seconds=1.5)
         if number == bumped:
             found.append(bench.advance(2.0))

@@ -1,10 +1,10 @@
 import threading
-import time
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from waiting import until
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import ContactSolver
@@ -21,13 +21,6 @@ from contactbench.pipeline.workbench.live_trial import trial_of
 
 STEPWISE = "virtual://bench?probe=convex&sensor=paper&speed=step"
 EMPTY = np.zeros(3)
-
-
-def wait_until(condition, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it did not happen"
-        time.sleep(0.01)
 
 
 @pytest.fixture
@@ -308,12 +301,12 @@ def test_an_unplugged_sensor_comes_back_and_is_told_in_words(live):
     script = Script([FaultEvent(0.5, Fault.RECONNECT, 1.0)])
     with emulator("sri", "tcp", script=script, signal=sine((5, 5, 5, 0.1, 0.1, 0.1))) as device:
         live.open(device.url, None)
-        wait_until(lambda: live.samples > 20)
+        until(lambda: live.samples > 20)
         assert trial_of(live).state is State.STREAMING
-        wait_until(lambda: trial_of(live).state is State.LOST)
+        until(lambda: trial_of(live).state is State.LOST)
         assert any("plug it in again" in words for words in trial_of(live).sentences)
         gone = live.samples
-        wait_until(lambda: live.samples > gone + 20)
+        until(lambda: live.samples > gone + 20)
         assert trial_of(live).state is State.STREAMING
 
 
@@ -324,14 +317,14 @@ def test_closing_while_samples_come_and_are_asked_for_waits_for_nobody(live):
         while not stop.is_set():
             live.reading()
             live.history(1)
-            time.sleep(0.001)
+            stop.wait(0.001)
 
     readers = [threading.Thread(target=ask) for _ in range(2)]
     for reader in readers:
         reader.start()
     for _ in range(3):
         live.open(address, address)
-        wait_until(lambda: live.samples > 5)
+        until(lambda: live.samples > 5)
         live.close()
         assert live.pair is None
     stop.set()

@@ -1,12 +1,12 @@
 """A closed loop in a process of its own: it is followed, stopped, ended, and says why it could not begin."""
 
 import os
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from benchmarks.bundle_example import example_config
+from waiting import until
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame
 from contactbench.pipeline.errors import InputError
@@ -34,13 +34,6 @@ def begin(bundle):
     yield run
     for each in made:
         each.close()
-
-
-def wait(holds, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.02)
 
 
 def test_the_command_is_given_what_was_chosen():
@@ -72,10 +65,10 @@ def test_it_is_followed_and_stopped(begin):
     run = begin()
     assert run.running
     assert run.pace is None
-    wait(lambda: run.newest is not None and run.newest.state == "track")
+    until(lambda: run.newest is not None and run.newest.state == "track")
     assert run.beginning.wanted_N == 5.0
     run.stop()
-    wait(lambda: not run.running)
+    until(lambda: not run.running)
     assert run.failure == ""
     assert run.outcome["ended"] == "safe"
     assert run.outcome["faults"] == []
@@ -91,7 +84,7 @@ def test_it_is_followed_and_stopped(begin):
 
 def test_what_cannot_run_says_why(begin, tmp_path):
     run = begin(of=tmp_path / "nowhere.zip")
-    wait(lambda: not run.running)
+    until(lambda: not run.running)
     assert run.outcome is None
     assert "there is no such folder or zip file" in run.failure
 

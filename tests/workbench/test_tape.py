@@ -1,6 +1,5 @@
-import time
-
 import pytest
+from waiting import until
 
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.errors import InputError
@@ -91,20 +90,14 @@ def test_a_name_that_is_taken_is_refused(desk, live):
 def test_an_unplugged_sensor_does_not_end_it(desk, live):
     script = Script([FaultEvent(0.5, Fault.RECONNECT, 0.8)])
 
-    def wait_until(condition):
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end
-            time.sleep(0.01)
-
     with emulator("sri", "tcp", script=script, signal=sine((5, 5, 5, 0.1, 0.1, 0.1))) as device:
         live.open(device.url, None)
         tape = start(desk, live)
-        wait_until(lambda: tape.findings)
+        until(lambda: tape.findings)
         assert any("goes on when it is back" in words for words in tape.findings)
         before = tape.samples
         assert before
-        wait_until(lambda: tape.samples > before + 20)
+        until(lambda: tape.samples > before + 20)
         assert tape.running
         tape.keep().result(PATIENCE)
     kept = desk.state.current_inputs["recording", "gravity-1.mcap"]
@@ -132,7 +125,8 @@ def test_a_full_disk_is_told_and_what_was_recorded_is_kept(desk, live, monkeypat
         raise RecordingError("raw: it cannot be written (No space left on device): free space.")
 
     assert tape.error is None
-    time.sleep(0.7)  # what came before is on the disk
+    (raw,) = (desk.folder / "raw").iterdir()
+    until(lambda: any(len(each.times) > 100 for each in read_recording(raw).wrenches.values()))
     monkeypatch.setattr(tape._recording._writer, "wrench", full)
     live.pair.step(200)
     assert recorder.failed.wait(PATIENCE)

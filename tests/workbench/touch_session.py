@@ -6,12 +6,11 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from weighing_files import planned
 
 from contactbench import assets
 from contactbench.pipeline.calibration import PoseSample, calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
@@ -34,7 +33,7 @@ STEPWISE = f"{ADDRESS}&speed=step"
 def weighed():
     """Weigh the virtual bench's tool, as a technician would turn it."""
     bench, poses = VirtualBench(NAME, "paper"), []
-    for R_WS in plan_poses(8, by_hand()).R_WS:
+    for R_WS in planned(8):
         bench.turn_to(R_WS, seconds=0.5)
         bench.advance(1.2)
         batch = bench.advance(0.5)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import re
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import example, of_version_2, of_version_3
-from runtime.test_same_as_cpp import BUILD, CMAKE, SOURCE, run
+from native import built
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
@@ -148,11 +149,21 @@ def test_rounding_is_not_refused(files: dict[str, bytes]) -> None:
     assert replay(RuntimeConfig.from_files(mutant), "bundle") == 300
 
 
-@pytest.mark.parametrize("path", FIELDS)
-def test_a_bundle_that_was_edited_is_refused(files: dict[str, bytes], path: str) -> None:
-    config = RuntimeConfig.from_files(with_field(files, path, FIELDS[path]))
-    with pytest.raises(ConfigError, match=rf"bundle: {FILE}: line \d+: .* but this runtime says"):
-        replay(config, "bundle")
+@pytest.fixture(scope="module")
+def refusals(files: dict[str, bytes]) -> dict[str, str]:
+    """What Python says of a bundle in which one field was edited, by the field."""
+    found = {}
+    for path, value in FIELDS.items():
+        config = RuntimeConfig.from_files(with_field(files, path, value))
+        with pytest.raises(ConfigError) as refused:
+            replay(config, "bundle")
+        found[path] = str(refused.value)
+    return found
+
+
+def test_a_bundle_that_was_edited_is_refused(refusals: dict[str, str]) -> None:
+    for path, said in refusals.items():
+        assert re.match(rf"bundle: {FILE}: line \d+: .* but this runtime says", said), path
 
 
 def damaged(files: dict[str, bytes]) -> Iterator[tuple[str, dict[str, bytes]]]:
@@ -237,11 +248,7 @@ class Error(ctypes.Structure):
 
 @pytest.fixture(scope="module")
 def selftest(tmp_path_factory: pytest.TempPathFactory) -> Callable[[dict[str, bytes]], tuple[int, str]]:
-    if CMAKE is None:
-        pytest.skip("no cmake")
-    run(CMAKE, "-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
-    run(CMAKE, "--build", BUILD)
-    library = ctypes.CDLL(str(BUILD / "libcontactbench_runtime.so"))
+    library = ctypes.CDLL(str(built() / "libcontactbench_runtime.so"))
 
     def call(content: dict[str, bytes]) -> tuple[int, str]:
         folder = tmp_path_factory.mktemp("bundle")
@@ -256,17 +263,16 @@ def selftest(tmp_path_factory: pytest.TempPathFactory) -> Callable[[dict[str, by
 
 
 def test_c_replays_them(
-    files: dict[str, bytes], selftest: Callable[[dict[str, bytes]], tuple[int, str]]
+    files: dict[str, bytes],
+    refusals: dict[str, str],
+    selftest: Callable[[dict[str, bytes]], tuple[int, str]],
 ) -> None:
     assert selftest(files) == (OK, "")
     for path, value in FIELDS.items():
-        mutant = with_field(files, path, value)
-        code, message = selftest(mutant)
+        code, message = selftest(with_field(files, path, value))
         assert code == SELF_TEST, (path, message)
-        with pytest.raises(ConfigError) as refused:
-            replay(RuntimeConfig.from_files(mutant), "")
         # The same line and cell; Python's number may end otherwise.
-        assert message.split(" is ")[0] in str(refused.value), (message, refused.value)
+        assert message.split(" is ")[0] in refusals[path], (message, refusals[path])
 
 
 def random_downs(count: int) -> list[tuple[float, ...]]:
@@ -275,7 +281,7 @@ def random_downs(count: int) -> list[tuple[float, ...]]:
     return [tuple((np.array(down) / np.linalg.norm(down)).tolist()) for down in some]
 
 
-@pytest.mark.parametrize("down", random_downs(5), ids=lambda down: ",".join(f"{each:.2f}" for each in down))
+@pytest.mark.parametrize("down", random_downs(1), ids=lambda down: ",".join(f"{each:.2f}" for each in down))
 def test_a_robot_that_does_not_stand_is_as_good_as_one_that_does(
     down: tuple[float, float, float], selftest: Callable[[dict[str, bytes]], tuple[int, str]]
 ) -> None:

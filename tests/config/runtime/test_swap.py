@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import pytest
 from config.runtime.bundles import example
@@ -105,13 +104,13 @@ def test_a_writer_that_is_killed(tmp_path, configs):
         "import sys; from contactbench.pipeline.config.runtime import RuntimeConfig as C\n"
         "one, other = C.load('new'), C.load('old')\n"
         "print('ready', flush=True)\n"
-        "while True: one.write('b'); other.write('b')\n"
+        "while True: one.write('b'); other.write('b'); print('again', flush=True)\n"
     )
-    for wait in (0.05, 0.0731):
+    for times in (1, 3):
         with subprocess.Popen(
             [sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE
         ) as process:
             assert process.stdout.readline() == b"ready\n"
-            time.sleep(wait)
+            assert [process.stdout.readline() for _ in range(times)] == times * [b"again\n"]
             process.send_signal(signal.SIGKILL)
         assert standing(tmp_path / "b") in (True, False)

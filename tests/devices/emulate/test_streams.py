@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import threading
+import contextlib
 import time
 from collections.abc import Callable
 
 import numpy as np
 import pytest
+from waiting import JumpingClock, until
 
 from contactbench.pipeline.devices.emulate import (
     EMULATED,
@@ -149,17 +150,17 @@ def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
 
 def come_back(host: Host) -> None:
     """Start again until samples come; a start that was sent while the line broke is lost without a word."""
-    end = time.monotonic() + PATIENCE_S
     enough = len(host.samples) + 10
-    while len(host.samples) < enough:
-        assert time.monotonic() < end
+
+    def came() -> bool:
         host.parser.reset()
-        try:
+        with contextlib.suppress(LineError):
             host.start()
             silent = time.monotonic() + 0.3
-            host.read_until(lambda end=silent: len(host.samples) >= enough or time.monotonic() > end)
-        except LineError:
-            time.sleep(0.01)
+            host.read_until(lambda: len(host.samples) >= enough or time.monotonic() > silent)
+        return len(host.samples) >= enough
+
+    until(came)
 
 
 @pytest.mark.parametrize("fault", [Fault.DISCONNECT, Fault.RECONNECT])
@@ -233,10 +234,7 @@ def test_a_host_that_does_not_read_stops_nothing():
         line = line_to(DeviceAddress.parse(device.url))
         line.open()
         line.write(b"AT+GSD\r\n")
-        end = time.monotonic() + PATIENCE_S
-        while not device.counts["bytes nobody took"]:
-            assert time.monotonic() < end
-            time.sleep(0.005)
+        until(lambda: device.counts["bytes nobody took"])
         line.close()
     assert any(not sent.intact for sent in device.log)
 
@@ -263,13 +261,6 @@ def opened(device: Emulator) -> Line:
     return line
 
 
-def until(done: Callable[[], bool]) -> None:
-    end = time.monotonic() + PATIENCE_S
-    while not done():
-        assert time.monotonic() < end, "it never came"
-        time.sleep(0.005)
-
-
 @pytest.mark.parametrize("carrier", ["serial", "tcp"])
 def test_sri_refuses_a_command_that_does_not_wait(carrier: str):
     for quirks, refused in (([], [b"AT+SMPF=500\r\n"]), ([Quirk.FORGIVING], [])):
@@ -287,7 +278,8 @@ def test_robotiq_refuses_a_request_that_does_not_wait():
         line = opened(device)
         line.write(stop + start)
         until(lambda: bool(device.refused))
-        time.sleep(PAUSE_S)
+        refused = time.monotonic()
+        until(lambda: time.monotonic() > refused + PAUSE_S)
         line.write(start)
         until(lambda: device.model.streaming)
         line.close()
@@ -305,14 +297,13 @@ def test_it_listens_though_it_cannot_keep_up():
     assert not device.log
 
 
-def test_what_was_due_while_it_slept_is_skipped():
-    asleep = threading.Event()
-    asleep.set()
+def test_what_was_due_while_it_slept_is_skipped(monkeypatch: pytest.MonkeyPatch):
+    clock = JumpingClock()
+    monkeypatch.setattr("contactbench.pipeline.devices.emulate.time", clock)
 
     def signal(at: float) -> Six:
-        if at > 0.02 and asleep.is_set():
-            asleep.clear()
-            time.sleep(1.2)  # as a suspended process does
+        if at > 0.02 and not clock.ahead:
+            clock.ahead = 1.2  # as after a suspended process wakes up
         return SYNTHETIC
 
     with emulator("sri", "tcp", rate=200.0, signal=signal) as device:
@@ -344,10 +335,7 @@ def test_a_failure_of_the_signal_is_not_silent():
     line = line_to(DeviceAddress.parse(device.url))
     line.open()
     line.write(b"AT+GSD\r\n")
-    end = time.monotonic() + PATIENCE_S
-    while device.failure is None:
-        assert time.monotonic() < end
-        time.sleep(0.005)
+    until(lambda: device.failure is not None)
     line.close()
     with pytest.raises(EmulatorError, match="it failed"):
         device.close()

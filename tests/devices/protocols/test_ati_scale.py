@@ -184,7 +184,7 @@ def test_too_long_a_page():
     assert issubclass(ScaleError, ProtocolError)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(st.data())
 def test_a_damaged_page_gives_positive_counts_or_its_own_error(data):
     whole = bytearray(page())

@@ -146,7 +146,7 @@ def test_ipv6_hosts_are_written_in_brackets():
     assert b"\r\nHost: [::1]\r\n" in _Page("::1", "/", 80).request()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(
     st.binary(max_size=300),
     st.sampled_from(

@@ -8,12 +8,12 @@ import subprocess
 import sys
 import textwrap
 import threading
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
+from waiting import until
 
 from contactbench.pipeline.mesh import engines
 from contactbench.pipeline.mesh.engines import child as child_module
@@ -36,19 +36,14 @@ def pid_of(library: Library) -> int | None:
     return _CHILDREN[library].pid
 
 
-def _gone(pid: int, within_s: float = 10.0) -> bool:
-    deadline = time.monotonic() + within_s
-    while time.monotonic() < deadline:
-        try:
-            os.kill(pid, 0)
-        except ProcessLookupError:
-            return True
-        status = Path(f"/proc/{pid}/stat")
-        # A killed process whose new parent does not reap it is gone as well.
-        if status.exists() and status.read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] == "Z":
-            return True
-        time.sleep(0.02)
-    return False
+def _gone(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return True
+    status = Path(f"/proc/{pid}/stat")
+    # A killed process whose new parent does not reap it is gone as well.
+    return status.exists() and status.read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] == "Z"
 
 
 def _crash(ball: Ball) -> None:
@@ -91,7 +86,8 @@ def test_an_engine_killed_while_idle_is_replaced_silently(ball: Ball, wait: bool
     assert pid is not None
     os.kill(pid, signal.SIGTERM)
     # Without the wait the child still looks alive, and is gone before it answers.
-    assert not wait or _gone(pid)
+    if wait:
+        until(lambda: _gone(pid))
     assert len(wrap(*ball)[1]) > 100
 
 
@@ -118,7 +114,7 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
         engines.alpha_wrap(*ball, *ENDLESS, progress=told.append, cancelled=cancelled)
     pids.discard(None)
     assert pids
-    assert all(_gone(pid) for pid in pids if pid is not None)
+    until(lambda: all(_gone(pid) for pid in pids if pid is not None))
     assert told == sorted(told)
     assert len(wrap(*ball)[1]) > 100
 
@@ -259,7 +255,7 @@ def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPat
 
 
 _PARENT = """
-import sys, time, threading
+import sys, threading
 import numpy as np
 from contactbench.pipeline.mesh import engines
 from contactbench.pipeline.mesh.engines.child import _CHILDREN
@@ -271,7 +267,7 @@ print(_CHILDREN[Library.MESHLAB].pid, flush=True)
 if "busy" in sys.argv:
     engines.alpha_wrap(corners, faces, 0.02, 0.02, progress=lambda f: print(f, flush=True))
 if "idle" in sys.argv:
-    time.sleep(60)
+    threading.Event().wait()
 """
 
 
@@ -293,14 +289,14 @@ def test_the_child_goes_when_the_parent_is_killed(how: str) -> None:
     parent, pid = _parent(how)
     with parent:
         parent.kill()
-    assert _gone(pid)
+    until(lambda: _gone(pid))
 
 
 def test_the_child_goes_when_the_parent_exits() -> None:
     parent, pid = _parent("exit")
     with parent:
         assert parent.wait(10) == 0
-    assert _gone(pid)
+    until(lambda: _gone(pid))
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")

@@ -346,7 +346,7 @@ def test_a_file_whose_shell_was_made_is_not_sent_back_for_one(tmp_path):
     assert not inspect(tmp_path / "holed.ply", samples=2000).sound
 
 
-@settings(max_examples=40, derandomize=True, deadline=None)
+@settings(max_examples=15, derandomize=True, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), kind=st.integers(0, 5))
 def test_never_sound_where_the_check_has_faults(seed, kind):
     random = np.random.default_rng(seed)
@@ -383,7 +383,7 @@ def test_slivers():
     )
 
 
-@settings(max_examples=25, derandomize=True, deadline=None)
+@settings(max_examples=10, derandomize=True, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1), keep=st.floats(0.2, 1), flip=st.floats(0, 1), scale=st.floats(1e-3, 1e3)
 )

@@ -169,7 +169,7 @@ def test_garbage_json(cube: FacetGraph, data: bytes) -> None:
         decode_json(data, cube.probe)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.binary(max_size=60), st.integers(0, 400), st.integers(0, 40))
 def test_damaged_json_is_refused_or_means_something(cube: FacetGraph, junk: bytes, at: int, cut: int) -> None:
     data = json.dumps(document(cube.probe)).encode()

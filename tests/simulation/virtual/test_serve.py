@@ -1,12 +1,12 @@
 """The bench behind real lines tells what it tells directly."""
 
-import threading
 import time
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from waiting import JumpingClock, until
 
 from contactbench.pipeline.calibration.calibrate import calibrate
 from contactbench.pipeline.calibration.poses import PoseSample
@@ -29,28 +29,18 @@ def mean_pose(wrenches, flanges, start, stop):
     return PoseSample(R, forces.mean(axis=0), torques.mean(axis=0), len(forces), **spread)
 
 
-def wait_until(met, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not met():
-        assert time.monotonic() < end
-        time.sleep(0.01)
-
-
 def test_a_calibration_over_the_wire_is_the_direct_one():
     wrenches, flanges, direct, turned, still = [], [], [], [], []
     with ServedBench(VirtualBench(seed=2), on_batch=direct.append) as served:
         pair = open_pair(served.sensor.url, served.robot.url, wrenches.extend, flanges.extend)
         with pair:
-            deadline = time.monotonic() + 10
-            while not (wrenches and flanges) and time.monotonic() < deadline:
-                time.sleep(0.02)
+            until(lambda: wrenches and flanges)
             for rpy in POSES:
                 done = served.bench.turn_to(rpy=rpy, seconds=TURN_S).result(2)
                 # By the bench's own clock: on a busy machine it may be behind that of the wall.
-                wait_until(lambda: served.bench.time > done.until + 0.1)  # noqa: B023 - called at once
-                time.sleep(0.1)  # what is still on the wire
+                until(lambda: served.bench.time > done.until + 0.2)  # noqa: B023 - called at once
                 start = time.monotonic()
-                wait_until(lambda: served.bench.time > done.until + 0.2 + REST_S)  # noqa: B023
+                until(lambda: served.bench.time > done.until + 0.2 + REST_S)  # noqa: B023
                 turned.append(mean_pose(wrenches, flanges, start, time.monotonic()))
                 still.append((done.until + 0.1, done.until + 0.1 + REST_S))
     samples = [sample for batch in direct for sample in batch.wrenches]
@@ -93,23 +83,23 @@ def test_an_arm_that_follows_a_turn_does_not_leap():
     assert np.abs(np.diff(joints[1:], axis=0)).max() < 0.05
 
 
-def test_a_computer_that_is_too_slow_lets_time_slip_and_says_so():
+def test_a_computer_that_is_too_slow_lets_time_slip_and_says_so(monkeypatch):
+    clock = JumpingClock()
+    monkeypatch.setattr("contactbench.pipeline.simulation.virtual.pace.time", clock)
     bench = VirtualBench(sensor="ideal")
-    times, blocked = [], threading.Event()
+    times = []
 
     def take(batch, origin):
         times.extend(origin + sample.time for sample in batch.wrenches)
-        if len(times) > 10 and not blocked.is_set():
-            blocked.set()
-            time.sleep(CATCH_UP_S + 0.5)
+        if len(times) > 10 and not clock.ahead:
+            clock.ahead = CATCH_UP_S + 0.5
 
     pacer = Pacer(bench, take)
     pacer.start()
-    while not blocked.is_set():
-        time.sleep(0.01)
-    time.sleep(CATCH_UP_S + 0.8)
+    until(lambda: pacer.slipped)
+    until(lambda: clock.monotonic() - times[-1] < 0.1)  # it has caught up
     pacer.stop()
     assert pacer.slipped == pytest.approx(0.5, abs=0.25)
     assert "too slow" in pacer.findings()[0]
     assert (np.diff(times) > 0).all()
-    assert times[-1] == pytest.approx(time.monotonic(), abs=0.2)
+    assert times[-1] == pytest.approx(clock.monotonic(), abs=0.2)

@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 import pytest
+from waiting import until
 
 from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
@@ -22,7 +23,7 @@ def test_the_same_address_is_the_same_bench_on_one_clock():
     with sensor, poses:
         begin = time.monotonic()
         done = sensor.source.bench.turn_to(rpy=(0, 40, 0), seconds=0.3).result(2)
-        time.sleep(0.6)
+        until(lambda: wrenches and flanges and min(wrenches[-1].time, flanges[-1].time) > begin + 0.6)
         assert sensor.health.state is State.STREAMING
     assert told[-1].state is State.CLOSED
     assert done.until - done.time == pytest.approx(0.3)

@@ -46,9 +46,12 @@ def test_every_part_has_its_figures(report):
     assert all(row.probe in ("linear", "capsule") for row in report.rows)
 
 
-def test_the_same_seed_gives_the_same(report):
-    assert study.run(("linear",), TINY, seed=1).rows == report.rows
-    assert study.run(("linear",), TINY, seed=2).rows != report.rows
+def test_the_same_seed_gives_the_same(report, monkeypatch):
+    first = next(iter(study._MEASURES))
+    monkeypatch.setattr(study, "_MEASURES", {first: study._MEASURES[first]})
+    before = tuple(row for row in report.rows if row.part == first)
+    assert study.run(("linear",), TINY, seed=1).rows == before
+    assert study.run(("linear",), TINY, seed=2).rows != before
 
 
 def test_bins_compare_what_is_stated_with_what_is_right(rng):

@@ -6,6 +6,7 @@ import threading
 
 import numpy as np
 from benchmarks.window.balls import ball
+from PySide6.QtWidgets import QApplication
 
 from contactbench.widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
 
@@ -40,8 +41,8 @@ def test_only_the_newest_probe_is_handed_on(qtbot):
     qtbot.waitUntil(lambda: not ahead.busy, timeout=20_000)
     assert [prepared.probe for prepared in taken] == [new]
     ahead.begin(old)
-    ahead.close()
-    qtbot.wait(50)
+    ahead.close()  # waits for what is under way
+    QApplication.processEvents()
     assert len(taken) == 1
 
 

@@ -105,7 +105,6 @@ def test_invented_facets_are_hatched(bench):
     before = bench.scene.picture().astype(int)
     bench.scene.show_probe(probe.with_invented(np.arange(12) == 4))
     bench.settle()
-    bench.qtbot.wait(50)
     bench.settle()
     ratio = bench.scene.stage.ratio
     a, b = bench.place([0.0185, -0.015, 0.003]) * ratio, bench.place([0.0, -0.015, 0.02]) * ratio
@@ -129,7 +128,6 @@ def test_untouchable_facets_are_crossed_out(bench):
     region = np.where(np.isin(np.arange(12), (4, 5)), 2, 1)
     bench.scene.show_probe(probe.with_region(region, untouchable=(2,)))
     bench.settle()
-    bench.qtbot.wait(50)
     bench.settle()
     crossed = dark_share(bench, before, *front)
     assert 0.05 < crossed < 0.8

@@ -24,10 +24,6 @@
         <translation>Lizenzen der Bestandteile</translation>
     </message>
     <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
-    </message>
-    <message>
         <source>Its parts and their licences:</source>
         <translation>Die Bestandteile und ihre Lizenzen:</translation>
     </message>
@@ -265,10 +261,6 @@
         <translation>Was sie tut</translation>
     </message>
     <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
-    </message>
-    <message>
         <source>Delete</source>
         <translation>Entf</translation>
     </message>
@@ -360,6 +352,38 @@
         <translation>Zu {name} gehen</translation>
     </message>
     <message>
+        <source>Sensor</source>
+        <translation>Sensor</translation>
+    </message>
+    <message>
+        <source>Calibration</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>Probe</source>
+        <translation>Sonde</translation>
+    </message>
+    <message>
+        <source>Regions</source>
+        <translation>Regionen</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Überprüfung</translation>
+    </message>
+    <message>
+        <source>Known weight</source>
+        <translation>Bekanntes Gewicht</translation>
+    </message>
+    <message>
+        <source>Known touch</source>
+        <translation>Bekannter Druckpunkt</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
         <source>done</source>
         <translation>erledigt</translation>
     </message>
@@ -428,365 +452,6 @@
     <message>
         <source>Colour of the region</source>
         <translation>Farbe der Region</translation>
-    </message>
-</context>
-<context>
-    <name>Controls</name>
-    <message>
-        <source>Weigh by confidence</source>
-        <translation>Nach Sicherheit gewichten</translation>
-    </message>
-    <message>
-        <source>Compare two side by side</source>
-        <translation>Zwei nebeneinander vergleichen</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
-    </message>
-    <message>
-        <source>Contact density</source>
-        <translation>Kontaktdichte</translation>
-    </message>
-    <message>
-        <source>Mean force</source>
-        <translation>Mittlere Kraft</translation>
-    </message>
-    <message>
-        <source>Peak force</source>
-        <translation>Größte Kraft</translation>
-    </message>
-    <message>
-        <source>Mean error</source>
-        <translation>Mittlerer Fehler</translation>
-    </message>
-    <message>
-        <source>Uncertainty (1 sigma)</source>
-        <translation>Unsicherheit (1 Sigma)</translation>
-    </message>
-    <message>
-        <source>What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm.</source>
-        <translation>Was die Farben bedeuten. Dichte: pro mm2; Kräfte: N; Fehler und Unsicherheit: mm.</translation>
-    </message>
-    <message>
-        <source>number of contacts</source>
-        <translation>Anzahl der Kontakte</translation>
-    </message>
-    <message>
-        <source>seconds of contact</source>
-        <translation>Sekunden mit Kontakt</translation>
-    </message>
-    <message>
-        <source>contacts per second</source>
-        <translation>Kontakte pro Sekunde</translation>
-    </message>
-    <message>
-        <source>What the density adds up to over the whole surface.</source>
-        <translation>Was die Dichte über die ganze Oberfläche ergibt.</translation>
-    </message>
-    <message>
-        <source>Standard deviation of the Gaussian by which each contact is spread along the surface, mm.</source>
-        <translation>Standardabweichung der Gauß-Glocke, mit der jeder Kontakt entlang der Oberfläche verteilt wird, mm.</translation>
-    </message>
-    <message>
-        <source>Quantity</source>
-        <translation>Größe</translation>
-    </message>
-    <message>
-        <source>What a density adds up to</source>
-        <translation>Was eine Dichte insgesamt ergibt</translation>
-    </message>
-    <message>
-        <source>Bandwidth in mm</source>
-        <translation>Bandbreite in mm</translation>
-    </message>
-    <message>
-        <source>Range of force in N</source>
-        <translation>Kraftbereich in N</translation>
-    </message>
-    <message>
-        <source>Only contacts with a force in this range count, N.</source>
-        <translation>Nur Kontakte mit einer Kraft in diesem Bereich zählen, N.</translation>
-    </message>
-    <message>
-        <source>A second heatmap with the same view and the same colours.</source>
-        <translation>Eine zweite Heatmap mit derselben Ansicht und denselben Farben.</translation>
-    </message>
-    <message>
-        <source>Let each contact count as much as its place is sure.</source>
-        <translation>Jeder Kontakt zählt so viel, wie seine Stelle sicher ist.</translation>
-    </message>
-    <message>
-        <source>Heatmap</source>
-        <translation>Heatmap</translation>
-    </message>
-    <message>
-        <source>Open files</source>
-        <translation>Dateien öffnen</translation>
-    </message>
-    <message>
-        <source>Recordings with their calibration and probe, contacts, verifications.</source>
-        <translation>Aufzeichnungen mit Kalibrierung und Sonde, Kontakte, Überprüfungen.</translation>
-    </message>
-    <message>
-        <source>Open session</source>
-        <translation>Sitzung öffnen</translation>
-    </message>
-    <message>
-        <source>The newest recording and verification of a session.</source>
-        <translation>Die neueste Aufzeichnung und Überprüfung einer Sitzung.</translation>
-    </message>
-    <message>
-        <source>Adds up to</source>
-        <translation>Ergibt</translation>
-    </message>
-    <message>
-        <source>Bandwidth</source>
-        <translation>Bandbreite</translation>
-    </message>
-    <message>
-        <source>Force</source>
-        <translation>Kraft</translation>
-    </message>
-    <message>
-        <source>Save</source>
-        <translation>Speichern</translation>
-    </message>
-    <message>
-        <source>Picture</source>
-        <translation>Bild</translation>
-    </message>
-    <message>
-        <source>What is shown, from two sides, as .png.</source>
-        <translation>Was gezeigt wird, von zwei Seiten, als .png.</translation>
-    </message>
-    <message>
-        <source>Film</source>
-        <translation>Film</translation>
-    </message>
-    <message>
-        <source>The time window, played at the chosen speed, as .mp4 or .gif.</source>
-        <translation>Das Zeitfenster, im gewählten Tempo abgespielt, als .mp4 oder .gif.</translation>
-    </message>
-    <message>
-        <source>Mesh</source>
-        <translation>Netz</translation>
-    </message>
-    <message>
-        <source>The values at the vertices, as .ply or .glb (glTF).</source>
-        <translation>Die Werte an den Eckpunkten, als .ply oder .glb (glTF).</translation>
-    </message>
-    <message>
-        <source>The forces are unknown.</source>
-        <translation>Die Kräfte sind unbekannt.</translation>
-    </message>
-    <message>
-        <source>{low:.1f} to {high:.1f} N</source>
-        <translation>{low:.1f} bis {high:.1f} N</translation>
-    </message>
-    <message>
-        <source>{title}: {percent}</source>
-        <translation>{title}: {percent}</translation>
-    </message>
-    <message>
-        <source>This session</source>
-        <translation>Diese Sitzung</translation>
-    </message>
-    <message>
-        <source>Open bundle</source>
-        <translation>Paket öffnen</translation>
-    </message>
-    <message>
-        <source>Start</source>
-        <translation>Starten</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>Robot</source>
-        <translation>Roboter</translation>
-    </message>
-    <message>
-        <source>Both are simulated: nothing real moves.</source>
-        <translation>Beide sind simuliert: Nichts Wirkliches bewegt sich.</translation>
-    </message>
-    <message>
-        <source>Elfin3 arm</source>
-        <translation>Elfin3-Arm</translation>
-    </message>
-    <message>
-        <source>stiff mount</source>
-        <translation>steife Halterung</translation>
-    </message>
-    <message>
-        <source>The phantom</source>
-        <translation>Das Phantom</translation>
-    </message>
-    <message>
-        <source>How the soft phantom moves under the probe.</source>
-        <translation>Wie sich das weiche Phantom unter der Sonde bewegt.</translation>
-    </message>
-    <message>
-        <source>tilts along the face</source>
-        <translation>kippt längs der Fläche</translation>
-    </message>
-    <message>
-        <source>tilts across the face</source>
-        <translation>kippt quer zur Fläche</translation>
-    </message>
-    <message>
-        <source>goes up and down</source>
-        <translation>geht auf und ab</translation>
-    </message>
-    <message>
-        <source>rests</source>
-        <translation>ruht</translation>
-    </message>
-    <message>
-        <source>There and back in</source>
-        <translation>Hin und zurück in</translation>
-    </message>
-    <message>
-        <source>Period T of the phantom&apos;s motion.</source>
-        <translation>Periode T der Bewegung des Phantoms.</translation>
-    </message>
-    <message>
-        <source>{seconds:g} s</source>
-        <translation>{seconds:g} s</translation>
-    </message>
-    <message>
-        <source>Control</source>
-        <translation>Regelung</translation>
-    </message>
-    <message>
-        <source>Aware: how the phantom moves is estimated and led. Plain: force and place alone.</source>
-        <translation>Vorausschauend: Die Bewegung des Phantoms wird geschätzt und vorweggenommen. Einfach: nur Kraft und Ort.</translation>
-    </message>
-    <message>
-        <source>as in the bundle</source>
-        <translation>wie im Paket</translation>
-    </message>
-    <message>
-        <source>aware</source>
-        <translation>vorausschauend</translation>
-    </message>
-    <message>
-        <source>plain</source>
-        <translation>einfach</translation>
-    </message>
-    <message>
-        <source>How far</source>
-        <translation>Wie weit</translation>
-    </message>
-    <message>
-        <source>Amplitude of the phantom&apos;s motion, to either side.</source>
-        <translation>Ausschlag des Phantoms, nach jeder Seite.</translation>
-    </message>
-    <message>
-        <source>What the controller does</source>
-        <translation>Was die Regelung tut</translation>
-    </message>
-    <message>
-        <source>Angle to the phantom</source>
-        <translation>Winkel zum Phantom</translation>
-    </message>
-    <message>
-        <source>What would be exported of the open session now.</source>
-        <translation>Was aus der offenen Sitzung jetzt exportiert würde.</translation>
-    </message>
-    <message>
-        <source>A folder or zip file that was exported.</source>
-        <translation>Ein Ordner oder eine Zip-Datei, die exportiert wurde.</translation>
-    </message>
-    <message>
-        <source>The probe goes back and stands still (Esc).</source>
-        <translation>Die Sonde geht zurück und steht still (Esc).</translation>
-    </message>
-    <message>
-        <source>Motion control</source>
-        <translation>Bewegungsregelung</translation>
-    </message>
-    <message>
-        <source>force</source>
-        <translation>Kraft</translation>
-    </message>
-    <message>
-        <source>angle to the phantom</source>
-        <translation>Winkel zum Phantom</translation>
-    </message>
-    <message>
-        <source> mm</source>
-        <translation> mm</translation>
-    </message>
-    <message>
-        <source>°</source>
-        <translation>°</translation>
-    </message>
-    <message>
-        <source>Not running</source>
-        <translation>Läuft nicht</translation>
-    </message>
-    <message>
-        <source>{:z.1f} N</source>
-        <translation>{:z.1f} N</translation>
-    </message>
-    <message>
-        <source>{:.1f}°</source>
-        <translation>{:.1f}°</translation>
-    </message>
-    <message>
-        <source>{time:.1f} s  {state}: {why}</source>
-        <translation>{time:.1f} s  {state}: {why}</translation>
-    </message>
-    <message>
-        <source>Approaching</source>
-        <translation>Nähert sich</translation>
-    </message>
-    <message>
-        <source>The probe goes slowly towards the phantom.</source>
-        <translation>Die Sonde geht langsam auf das Phantom zu.</translation>
-    </message>
-    <message>
-        <source>In contact</source>
-        <translation>In Kontakt</translation>
-    </message>
-    <message>
-        <source>The force grows; then the stiffness is felt.</source>
-        <translation>Die Kraft wächst; dann wird die Steifigkeit ertastet.</translation>
-    </message>
-    <message>
-        <source>Tracking</source>
-        <translation>Folgt</translation>
-    </message>
-    <message>
-        <source>It keeps its force and stands upright.</source>
-        <translation>Sie hält ihre Kraft und steht senkrecht.</translation>
-    </message>
-    <message>
-        <source>Holding</source>
-        <translation>Hält an</translation>
-    </message>
-    <message>
-        <source>Nothing moves until it is sure again.</source>
-        <translation>Nichts bewegt sich, bis alles wieder sicher ist.</translation>
-    </message>
-    <message>
-        <source>Going back</source>
-        <translation>Geht zurück</translation>
-    </message>
-    <message>
-        <source>The probe leaves the phantom.</source>
-        <translation>Die Sonde verlässt das Phantom.</translation>
-    </message>
-    <message>
-        <source>Standing still</source>
-        <translation>Steht still</translation>
-    </message>
-    <message>
-        <source>It has ended; nothing moves any more.</source>
-        <translation>Es ist zu Ende; nichts bewegt sich mehr.</translation>
     </message>
 </context>
 <context>
@@ -1043,33 +708,6 @@
     </message>
 </context>
 <context>
-    <name>Doing</name>
-    <message>
-        <source>Facets: {0:,}; area: {1:.2f} cm²</source>
-        <translation>Facetten: {0:,}; Fläche: {1:.2f} cm²</translation>
-    </message>
-    <message>
-        <source>Finding the facets</source>
-        <translation>Die Facetten werden gesucht</translation>
-    </message>
-    <message>
-        <source>Nothing changed: the region is like that already.</source>
-        <translation>Nichts geändert: Die Region ist schon so.</translation>
-    </message>
-    <message>
-        <source>give the probe its regions</source>
-        <translation>der Sonde ihre Regionen geben</translation>
-    </message>
-    <message>
-        <source>Giving the probe its regions</source>
-        <translation>Die Sonde bekommt ihre Regionen</translation>
-    </message>
-    <message>
-        <source>The probe has its regions now.</source>
-        <translation>Die Sonde hat jetzt ihre Regionen.</translation>
-    </message>
-</context>
-<context>
     <name>ErrorView</name>
     <message>
         <source>Mean error</source>
@@ -1187,32 +825,8 @@
         <translation>Erstellt von</translation>
     </message>
     <message>
-        <source>Calibration</source>
-        <translation>Kalibrierung</translation>
-    </message>
-    <message>
         <source>Probe</source>
         <translation>Sonde</translation>
-    </message>
-    <message>
-        <source>Regions</source>
-        <translation>Regionen</translation>
-    </message>
-    <message>
-        <source>Report</source>
-        <translation>Bericht</translation>
-    </message>
-    <message>
-        <source>Verification</source>
-        <translation>Überprüfung</translation>
-    </message>
-    <message>
-        <source>Known weight</source>
-        <translation>Bekanntes Gewicht</translation>
-    </message>
-    <message>
-        <source>Known touch</source>
-        <translation>Bekannter Druckpunkt</translation>
     </message>
     <message>
         <source>Export a file</source>
@@ -1461,7 +1075,25 @@
     </message>
 </context>
 <context>
-    <name>Figures</name>
+    <name>FileField</name>
+    <message>
+        <source>Choose…</source>
+        <translation>Wählen…</translation>
+    </message>
+</context>
+<context>
+    <name>FindingCards</name>
+    <message>
+        <source>Found</source>
+        <translation>Gefunden</translation>
+    </message>
+    <message>
+        <source>Do that</source>
+        <translation>Das tun</translation>
+    </message>
+</context>
+<context>
+    <name>GravityFigures</name>
     <message>
         <source>contact error from the calibration (1 sigma)</source>
         <translation>Kontaktfehler durch die Kalibrierung (1 Sigma)</translation>
@@ -1488,52 +1120,43 @@
     </message>
 </context>
 <context>
-    <name>FileField</name>
+    <name>GravityPage</name>
     <message>
-        <source>Choose…</source>
-        <translation>Wählen…</translation>
-    </message>
-</context>
-<context>
-    <name>Findings</name>
-    <message>
-        <source>Found</source>
-        <translation>Gefunden</translation>
+        <source>Take this pose (gravity)</source>
+        <translation>Diese Pose aufnehmen (Schwerkraft)</translation>
     </message>
     <message>
-        <source>Do that</source>
-        <translation>Das tun</translation>
-    </message>
-</context>
-<context>
-    <name>GravityChanges</name>
-    <message>
-        <source>leave out {poses}</source>
-        <translation>{poses} auslassen</translation>
+        <source>This did not work</source>
+        <translation>Das hat nicht geklappt</translation>
     </message>
     <message>
-        <source>take back {poses}</source>
-        <translation>{poses} zurücknehmen</translation>
+        <source>Checked in a pose it had not seen</source>
+        <translation>Geprüft in einer Pose, die neu für sie war</translation>
     </message>
     <message>
-        <source>The calibration is being computed, so no pose was changed. Do it again in a moment.</source>
-        <translation>Die Kalibrierung wird gerade berechnet, deshalb wurde keine Pose geändert. Versuchen Sie es gleich noch einmal.</translation>
+        <source>So far: {level}</source>
+        <translation>Bisher: {level}</translation>
     </message>
     <message>
-        <source>Computing the calibration</source>
-        <translation>Die Kalibrierung wird berechnet</translation>
+        <source>good</source>
+        <translation>gut</translation>
     </message>
     <message>
-        <source>Setting the parameters</source>
-        <translation>Die Parameter werden gesetzt</translation>
+        <source>usable</source>
+        <translation>brauchbar</translation>
     </message>
     <message>
-        <source>Opening the devices with the new mount</source>
-        <translation>Die Geräte werden mit der neuen Montage geöffnet</translation>
+        <source>not enough to be used</source>
+        <translation>nicht genug, um benutzt zu werden</translation>
     </message>
-</context>
-<context>
-    <name>GravityChoices</name>
+    <message>
+        <source>A calibration needs three poses or more.</source>
+        <translation>Eine Kalibrierung braucht mindestens drei Posen.</translation>
+    </message>
+    <message>
+        <source>Go to Devices</source>
+        <translation>Zu den Geräten</translation>
+    </message>
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
@@ -1577,45 +1200,6 @@
     <message>
         <source>Go on: Probe</source>
         <translation>Weiter: Sonde</translation>
-    </message>
-</context>
-<context>
-    <name>GravityPage</name>
-    <message>
-        <source>Take this pose (gravity)</source>
-        <translation>Diese Pose aufnehmen (Schwerkraft)</translation>
-    </message>
-    <message>
-        <source>This did not work</source>
-        <translation>Das hat nicht geklappt</translation>
-    </message>
-    <message>
-        <source>Checked in a pose it had not seen</source>
-        <translation>Geprüft in einer Pose, die neu für sie war</translation>
-    </message>
-    <message>
-        <source>So far: {level}</source>
-        <translation>Bisher: {level}</translation>
-    </message>
-    <message>
-        <source>good</source>
-        <translation>gut</translation>
-    </message>
-    <message>
-        <source>usable</source>
-        <translation>brauchbar</translation>
-    </message>
-    <message>
-        <source>not enough to be used</source>
-        <translation>nicht genug, um benutzt zu werden</translation>
-    </message>
-    <message>
-        <source>A calibration needs three poses or more.</source>
-        <translation>Eine Kalibrierung braucht mindestens drei Posen.</translation>
-    </message>
-    <message>
-        <source>Go to Devices</source>
-        <translation>Zu den Geräten</translation>
     </message>
     <message>
         <source>set the largest tilt to {degrees}°</source>
@@ -1811,9 +1395,29 @@
         <source>Keeping the check</source>
         <translation>Die Prüfung wird behalten</translation>
     </message>
+    <message>
+        <source>leave out {poses}</source>
+        <translation>{poses} auslassen</translation>
+    </message>
+    <message>
+        <source>take back {poses}</source>
+        <translation>{poses} zurücknehmen</translation>
+    </message>
+    <message>
+        <source>The calibration is being computed, so no pose was changed. Do it again in a moment.</source>
+        <translation>Die Kalibrierung wird gerade berechnet, deshalb wurde keine Pose geändert. Versuchen Sie es gleich noch einmal.</translation>
+    </message>
+    <message>
+        <source>Setting the parameters</source>
+        <translation>Die Parameter werden gesetzt</translation>
+    </message>
+    <message>
+        <source>Opening the devices with the new mount</source>
+        <translation>Die Geräte werden mit der neuen Montage geöffnet</translation>
+    </message>
 </context>
 <context>
-    <name>Header</name>
+    <name>HeaderBar</name>
     <message>
         <source>Header</source>
         <translation>Kopfzeile</translation>
@@ -1841,6 +1445,196 @@
     <message>
         <source>replay of {}</source>
         <translation>Wiedergabe von {}</translation>
+    </message>
+</context>
+<context>
+    <name>HeatmapControls</name>
+    <message>
+        <source>Contact density</source>
+        <translation>Kontaktdichte</translation>
+    </message>
+    <message>
+        <source>Mean force</source>
+        <translation>Mittlere Kraft</translation>
+    </message>
+    <message>
+        <source>Peak force</source>
+        <translation>Größte Kraft</translation>
+    </message>
+    <message>
+        <source>Mean error</source>
+        <translation>Mittlerer Fehler</translation>
+    </message>
+    <message>
+        <source>Uncertainty (1 sigma)</source>
+        <translation>Unsicherheit (1 Sigma)</translation>
+    </message>
+    <message>
+        <source>Quantity</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm.</source>
+        <translation>Was die Farben bedeuten. Dichte: pro mm2; Kräfte: N; Fehler und Unsicherheit: mm.</translation>
+    </message>
+    <message>
+        <source>number of contacts</source>
+        <translation>Anzahl der Kontakte</translation>
+    </message>
+    <message>
+        <source>seconds of contact</source>
+        <translation>Sekunden mit Kontakt</translation>
+    </message>
+    <message>
+        <source>contacts per second</source>
+        <translation>Kontakte pro Sekunde</translation>
+    </message>
+    <message>
+        <source>What a density adds up to</source>
+        <translation>Was eine Dichte insgesamt ergibt</translation>
+    </message>
+    <message>
+        <source>What the density adds up to over the whole surface.</source>
+        <translation>Was die Dichte über die ganze Oberfläche ergibt.</translation>
+    </message>
+    <message>
+        <source>Bandwidth in mm</source>
+        <translation>Bandbreite in mm</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian by which each contact is spread along the surface, mm.</source>
+        <translation>Standardabweichung der Gauß-Glocke, mit der jeder Kontakt entlang der Oberfläche verteilt wird, mm.</translation>
+    </message>
+    <message>
+        <source>Range of force in N</source>
+        <translation>Kraftbereich in N</translation>
+    </message>
+    <message>
+        <source>Only contacts with a force in this range count, N.</source>
+        <translation>Nur Kontakte mit einer Kraft in diesem Bereich zählen, N.</translation>
+    </message>
+    <message>
+        <source>Weigh by confidence</source>
+        <translation>Nach Sicherheit gewichten</translation>
+    </message>
+    <message>
+        <source>Let each contact count as much as its place is sure.</source>
+        <translation>Jeder Kontakt zählt so viel, wie seine Stelle sicher ist.</translation>
+    </message>
+    <message>
+        <source>Compare two side by side</source>
+        <translation>Zwei nebeneinander vergleichen</translation>
+    </message>
+    <message>
+        <source>A second heatmap with the same view and the same colours.</source>
+        <translation>Eine zweite Heatmap mit derselben Ansicht und denselben Farben.</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Open files</source>
+        <translation>Dateien öffnen</translation>
+    </message>
+    <message>
+        <source>Recordings with their calibration and probe, contacts, verifications.</source>
+        <translation>Aufzeichnungen mit Kalibrierung und Sonde, Kontakte, Überprüfungen.</translation>
+    </message>
+    <message>
+        <source>Open session</source>
+        <translation>Sitzung öffnen</translation>
+    </message>
+    <message>
+        <source>The newest recording and verification of a session.</source>
+        <translation>Die neueste Aufzeichnung und Überprüfung einer Sitzung.</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>What is shown, from two sides, as .png.</source>
+        <translation>Was gezeigt wird, von zwei Seiten, als .png.</translation>
+    </message>
+    <message>
+        <source>Film</source>
+        <translation>Film</translation>
+    </message>
+    <message>
+        <source>The time window, played at the chosen speed, as .mp4 or .gif.</source>
+        <translation>Das Zeitfenster, im gewählten Tempo abgespielt, als .mp4 oder .gif.</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>The values at the vertices, as .ply or .glb (glTF).</source>
+        <translation>Die Werte an den Eckpunkten, als .ply oder .glb (glTF).</translation>
+    </message>
+    <message>
+        <source>Adds up to</source>
+        <translation>Ergibt</translation>
+    </message>
+    <message>
+        <source>Bandwidth</source>
+        <translation>Bandbreite</translation>
+    </message>
+    <message>
+        <source>Force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>Heatmap</source>
+        <translation>Heatmap</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>The forces are unknown.</source>
+        <translation>Die Kräfte sind unbekannt.</translation>
+    </message>
+    <message>
+        <source>{low:.1f} to {high:.1f} N</source>
+        <translation>{low:.1f} bis {high:.1f} N</translation>
+    </message>
+    <message>
+        <source>{title}: {percent}</source>
+        <translation>{title}: {percent}</translation>
+    </message>
+</context>
+<context>
+    <name>HeatmapExport</name>
+    <message>
+        <source>Picture (*.png)</source>
+        <translation>Bild (*.png)</translation>
+    </message>
+    <message>
+        <source>MP4 film (*.mp4);;Animated GIF (*.gif)</source>
+        <translation>MP4-Film (*.mp4);;Animiertes GIF (*.gif)</translation>
+    </message>
+    <message>
+        <source>PLY mesh (*.ply);;Binary glTF (*.glb)</source>
+        <translation>PLY-Netz (*.ply);;Binäres glTF (*.glb)</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Saving {name}</source>
+        <translation>{name} wird gespeichert</translation>
+    </message>
+    <message>
+        <source>Saved {names}.</source>
+        <translation>Gespeichert: {names}.</translation>
+    </message>
+    <message>
+        <source> and </source>
+        <translation> und </translation>
     </message>
 </context>
 <context>
@@ -1898,13 +1692,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
-    <name>Keeper</name>
-    <message>
-        <source>Keeping the regions</source>
-        <translation>Die Regionen werden behalten</translation>
-    </message>
-</context>
-<context>
     <name>KnownCheckPanel</name>
     <message>
         <source>Cancel</source>
@@ -1945,172 +1732,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Stale: check again</source>
         <translation>Veraltet: bitte neu prüfen</translation>
-    </message>
-</context>
-<context>
-    <name>Leaving</name>
-    <message>
-        <source>Leave {name} out</source>
-        <translation>{name} auslassen</translation>
-    </message>
-    <message>
-        <source>Why is {name} not touched? The report says so.</source>
-        <translation>Warum wird {name} nicht berührt? Der Bericht sagt es.</translation>
-    </message>
-    <message>
-        <source>nothing reaches it</source>
-        <translation>nichts kommt dorthin</translation>
-    </message>
-    <message>
-        <source>the mark cannot be seen any more</source>
-        <translation>die Markierung ist nicht mehr zu sehen</translation>
-    </message>
-    <message>
-        <source>the housing gives way there</source>
-        <translation>das Gehäuse gibt dort nach</translation>
-    </message>
-    <message>
-        <source>a touch there would do damage</source>
-        <translation>eine Berührung dort würde Schaden anrichten</translation>
-    </message>
-    <message>
-        <source>Leave it out</source>
-        <translation>Auslassen</translation>
-    </message>
-    <message>
-        <source>{name} is not left out: that needs a reason.</source>
-        <translation>{name} wird nicht ausgelassen: Das braucht einen Grund.</translation>
-    </message>
-    <message>
-        <source>{name} is not left out: it was touched meanwhile.</source>
-        <translation>{name} wird nicht ausgelassen: Es wurde inzwischen berührt.</translation>
-    </message>
-    <message>
-        <source>{name} is left out: {why}. The verdict and the report say so.</source>
-        <translation>{name} wird ausgelassen: {why}. Das Urteil und der Bericht sagen es.</translation>
-    </message>
-</context>
-<context>
-    <name>LiveShow</name>
-    <message>
-        <source>All devices give samples again; the recording goes on.</source>
-        <translation>Alle Geräte liefern wieder Messwerte; die Aufzeichnung geht weiter.</translation>
-    </message>
-    <message>
-        <source>No sensor is open: connect one in step 1, Devices.</source>
-        <translation>Kein Sensor ist geöffnet: Verbinden Sie einen in Schritt 1, Geräte.</translation>
-    </message>
-    <message>
-        <source>Place markers first, on the first tab.</source>
-        <translation>Setzen Sie zuerst Marker, auf der ersten Karteikarte.</translation>
-    </message>
-    <message>
-        <source>Take everything off the probe, then start. From then on, only touch: no mouse is needed.</source>
-        <translation>Nehmen Sie alles von der Sonde weg und starten Sie. Von da an nur noch berühren: Eine Maus wird nicht gebraucht.</translation>
-    </message>
-    <message>
-        <source>Press with {low} to {high} N, and hold still.</source>
-        <translation>Mit {low} bis {high} N drücken und still halten.</translation>
-    </message>
-    <message>
-        <source>Bring the force to {low} to {high} N, and hold still.</source>
-        <translation>Die Kraft auf {low} bis {high} N bringen und still halten.</translation>
-    </message>
-    <message>
-        <source>Do not move: the samples are taken.</source>
-        <translation>Nicht bewegen: Die Messwerte werden aufgenommen.</translation>
-    </message>
-    <message>
-        <source>Let go.</source>
-        <translation>Loslassen.</translation>
-    </message>
-    <message>
-        <source>{why} ({force} N). Let go, and touch again.</source>
-        <translation>{why} ({force} N). Loslassen und noch einmal berühren.</translation>
-    </message>
-    <message>
-        <source>{marker}: {size} mm off.</source>
-        <translation>{marker}: {size} mm daneben.</translation>
-    </message>
-    <message>
-        <source>{marker}: {size} mm off. Let go.</source>
-        <translation>{marker}: {size} mm daneben. Loslassen.</translation>
-    </message>
-    <message>
-        <source>second touch</source>
-        <translation>zweite Berührung</translation>
-    </message>
-    <message>
-        <source>second touch, behind</source>
-        <translation>zweite Berührung, dahinter</translation>
-    </message>
-    <message>
-        <source>could also be here</source>
-        <translation>könnte auch hier sein</translation>
-    </message>
-    <message>
-        <source>could also be here, behind</source>
-        <translation>könnte auch hier sein, dahinter</translation>
-    </message>
-    <message>
-        <source>Confidence {percent} %</source>
-        <translation>Sicherheit {percent} %</translation>
-    </message>
-    <message>
-        <source>{sure}, because of the declared regions: the wrench fits another place, too.</source>
-        <translation>{sure}, wegen der festgelegten Regionen: Der Messwert passt auch zu einer anderen Stelle.</translation>
-    </message>
-    <message>
-        <source>{sure}: the wrench fits another place, too. Press in another direction.</source>
-        <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
-    </message>
-    <message>
-        <source>A second touch joined: both are shown.</source>
-        <translation>Eine zweite Berührung kam dazu: Beide sind gezeigt.</translation>
-    </message>
-    <message>
-        <source>No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm. Two touches at once, or wrong units, mount or compensation?</source>
-        <translation>Keine einzelne Berührung erklärt diesen Messwert: {sigmas} Sigma bleiben übrig, Hebelarm des Moments {arm} mm. Zwei Berührungen zugleich, oder falsche Einheiten, Einbaulage oder Kompensation?</translation>
-    </message>
-    <message>
-        <source>The force is almost parallel to the surface: press more steeply.</source>
-        <translation>Die Kraft ist fast parallel zur Oberfläche: Drücken Sie steiler.</translation>
-    </message>
-    <message>
-        <source>The contact is outside every region.</source>
-        <translation>Der Kontakt liegt außerhalb aller Regionen.</translation>
-    </message>
-    <message>
-        <source>The sensor is at the end of its range: press less hard.</source>
-        <translation>Der Sensor ist am Ende seines Messbereichs: Drücken Sie weniger fest.</translation>
-    </message>
-    <message>
-        <source>No part of the probe faces this force: check that it is the force on the probe, and the mount.</source>
-        <translation>Kein Teil der Sonde ist dieser Kraft zugewandt: Prüfen Sie, ob es die Kraft auf die Sonde ist, und die Einbaulage.</translation>
-    </message>
-    <message>
-        <source>On a facet that the mesh file did not have: its place is a guess.</source>
-        <translation>Auf einer Facette, die die Netzdatei nicht hatte: Ihre Lage ist geschätzt.</translation>
-    </message>
-    <message>
-        <source>On a region marked untouchable: check the region and the mount.</source>
-        <translation>Auf einer Region, die als unberührbar markiert ist: Prüfen Sie die Region und die Einbaulage.</translation>
-    </message>
-    <message>
-        <source>All markers are touched; touches: {done}. Finish, or touch some once more.</source>
-        <translation>Alle Marker sind berührt; Berührungen: {done}. Beenden Sie, oder berühren Sie einige noch einmal.</translation>
-    </message>
-    <message>
-        <source>Next: {name} · {done} of {wanted} touches</source>
-        <translation>Als Nächstes: {name} · {done} von {wanted} Berührungen</translation>
-    </message>
-    <message>
-        <source>of the touches that count</source>
-        <translation>der Berührungen, die zählen</translation>
-    </message>
-    <message>
-        <source>largest {largest} mm; the last was {ratio} times what noise explains</source>
-        <translation>größter {largest} mm; zuletzt das {ratio}-Fache des Rauschens</translation>
     </message>
 </context>
 <context>
@@ -2165,53 +1786,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Step {} of {}</source>
         <translation>Schritt {} von {}</translation>
-    </message>
-</context>
-<context>
-    <name>MarkerEditing</name>
-    <message>
-        <source>Add a marker</source>
-        <translation>Marker hinzufügen</translation>
-    </message>
-    <message>
-        <source>Move marker {name}</source>
-        <translation>Marker {name} verschieben</translation>
-    </message>
-    <message>
-        <source>Remove markers</source>
-        <translation>Marker entfernen</translation>
-    </message>
-    <message>
-        <source>Rename marker {name}</source>
-        <translation>Marker {name} umbenennen</translation>
-    </message>
-    <message>
-        <source>Place markers</source>
-        <translation>Marker setzen</translation>
-    </message>
-    <message>
-        <source>Move markers onto the surface</source>
-        <translation>Marker auf die Oberfläche setzen</translation>
-    </message>
-    <message>
-        <source>Import markers</source>
-        <translation>Marker importieren</translation>
-    </message>
-    <message>
-        <source>Saving the markers</source>
-        <translation>Die Marker werden gespeichert</translation>
-    </message>
-    <message>
-        <source>The markers are in {file}.</source>
-        <translation>Die Marker sind in {file}.</translation>
-    </message>
-    <message>
-        <source>Tables of markers (*.csv)</source>
-        <translation>Tabellen mit Markern (*.csv)</translation>
-    </message>
-    <message>
-        <source>Save markers</source>
-        <translation>Marker speichern</translation>
     </message>
 </context>
 <context>
@@ -2348,8 +1922,56 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Einen Marker an diesen Koordinaten hinzufügen</translation>
     </message>
     <message>
+        <source>region {rank}</source>
+        <translation>Region {rank}</translation>
+    </message>
+    <message>
         <source>the whole probe</source>
         <translation>die ganze Sonde</translation>
+    </message>
+    <message>
+        <source>Add a marker</source>
+        <translation>Marker hinzufügen</translation>
+    </message>
+    <message>
+        <source>Move marker {name}</source>
+        <translation>Marker {name} verschieben</translation>
+    </message>
+    <message>
+        <source>Remove markers</source>
+        <translation>Marker entfernen</translation>
+    </message>
+    <message>
+        <source>Rename marker {name}</source>
+        <translation>Marker {name} umbenennen</translation>
+    </message>
+    <message>
+        <source>Place markers</source>
+        <translation>Marker setzen</translation>
+    </message>
+    <message>
+        <source>Move markers onto the surface</source>
+        <translation>Marker auf die Oberfläche setzen</translation>
+    </message>
+    <message>
+        <source>Import markers</source>
+        <translation>Marker importieren</translation>
+    </message>
+    <message>
+        <source>Saving the markers</source>
+        <translation>Die Marker werden gespeichert</translation>
+    </message>
+    <message>
+        <source>The markers are in {file}.</source>
+        <translation>Die Marker sind in {file}.</translation>
+    </message>
+    <message>
+        <source>Tables of markers (*.csv)</source>
+        <translation>Tabellen mit Markern (*.csv)</translation>
+    </message>
+    <message>
+        <source>Save markers</source>
+        <translation>Marker speichern</translation>
     </message>
 </context>
 <context>
@@ -2669,6 +2291,224 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
+    <name>MessageRouter</name>
+    <message>
+        <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
+        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation>{}: {}</translation>
+    </message>
+</context>
+<context>
+    <name>MotionControls</name>
+    <message>
+        <source>Elfin3 arm</source>
+        <translation>Elfin3-Arm</translation>
+    </message>
+    <message>
+        <source>stiff mount</source>
+        <translation>steife Halterung</translation>
+    </message>
+    <message>
+        <source>Robot</source>
+        <translation>Roboter</translation>
+    </message>
+    <message>
+        <source>Both are simulated: nothing real moves.</source>
+        <translation>Beide sind simuliert: Nichts Wirkliches bewegt sich.</translation>
+    </message>
+    <message>
+        <source>tilts along the face</source>
+        <translation>kippt längs der Fläche</translation>
+    </message>
+    <message>
+        <source>tilts across the face</source>
+        <translation>kippt quer zur Fläche</translation>
+    </message>
+    <message>
+        <source>goes up and down</source>
+        <translation>geht auf und ab</translation>
+    </message>
+    <message>
+        <source>rests</source>
+        <translation>ruht</translation>
+    </message>
+    <message>
+        <source>The phantom</source>
+        <translation>Das Phantom</translation>
+    </message>
+    <message>
+        <source>How the soft phantom moves under the probe.</source>
+        <translation>Wie sich das weiche Phantom unter der Sonde bewegt.</translation>
+    </message>
+    <message>
+        <source>{seconds:g} s</source>
+        <translation>{seconds:g} s</translation>
+    </message>
+    <message>
+        <source>There and back in</source>
+        <translation>Hin und zurück in</translation>
+    </message>
+    <message>
+        <source>Period T of the phantom&apos;s motion.</source>
+        <translation>Periode T der Bewegung des Phantoms.</translation>
+    </message>
+    <message>
+        <source>as in the bundle</source>
+        <translation>wie im Paket</translation>
+    </message>
+    <message>
+        <source>aware</source>
+        <translation>vorausschauend</translation>
+    </message>
+    <message>
+        <source>plain</source>
+        <translation>einfach</translation>
+    </message>
+    <message>
+        <source>Control</source>
+        <translation>Regelung</translation>
+    </message>
+    <message>
+        <source>Aware: how the phantom moves is estimated and led. Plain: force and place alone.</source>
+        <translation>Vorausschauend: Die Bewegung des Phantoms wird geschätzt und vorweggenommen. Einfach: nur Kraft und Ort.</translation>
+    </message>
+    <message>
+        <source>Amplitude of the phantom&apos;s motion, to either side.</source>
+        <translation>Ausschlag des Phantoms, nach jeder Seite.</translation>
+    </message>
+    <message>
+        <source>How far</source>
+        <translation>Wie weit</translation>
+    </message>
+    <message>
+        <source>What the controller does</source>
+        <translation>Was die Regelung tut</translation>
+    </message>
+    <message>
+        <source>Force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>Angle to the phantom</source>
+        <translation>Winkel zum Phantom</translation>
+    </message>
+    <message>
+        <source>What would be exported of the open session now.</source>
+        <translation>Was aus der offenen Sitzung jetzt exportiert würde.</translation>
+    </message>
+    <message>
+        <source>This session</source>
+        <translation>Diese Sitzung</translation>
+    </message>
+    <message>
+        <source>A folder or zip file that was exported.</source>
+        <translation>Ein Ordner oder eine Zip-Datei, die exportiert wurde.</translation>
+    </message>
+    <message>
+        <source>Open bundle</source>
+        <translation>Paket öffnen</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>The probe goes back and stands still (Esc).</source>
+        <translation>Die Sonde geht zurück und steht still (Esc).</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Motion control</source>
+        <translation>Bewegungsregelung</translation>
+    </message>
+    <message>
+        <source>force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>angle to the phantom</source>
+        <translation>Winkel zum Phantom</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>°</source>
+        <translation>°</translation>
+    </message>
+    <message>
+        <source>Not running</source>
+        <translation>Läuft nicht</translation>
+    </message>
+    <message>
+        <source>{:z.1f} N</source>
+        <translation>{:z.1f} N</translation>
+    </message>
+    <message>
+        <source>{:.1f}°</source>
+        <translation>{:.1f}°</translation>
+    </message>
+    <message>
+        <source>{time:.1f} s  {state}: {why}</source>
+        <translation>{time:.1f} s  {state}: {why}</translation>
+    </message>
+    <message>
+        <source>Approaching</source>
+        <translation>Nähert sich</translation>
+    </message>
+    <message>
+        <source>The probe goes slowly towards the phantom.</source>
+        <translation>Die Sonde geht langsam auf das Phantom zu.</translation>
+    </message>
+    <message>
+        <source>In contact</source>
+        <translation>In Kontakt</translation>
+    </message>
+    <message>
+        <source>The force grows; then the stiffness is felt.</source>
+        <translation>Die Kraft wächst; dann wird die Steifigkeit ertastet.</translation>
+    </message>
+    <message>
+        <source>Tracking</source>
+        <translation>Folgt</translation>
+    </message>
+    <message>
+        <source>It keeps its force and stands upright.</source>
+        <translation>Sie hält ihre Kraft und steht senkrecht.</translation>
+    </message>
+    <message>
+        <source>Holding</source>
+        <translation>Hält an</translation>
+    </message>
+    <message>
+        <source>Nothing moves until it is sure again.</source>
+        <translation>Nichts bewegt sich, bis alles wieder sicher ist.</translation>
+    </message>
+    <message>
+        <source>Going back</source>
+        <translation>Geht zurück</translation>
+    </message>
+    <message>
+        <source>The probe leaves the phantom.</source>
+        <translation>Die Sonde verlässt das Phantom.</translation>
+    </message>
+    <message>
+        <source>Standing still</source>
+        <translation>Steht still</translation>
+    </message>
+    <message>
+        <source>It has ended; nothing moves any more.</source>
+        <translation>Es ist zu Ende; nichts bewegt sich mehr.</translation>
+    </message>
+</context>
+<context>
     <name>MotionWindow</name>
     <message>
         <source>Choose a bundle; then press Start. All is simulated: nothing real moves.</source>
@@ -2786,9 +2626,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <source>3  Place on the sensor</source>
         <translation>3  Lage auf dem Sensor</translation>
     </message>
-</context>
-<context>
-    <name>Placing</name>
     <message>
         <source>Placing the mesh</source>
         <translation>Das Netz wird platziert</translation>
@@ -3032,20 +2869,27 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>die Sonde nutzen</translation>
     </message>
     <message>
-        <source>Keeping the probe</source>
-        <translation>Die Sonde wird behalten</translation>
-    </message>
-    <message>
-        <source>Bringing the probe back</source>
-        <translation>Die Sonde wird zurückgeholt</translation>
-    </message>
-    <message>
         <source>The probe of {:,} facets is in use. Next: regions, or verify.</source>
         <translation>Die Sonde mit {:,} Facetten ist in Gebrauch. Als Nächstes: Regionen oder Prüfen.</translation>
     </message>
     <message>
         <source>Opening the probe</source>
         <translation>Die Sonde wird geöffnet</translation>
+    </message>
+</context>
+<context>
+    <name>ProbeWorker</name>
+    <message>
+        <source>Stopping...</source>
+        <translation>Wird angehalten...</translation>
+    </message>
+    <message>
+        <source>Stopped. Nothing was changed.</source>
+        <translation>Angehalten. Nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>Something unexpected went wrong ({}). What there was is as it was; try again.</source>
+        <translation>Unerwartet ist etwas schiefgegangen ({}). Alles ist, wie es war; versuchen Sie es noch einmal.</translation>
     </message>
 </context>
 <context>
@@ -3123,6 +2967,13 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Touched above</source>
         <translation>Berührt ab</translation>
+    </message>
+</context>
+<context>
+    <name>RegionAutosave</name>
+    <message>
+        <source>Keeping the regions</source>
+        <translation>Die Regionen werden behalten</translation>
     </message>
 </context>
 <context>
@@ -3251,6 +3102,30 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Making the surface to paint on</source>
         <translation>Die Fläche zum Bemalen wird gemacht</translation>
+    </message>
+    <message>
+        <source>Facets: {0:,}; area: {1:.2f} cm²</source>
+        <translation>Facetten: {0:,}; Fläche: {1:.2f} cm²</translation>
+    </message>
+    <message>
+        <source>Finding the facets</source>
+        <translation>Die Facetten werden gesucht</translation>
+    </message>
+    <message>
+        <source>Nothing changed: the region is like that already.</source>
+        <translation>Nichts geändert: Die Region ist schon so.</translation>
+    </message>
+    <message>
+        <source>give the probe its regions</source>
+        <translation>der Sonde ihre Regionen geben</translation>
+    </message>
+    <message>
+        <source>The probe has its regions now.</source>
+        <translation>Die Sonde hat jetzt ihre Regionen.</translation>
+    </message>
+    <message>
+        <source>Giving the probe its regions</source>
+        <translation>Die Sonde bekommt ihre Regionen</translation>
     </message>
     <message>
         <source>Import regions</source>
@@ -3459,37 +3334,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
-    <name>Saving</name>
-    <message>
-        <source>Picture (*.png)</source>
-        <translation>Bild (*.png)</translation>
-    </message>
-    <message>
-        <source>MP4 film (*.mp4);;Animated GIF (*.gif)</source>
-        <translation>MP4-Film (*.mp4);;Animiertes GIF (*.gif)</translation>
-    </message>
-    <message>
-        <source>PLY mesh (*.ply);;Binary glTF (*.glb)</source>
-        <translation>PLY-Netz (*.ply);;Binäres glTF (*.glb)</translation>
-    </message>
-    <message>
-        <source>Save</source>
-        <translation>Speichern</translation>
-    </message>
-    <message>
-        <source>Saving {name}</source>
-        <translation>{name} wird gespeichert</translation>
-    </message>
-    <message>
-        <source>Saved {names}.</source>
-        <translation>Gespeichert: {names}.</translation>
-    </message>
-    <message>
-        <source> and </source>
-        <translation> und </translation>
-    </message>
-</context>
-<context>
     <name>ScaleBar</name>
     <message>
         <source>Scale: the bar is {length} long</source>
@@ -3661,101 +3505,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
-    <name>SettingsPanel</name>
-    <message>
-        <source>Lower end of the force window, N</source>
-        <translation>Unteres Ende des Kraftfensters, N</translation>
-    </message>
-    <message>
-        <source>Upper end of the force window, N</source>
-        <translation>Oberes Ende des Kraftfensters, N</translation>
-    </message>
-    <message>
-        <source>to</source>
-        <translation>bis</translation>
-    </message>
-    <message>
-        <source>Press with</source>
-        <translation>Drücken mit</translation>
-    </message>
-    <message>
-        <source>Accepted touches wanted of each marker</source>
-        <translation>Gewünschte gezählte Berührungen jedes Markers</translation>
-    </message>
-    <message>
-        <source>Each marker</source>
-        <translation>Jeder Marker</translation>
-    </message>
-    <message>
-        <source>Samples taken of each touch, once it has settled</source>
-        <translation>Messwerte je Berührung, sobald sie ruhig ist</translation>
-    </message>
-    <message>
-        <source>Samples</source>
-        <translation>Messwerte</translation>
-    </message>
-    <message>
-        <source>any order</source>
-        <translation>beliebig</translation>
-    </message>
-    <message>
-        <source>as in the table</source>
-        <translation>wie in der Tabelle</translation>
-    </message>
-    <message>
-        <source>In which order markers are touched</source>
-        <translation>In welcher Reihenfolge Marker berührt werden</translation>
-    </message>
-    <message>
-        <source>In any order a touch is of the marker that it is near; in the table&apos;s order, of the next one.</source>
-        <translation>Bei beliebiger Reihenfolge gilt eine Berührung dem Marker, dem sie nahe ist; nach der Tabelle dem nächsten.</translation>
-    </message>
-    <message>
-        <source>Touch in</source>
-        <translation>Reihenfolge</translation>
-    </message>
-    <message>
-        <source>Largest mean error that passes, mm</source>
-        <translation>Größter mittlerer Fehler, mit dem bestanden wird, mm</translation>
-    </message>
-    <message>
-        <source>Largest error that passes, mm</source>
-        <translation>Größter Fehler, mit dem bestanden wird, mm</translation>
-    </message>
-    <message>
-        <source>Mean error up to</source>
-        <translation>Mittel bis</translation>
-    </message>
-    <message>
-        <source>Any error up to</source>
-        <translation>Einzeln bis</translation>
-    </message>
-    <message>
-        <source>Touches of each marker</source>
-        <translation>Berührungen jedes Markers</translation>
-    </message>
-    <message>
-        <source>Samples of each touch</source>
-        <translation>Messwerte jeder Berührung</translation>
-    </message>
-    <message>
-        <source>Limit of the mean error</source>
-        <translation>Grenze des mittleren Fehlers</translation>
-    </message>
-    <message>
-        <source>Limit of any error</source>
-        <translation>Grenze jedes Fehlers</translation>
-    </message>
-    <message>
-        <source>Force window</source>
-        <translation>Kraftfenster</translation>
-    </message>
-    <message>
-        <source>Order of touches</source>
-        <translation>Reihenfolge der Berührungen</translation>
-    </message>
-</context>
-<context>
     <name>ShapePanel</name>
     <message>
         <source>The chosen region</source>
@@ -3832,6 +3581,13 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Take all facets out of the region</source>
         <translation>Alle Facetten aus der Region nehmen</translation>
+    </message>
+</context>
+<context>
+    <name>ShowDialog</name>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
     </message>
 </context>
 <context>
@@ -4135,13 +3891,6 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
     </message>
 </context>
 <context>
-    <name>TextDialog</name>
-    <message>
-        <source>Close</source>
-        <translation>Schließen</translation>
-    </message>
-</context>
-<context>
     <name>TimeBar</name>
     <message>
         <source>Time window</source>
@@ -4200,17 +3949,6 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>{start:.1f} to {end:.1f} s of {whole:.1f} s</source>
         <translation>{start:.1f} bis {end:.1f} s von {whole:.1f} s</translation>
-    </message>
-</context>
-<context>
-    <name>Told</name>
-    <message>
-        <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
-        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}: {}</translation>
     </message>
 </context>
 <context>
@@ -4458,6 +4196,158 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <source>Tones are muted</source>
         <translation>Die Töne sind stumm</translation>
     </message>
+    <message>
+        <source>Leave {name} out</source>
+        <translation>{name} auslassen</translation>
+    </message>
+    <message>
+        <source>Why is {name} not touched? The report says so.</source>
+        <translation>Warum wird {name} nicht berührt? Der Bericht sagt es.</translation>
+    </message>
+    <message>
+        <source>nothing reaches it</source>
+        <translation>nichts kommt dorthin</translation>
+    </message>
+    <message>
+        <source>the mark cannot be seen any more</source>
+        <translation>die Markierung ist nicht mehr zu sehen</translation>
+    </message>
+    <message>
+        <source>the housing gives way there</source>
+        <translation>das Gehäuse gibt dort nach</translation>
+    </message>
+    <message>
+        <source>a touch there would do damage</source>
+        <translation>eine Berührung dort würde Schaden anrichten</translation>
+    </message>
+    <message>
+        <source>{name} is not left out: that needs a reason.</source>
+        <translation>{name} wird nicht ausgelassen: Das braucht einen Grund.</translation>
+    </message>
+    <message>
+        <source>{name} is not left out: it was touched meanwhile.</source>
+        <translation>{name} wird nicht ausgelassen: Es wurde inzwischen berührt.</translation>
+    </message>
+    <message>
+        <source>{name} is left out: {why}. The verdict and the report say so.</source>
+        <translation>{name} wird ausgelassen: {why}. Das Urteil und der Bericht sagen es.</translation>
+    </message>
+    <message>
+        <source>second touch</source>
+        <translation>zweite Berührung</translation>
+    </message>
+    <message>
+        <source>second touch, behind</source>
+        <translation>zweite Berührung, dahinter</translation>
+    </message>
+    <message>
+        <source>could also be here</source>
+        <translation>könnte auch hier sein</translation>
+    </message>
+    <message>
+        <source>could also be here, behind</source>
+        <translation>könnte auch hier sein, dahinter</translation>
+    </message>
+    <message>
+        <source>No sensor is open: connect one in step 1, Devices.</source>
+        <translation>Kein Sensor ist geöffnet: Verbinden Sie einen in Schritt 1, Geräte.</translation>
+    </message>
+    <message>
+        <source>Place markers first, on the first tab.</source>
+        <translation>Setzen Sie zuerst Marker, auf der ersten Karteikarte.</translation>
+    </message>
+    <message>
+        <source>Take everything off the probe, then start. From then on, only touch: no mouse is needed.</source>
+        <translation>Nehmen Sie alles von der Sonde weg und starten Sie. Von da an nur noch berühren: Eine Maus wird nicht gebraucht.</translation>
+    </message>
+    <message>
+        <source>Press with {low} to {high} N, and hold still.</source>
+        <translation>Mit {low} bis {high} N drücken und still halten.</translation>
+    </message>
+    <message>
+        <source>Bring the force to {low} to {high} N, and hold still.</source>
+        <translation>Die Kraft auf {low} bis {high} N bringen und still halten.</translation>
+    </message>
+    <message>
+        <source>Do not move: the samples are taken.</source>
+        <translation>Nicht bewegen: Die Messwerte werden aufgenommen.</translation>
+    </message>
+    <message>
+        <source>Let go.</source>
+        <translation>Loslassen.</translation>
+    </message>
+    <message>
+        <source>{why} ({force} N). Let go, and touch again.</source>
+        <translation>{why} ({force} N). Loslassen und noch einmal berühren.</translation>
+    </message>
+    <message>
+        <source>{marker}: {size} mm off.</source>
+        <translation>{marker}: {size} mm daneben.</translation>
+    </message>
+    <message>
+        <source>{marker}: {size} mm off. Let go.</source>
+        <translation>{marker}: {size} mm daneben. Loslassen.</translation>
+    </message>
+    <message>
+        <source>Confidence {percent} %</source>
+        <translation>Sicherheit {percent} %</translation>
+    </message>
+    <message>
+        <source>{sure}, because of the declared regions: the wrench fits another place, too.</source>
+        <translation>{sure}, wegen der festgelegten Regionen: Der Messwert passt auch zu einer anderen Stelle.</translation>
+    </message>
+    <message>
+        <source>{sure}: the wrench fits another place, too. Press in another direction.</source>
+        <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
+    </message>
+    <message>
+        <source>A second touch joined: both are shown.</source>
+        <translation>Eine zweite Berührung kam dazu: Beide sind gezeigt.</translation>
+    </message>
+    <message>
+        <source>No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm. Two touches at once, or wrong units, mount or compensation?</source>
+        <translation>Keine einzelne Berührung erklärt diesen Messwert: {sigmas} Sigma bleiben übrig, Hebelarm des Moments {arm} mm. Zwei Berührungen zugleich, oder falsche Einheiten, Einbaulage oder Kompensation?</translation>
+    </message>
+    <message>
+        <source>The force is almost parallel to the surface: press more steeply.</source>
+        <translation>Die Kraft ist fast parallel zur Oberfläche: Drücken Sie steiler.</translation>
+    </message>
+    <message>
+        <source>The contact is outside every region.</source>
+        <translation>Der Kontakt liegt außerhalb aller Regionen.</translation>
+    </message>
+    <message>
+        <source>The sensor is at the end of its range: press less hard.</source>
+        <translation>Der Sensor ist am Ende seines Messbereichs: Drücken Sie weniger fest.</translation>
+    </message>
+    <message>
+        <source>No part of the probe faces this force: check that it is the force on the probe, and the mount.</source>
+        <translation>Kein Teil der Sonde ist dieser Kraft zugewandt: Prüfen Sie, ob es die Kraft auf die Sonde ist, und die Einbaulage.</translation>
+    </message>
+    <message>
+        <source>On a facet that the mesh file did not have: its place is a guess.</source>
+        <translation>Auf einer Facette, die die Netzdatei nicht hatte: Ihre Lage ist geschätzt.</translation>
+    </message>
+    <message>
+        <source>On a region marked untouchable: check the region and the mount.</source>
+        <translation>Auf einer Region, die als unberührbar markiert ist: Prüfen Sie die Region und die Einbaulage.</translation>
+    </message>
+    <message>
+        <source>All markers are touched; touches: {done}. Finish, or touch some once more.</source>
+        <translation>Alle Marker sind berührt; Berührungen: {done}. Beenden Sie, oder berühren Sie einige noch einmal.</translation>
+    </message>
+    <message>
+        <source>Next: {name} · {done} of {wanted} touches</source>
+        <translation>Als Nächstes: {name} · {done} von {wanted} Berührungen</translation>
+    </message>
+    <message>
+        <source>of the touches that count</source>
+        <translation>der Berührungen, die zählen</translation>
+    </message>
+    <message>
+        <source>largest {largest} mm; the last was {ratio} times what noise explains</source>
+        <translation>größter {largest} mm; zuletzt das {ratio}-Fache des Rauschens</translation>
+    </message>
 </context>
 <context>
     <name>TouchState</name>
@@ -4610,6 +4500,10 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Die Heatmap wird gezeichnet</translation>
     </message>
     <message>
+        <source>All devices give samples again; the recording goes on.</source>
+        <translation>Alle Geräte liefern wieder Messwerte; die Aufzeichnung geht weiter.</translation>
+    </message>
+    <message>
         <source>Keeping the recording</source>
         <translation>Die Aufzeichnung wird behalten</translation>
     </message>
@@ -4620,10 +4514,6 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>Loading the probe</source>
         <translation>Die Sonde wird geladen</translation>
-    </message>
-    <message>
-        <source>region {rank}</source>
-        <translation>Region {rank}</translation>
     </message>
     <message>
         <source>Measuring the noise</source>
@@ -4644,6 +4534,101 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>Ending the recording</source>
         <translation>Die Aufzeichnung wird beendet</translation>
+    </message>
+</context>
+<context>
+    <name>VerifySettingsPanel</name>
+    <message>
+        <source>Lower end of the force window, N</source>
+        <translation>Unteres Ende des Kraftfensters, N</translation>
+    </message>
+    <message>
+        <source>Upper end of the force window, N</source>
+        <translation>Oberes Ende des Kraftfensters, N</translation>
+    </message>
+    <message>
+        <source>Accepted touches wanted of each marker</source>
+        <translation>Gewünschte gezählte Berührungen jedes Markers</translation>
+    </message>
+    <message>
+        <source>Samples taken of each touch, once it has settled</source>
+        <translation>Messwerte je Berührung, sobald sie ruhig ist</translation>
+    </message>
+    <message>
+        <source>any order</source>
+        <translation>beliebig</translation>
+    </message>
+    <message>
+        <source>as in the table</source>
+        <translation>wie in der Tabelle</translation>
+    </message>
+    <message>
+        <source>In which order markers are touched</source>
+        <translation>In welcher Reihenfolge Marker berührt werden</translation>
+    </message>
+    <message>
+        <source>In any order a touch is of the marker that it is near; in the table&apos;s order, of the next one.</source>
+        <translation>Bei beliebiger Reihenfolge gilt eine Berührung dem Marker, dem sie nahe ist; nach der Tabelle dem nächsten.</translation>
+    </message>
+    <message>
+        <source>Largest mean error that passes, mm</source>
+        <translation>Größter mittlerer Fehler, mit dem bestanden wird, mm</translation>
+    </message>
+    <message>
+        <source>Largest error that passes, mm</source>
+        <translation>Größter Fehler, mit dem bestanden wird, mm</translation>
+    </message>
+    <message>
+        <source>Press with</source>
+        <translation>Drücken mit</translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation>bis</translation>
+    </message>
+    <message>
+        <source>Each marker</source>
+        <translation>Jeder Marker</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>Messwerte</translation>
+    </message>
+    <message>
+        <source>Touch in</source>
+        <translation>Reihenfolge</translation>
+    </message>
+    <message>
+        <source>Mean error up to</source>
+        <translation>Mittel bis</translation>
+    </message>
+    <message>
+        <source>Any error up to</source>
+        <translation>Einzeln bis</translation>
+    </message>
+    <message>
+        <source>Order of touches</source>
+        <translation>Reihenfolge der Berührungen</translation>
+    </message>
+    <message>
+        <source>Touches of each marker</source>
+        <translation>Berührungen jedes Markers</translation>
+    </message>
+    <message>
+        <source>Samples of each touch</source>
+        <translation>Messwerte jeder Berührung</translation>
+    </message>
+    <message>
+        <source>Limit of the mean error</source>
+        <translation>Grenze des mittleren Fehlers</translation>
+    </message>
+    <message>
+        <source>Limit of any error</source>
+        <translation>Grenze jedes Fehlers</translation>
+    </message>
+    <message>
+        <source>Force window</source>
+        <translation>Kraftfenster</translation>
     </message>
 </context>
 <context>
@@ -4687,6 +4672,17 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>What is nearer looks larger; lengths are then not true, so there is no scale</source>
         <translation>Was näher ist, wirkt größer; Längen stimmen dann nicht, deshalb gibt es keinen Maßstab</translation>
+    </message>
+</context>
+<context>
+    <name>ViewerWork</name>
+    <message>
+        <source>Stopped; nothing was changed.</source>
+        <translation>Angehalten; nichts wurde geändert.</translation>
+    </message>
+    <message>
+        <source>Something went wrong that should not have: {what}.</source>
+        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {what}.</translation>
     </message>
 </context>
 <context>
@@ -4734,32 +4730,6 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>Wait until the weight is at rest.</source>
         <translation>Warten, bis das Gewicht ruht.</translation>
-    </message>
-</context>
-<context>
-    <name>Work</name>
-    <message>
-        <source>Stopped; nothing was changed.</source>
-        <translation>Angehalten; nichts wurde geändert.</translation>
-    </message>
-    <message>
-        <source>Something went wrong that should not have: {what}.</source>
-        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {what}.</translation>
-    </message>
-</context>
-<context>
-    <name>Worker</name>
-    <message>
-        <source>Stopping...</source>
-        <translation>Wird angehalten...</translation>
-    </message>
-    <message>
-        <source>Stopped. Nothing was changed.</source>
-        <translation>Angehalten. Nichts wurde geändert.</translation>
-    </message>
-    <message>
-        <source>Something unexpected went wrong ({}). What there was is as it was; try again.</source>
-        <translation>Unerwartet ist etwas schiefgegangen ({}). Alles ist, wie es war; versuchen Sie es noch einmal.</translation>
     </message>
 </context>
 <context>

@@ -37,23 +37,12 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Method:
-    """One way to locate contacts.
+    """One way to locate contacts."""
 
-    Attributes
-    ----------
-    name : str
-        As in :data:`METHODS`.
-    locate : callable
-        (6,) wrench in S, N and N·m -> Contact.
-    locate_batch : callable
-        (n, 6) wrenches -> Batch, each row on its own.
-    engine : object
-        What does the work; compiled ones have ``time_each(wrenches)`` -> nanoseconds of each solve.
-    """
-
-    name: str
-    locate: Callable[[ArrayLike], Contact]
-    locate_batch: Callable[[ArrayLike], Batch]
+    name: str  # As in :data:`METHODS`
+    locate: Callable[[ArrayLike], Contact]  # (6,) wrench in S, N and N·m -> Contact
+    locate_batch: Callable[[ArrayLike], Batch]  # (n, 6) wrenches -> Batch, each row on its own
+    # What does the work; compiled ones have ``time_each(wrenches)`` -> nanoseconds of each solve
     engine: Any = field(repr=False, compare=False, default=None)
 
 

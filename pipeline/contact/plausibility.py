@@ -35,23 +35,12 @@ _HEAVY_N = 1.0  # a sensor at rest, compensated, shows far less
 
 @dataclass(frozen=True)
 class Trial:
-    """One mistake, undone.
+    """One mistake, undone."""
 
-    Attributes
-    ----------
-    name : str
-        ``torques_in_Nmm``, ``reversed``, ``turned`` or ``not_compensated``.
-    cause : str
-        A clause that says what would be wrong.
-    remedy : str
-        A sentence.
-    rows, plausible : int
-        How many wrenches were tried, and how many a touch of the probe then explains.
-    """
-
-    name: str
-    cause: str
-    remedy: str
+    name: str  # ``torques_in_Nmm``, ``reversed``, ``turned`` or ``not_compensated``
+    cause: str  # A clause that says what would be wrong
+    remedy: str  # A sentence
+    # How many wrenches were tried, and how many a touch of the probe then explains
     rows: int
     plausible: int
 
@@ -63,31 +52,16 @@ class Trial:
 
 @dataclass(frozen=True)
 class Plausibility:
-    """Figures of a file that no touch explains, and what the usual mistakes would make of it.
+    """Figures of a file that no touch explains, and what the usual mistakes would make of it."""
 
-    Attributes
-    ----------
-    rows, plausible : int
-        Wrenches with force that were looked at, and how many a touch explains as they are.
-    arm_m : float
-        Median of the torque over the force, m.
-    reach_m : float
-        From the sensor origin to the farthest point of the probe, m.
-    miss_m : float
-        Median distance at which the line of force passes the probe, m; 0 where it meets it.
-    smallest_force_N : float
-        In the whole file.
-    trials : tuple of Trial
-        The mistakes, those that explain most first.
-    """
-
+    # Wrenches with force that were looked at, and how many a touch explains as they are
     rows: int
     plausible: int
-    arm_m: float
-    reach_m: float
-    miss_m: float
-    smallest_force_N: float
-    trials: tuple[Trial, ...]
+    arm_m: float  # Median of the torque over the force, m
+    reach_m: float  # From the sensor origin to the farthest point of the probe, m
+    miss_m: float  # Median distance at which the line of force passes the probe, m; 0 where it meets it
+    smallest_force_N: float  # In the whole file
+    trials: tuple[Trial, ...]  # The mistakes, those that explain most first
 
     @property
     def likely(self) -> tuple[Trial, ...]:

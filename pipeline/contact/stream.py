@@ -42,37 +42,19 @@ class Locator(Protocol):
 
 @dataclass(frozen=True)
 class LocateSummary:
-    """
-    What came of a file.
+    """What came of a file."""
 
-    Attributes
-    ----------
-    rows : int
-        Wrenches read and answered.
-    reasons : dict of str to int
-        Answers per reason, every reason named, in lower case.
-    method : str
-        Who answered.
-    median_sigma_max_mm : float or None
-        Median of the largest standard deviation of the points, mm, to four digits; None without points.
-    on_invented, on_untouchable : int
-        Contacts on facets that were made up, and on those of regions that nothing can touch.
-    seconds : float
-        From the first byte read to the last one written.
-    warnings : tuple of str
-        What should make one doubt the answers: sentences with a remedy.
-    plausibility : Plausibility or None
-        What may be wrong, where no touch explains more than half of the rows with force.
-    """
-
-    rows: int
-    reasons: dict[str, int]
-    method: str
+    rows: int  # Wrenches read and answered
+    reasons: dict[str, int]  # Answers per reason, every reason named, in lower case
+    method: str  # Who answered
+    # Median of the largest standard deviation of the points, mm, to four digits; None without points
     median_sigma_max_mm: float | None
+    # Contacts on facets that were made up, and on those of regions that nothing can touch
     on_invented: int
     on_untouchable: int
-    seconds: float
-    warnings: tuple[str, ...] = ()
+    seconds: float  # From the first byte read to the last one written
+    warnings: tuple[str, ...] = ()  # What should make one doubt the answers: sentences with a remedy
+    # What may be wrong, where no touch explains more than half of the rows with force
     plausibility: Plausibility | None = None
 
     @property

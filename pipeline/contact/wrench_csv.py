@@ -42,25 +42,12 @@ _WORDING = Wording(
 
 @dataclass(frozen=True)
 class WrenchRows:
-    """
-    Consecutive rows of a file.
+    """Consecutive rows of a file."""
 
-    Attributes
-    ----------
-    times : (n,) bytes
-        The cells of column t as they stand in the file, UTF-8.
-    t : (n,) float64 or None
-        The same as numbers, s; None when nobody asked for them.
-    wrenches : (n, 6) float64
-        Fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin.
-    lines : (n,) int64
-        The line of each row in the file; the header is line 1.
-    """
-
-    times: npt.NDArray[np.bytes_]
-    t: npt.NDArray[np.float64] | None
-    wrenches: npt.NDArray[np.float64]
-    lines: npt.NDArray[np.int64]
+    times: npt.NDArray[np.bytes_]  # (n,) the cells of column t as they stand in the file, UTF-8
+    t: npt.NDArray[np.float64] | None  # (n,) the same as numbers, s; None when nobody asked for them
+    wrenches: npt.NDArray[np.float64]  # (n, 6) fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin
+    lines: npt.NDArray[np.int64]  # (n,) the line of each row in the file; the header is line 1
 
 
 class WrenchReader:

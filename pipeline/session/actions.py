@@ -190,20 +190,10 @@ class Entry(_Part):
 
 @dataclass(frozen=True)
 class Record:
-    """
-    An entry in its place.
+    """An entry in its place."""
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    hash : str
-        Of the chain up to here, 64 hexadecimal digits.
-    entry : Entry
-    """
-
-    number: int
-    hash: str
+    number: int  # From 1
+    hash: str  # Of the chain up to here, 64 hexadecimal digits
     entry: Entry
 
     @property

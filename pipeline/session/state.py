@@ -29,33 +29,17 @@ MESH = "mesh"
 
 @dataclass(frozen=True)
 class Input:
-    """
-    A raw input or a mesh.
+    """A raw input or a mesh."""
 
-    Attributes
-    ----------
-    kind, name : str
-        A mesh is of the kind ``mesh``; the session has one at a time, whatever its name.
-    file : FileRef
-    sensor : str or None
-        Serial number of the sensor that it was recorded with; None if nobody said.
-    number : int
-        Of its record.
-    at : str
-        When, UTC.
-    companions : mapping
-        Name -> file that lay beside it.
-    about : mapping
-        What is known about it: JSON values, such as the counters of a recording.
-    """
-
+    # A mesh is of the kind ``mesh``; the session has one at a time, whatever its name
     kind: str
     name: str
     file: FileRef
-    sensor: str | None
-    number: int
-    at: str
-    companions: Mapping[str, FileRef] = field(default_factory=dict)
+    sensor: str | None  # Serial number of the sensor that it was recorded with; None if nobody said
+    number: int  # Of its record
+    at: str  # When, UTC
+    companions: Mapping[str, FileRef] = field(default_factory=dict)  # Name -> file that lay beside it
+    # What is known about it: JSON values, such as the counters of a recording
     about: Mapping[str, Any] = field(default_factory=dict)
     # Nobody says anything of what is brought in.
     mark: ClassVar[None] = None
@@ -74,27 +58,13 @@ class Input:
 
 @dataclass(frozen=True)
 class Result:
-    """
-    A result as it was recorded.
-
-    Attributes
-    ----------
-    action : ResultAdded
-    number : int
-        Of its record.
-    at : str
-        When, UTC.
-    tool : str
-        Which version made it.
-    marks : tuple of ResultMarked
-        What people said of it, oldest first.
-    """
+    """A result as it was recorded."""
 
     action: ResultAdded
-    number: int
-    at: str
-    tool: str
-    marks: tuple[ResultMarked, ...] = ()
+    number: int  # Of its record
+    at: str  # When, UTC
+    tool: str  # Which version made it
+    marks: tuple[ResultMarked, ...] = ()  # What people said of it, oldest first
 
     @property
     def slot(self) -> tuple[str, str]:

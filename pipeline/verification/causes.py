@@ -32,40 +32,19 @@ _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """
-    Accepted touches, n of them.
+    """Accepted touches, n of them."""
 
-    Attributes
-    ----------
-    errors : (n, 3)
-        Located minus marker, S, m.
-    markers : (n,)
-        Which marker.
-    points, normals : (n, 3)
-        Of these markers, S.
-    heights : (n,)
-        Of these markers over the mesh, m.
-    wrenches : (n, 6)
-        Compensated means, S.
-    R_WS : (n, 3, 3)
-    torques : (n,)
-        Located local torques, N·m.
-    noise : (6, 6)
-        Covariance of such a mean by the sensor's noise alone.
-    theta : (12,)
-        Parameters of the calibration.
-    """
-
-    errors: Array
-    markers: NDArray[np.intp]
+    errors: Array  # (n, 3) located minus marker, S, m
+    markers: NDArray[np.intp]  # (n,) which marker
+    # (n, 3) of these markers, S
     points: Array
     normals: Array
-    heights: Array
-    wrenches: Array
-    R_WS: Array
-    torques: Array
-    noise: Array
-    theta: Array
+    heights: Array  # (n,) of these markers over the mesh, m
+    wrenches: Array  # (n, 6) compensated means, S
+    R_WS: Array  # (n, 3, 3)
+    torques: Array  # (n,) located local torques, N·m
+    noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
+    theta: Array  # (12,) parameters of the calibration
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> Evidence:
         """Return some of the touches, or all in another order."""
@@ -81,27 +60,13 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Explained:
-    """
-    What the errors bear the marks of.
+    """What the errors bear the marks of."""
 
-    Attributes
-    ----------
-    shares : dict of Cause to float
-        Of the squared error; 1 together.
-    gains : dict of Cause to float
-        Of log likelihood, by allowing for this cause alone.
-    scale : float
-        Of the noise.
-    rivals : tuple of Cause
-        What explains the errors about as well as the cause with the largest share.
-    moved : (n,)
-        How far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause.
-    """
-
-    shares: dict[Cause, float]
-    gains: dict[Cause, float]
-    scale: float
-    rivals: tuple[Cause, ...]
+    shares: dict[Cause, float]  # Of the squared error; 1 together
+    gains: dict[Cause, float]  # Of log likelihood, by allowing for this cause alone
+    scale: float  # Of the noise
+    rivals: tuple[Cause, ...]  # What explains the errors about as well as the cause with the largest share
+    # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
 
     @property

@@ -142,41 +142,20 @@ class TouchParameters(CheckParameters):
 
 @dataclass(frozen=True, eq=False)
 class TouchCheck:
-    """
-    What a press on a known point shows; lengths in m.
-
-    Attributes
-    ----------
-    outcome : Outcome
-    reasons : tuple of str
-        What is wrong or missing, in sentences.
-    sentence : str
-        All in a paragraph.
-    point : (3,)
-        That was pressed, S.
-    located : (3,) or None
-        Where the contact was found, S, mean over the presses; None: nowhere on the probe.
-    error, sigma : float or None, float
-        Distance of the two; its 1 sigma by noise, calibration and how well the point is hit.
-    missed_by : float
-        Distance of the point from the line of force.
-    lever : float
-        Of that line from the sensor's origin: how much the touch says of the torques.
-    force : float
-        Mean |F|, N.
-    presses : int
-    """
+    """What a press on a known point shows; lengths in m."""
 
     outcome: Outcome
-    reasons: tuple[str, ...]
-    sentence: str
-    point: Floats
+    reasons: tuple[str, ...]  # What is wrong or missing, in sentences
+    sentence: str  # All in a paragraph
+    point: Floats  # (3,) that was pressed, S
+    # (3,) where the contact was found, S, mean over the presses; None: nowhere on the probe
     located: Floats | None
+    # Distance of the two; its 1 sigma by noise, calibration and how well the point is hit
     error: float | None
     sigma: float
-    missed_by: float
-    lever: float
-    force: float
+    missed_by: float  # Distance of the point from the line of force
+    lever: float  # Of that line from the sensor's origin: how much the touch says of the torques
+    force: float  # Mean |F|, N
     presses: int
 
     @property

@@ -107,42 +107,24 @@ class WeightParameters(CheckParameters):
 
 @dataclass(frozen=True, eq=False)
 class WeightCheck:
-    """
-    What a known weight shows.
-
-    Attributes
-    ----------
-    outcome : Outcome
-    reasons : tuple of str
-        What is wrong or missing, and what else to know; sentences.
-    sentence : str
-        All in a paragraph.
-    measured, measured_sigma : float
-        The weight as the sensor reads it, along gravity, kg; minus: upwards.
-    scale, scale_sigma : float
-        Measured over true force. Its uncertainty has the weight's own and that of gravity in it.
-    direction, direction_sigma : float
-        Angle between the change of force and gravity, rad.
-    lever : float
-        Distance of the weight's line from the sensor's origin as the torques say, m.
-    axes : tuple of str
-        Force channels that read at least half of the weight somewhere; of the others the check says nothing.
-    offset : float
-        |F| without the weight after compensation, N.
-    """
+    """What a known weight shows."""
 
     outcome: Outcome
-    reasons: tuple[str, ...]
-    sentence: str
+    reasons: tuple[str, ...]  # What is wrong or missing, and what else to know; sentences
+    sentence: str  # All in a paragraph
+    # The weight as the sensor reads it, along gravity, kg; minus: upwards
     measured: float
     measured_sigma: float
+    # Measured over true force. Its uncertainty has the weight's own and that of gravity in it.
     scale: float
     scale_sigma: float
+    # Angle between the change of force and gravity, rad
     direction: float
     direction_sigma: float
-    lever: float
+    lever: float  # Distance of the weight's line from the sensor's origin as the torques say, m
+    # Force channels that read at least half of the weight somewhere; of the others the check says nothing
     axes: tuple[str, ...]
-    offset: float
+    offset: float  # |F| without the weight after compensation, N
 
     @property
     def passed(self) -> bool:

@@ -28,65 +28,32 @@ _MUCH_TORSION = TouchModel(torsion_arm=0.01)  # ten times what is usual
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """
-    The contact of a touch.
+    """The contact of a touch."""
 
-    Attributes
-    ----------
-    point : (3,)
-        Of the mean wrench, S, m.
-    covariance : (3, 3)
-        Of that point: sensor noise over the samples, and the calibration; m².
-    wrench : (6,)
-        Mean over the samples, S, N and N·m.
-    R_WS : (3, 3)
-    torque : float
-        Local torque k, N·m.
-    normal : (3,)
-        Of the facet that was touched.
-    count : int
-        Samples.
-    drift, drift_sigma : float
-        How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m.
-    ambiguous : bool
-    implausible : bool
-        No single touch explains the wrench, unless with more torque about the normal than a tip can give.
-    """
-
-    point: NDArray[np.float64]
+    point: NDArray[np.float64]  # (3,) of the mean wrench, S, m
+    # (3, 3) of that point: sensor noise over the samples, and the calibration; m²
     covariance: NDArray[np.float64]
-    wrench: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    torque: float
-    normal: NDArray[np.float64]
-    count: int
+    wrench: NDArray[np.float64]  # (6,) mean over the samples, S, N and N·m
+    R_WS: NDArray[np.float64]  # (3, 3)
+    torque: float  # Local torque k, N·m
+    normal: NDArray[np.float64]  # (3,) of the facet that was touched
+    count: int  # Samples
+    # How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m
     drift: float
     drift_sigma: float
     ambiguous: bool
+    # No single touch explains the wrench, unless with more torque about the normal than a tip can give
     implausible: bool = False
 
 
 @dataclass(frozen=True)
 class Placed:
-    """
-    The marker that a contact belongs to.
+    """The marker that a contact belongs to."""
 
-    Attributes
-    ----------
-    marker : int
-        Its place in the set.
-    sigmas : float
-        Mahalanobis distance; covariance of the contact, and what alignment may be off.
-    rival : bool
-        A second marker is about as near.
-    far : bool
-        It is none of the markers.
-    """
-
-    marker: int
-    sigmas: float
-    rival: bool
-    far: bool
+    marker: int  # Its place in the set
+    sigmas: float  # Mahalanobis distance; covariance of the contact, and what alignment may be off
+    rival: bool  # A second marker is about as near
+    far: bool  # It is none of the markers
 
 
 class Placing:

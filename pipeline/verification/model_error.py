@@ -139,25 +139,13 @@ _MIXTURES = _Mixture.all()
 
 @dataclass(frozen=True, eq=False)
 class _Touched:
-    """
-    Touches, those of a marker together.
+    """Touches, those of a marker together."""
 
-    Attributes
-    ----------
-    J : (n, 2, 6)
-        How the contact moves along the surface with its wrench, in units of the default error.
-    known : (n, 2, 2)
-        Covariance by noise and placement.
-    columns : (n, 2, 19)
-        J, effects of what the calibration leaves, of unit variance, and the errors.
-    starts : (g,)
-        First touch of each marker.
-    """
-
+    # (n, 2, 6) how the contact moves along the surface with its wrench, in units of the default error
     J: Array
-    known: Array
-    columns: Array
-    starts: NDArray[np.intp]
+    known: Array  # (n, 2, 2) covariance by noise and placement
+    columns: Array  # (n, 2, 19) J, effects of what the calibration leaves, of unit variance, and the errors
+    starts: NDArray[np.intp]  # (g,) first touch of each marker
 
     @classmethod
     def of(cls, evidence: Evidence, model: GravityModel) -> _Touched:

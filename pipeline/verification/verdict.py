@@ -25,32 +25,16 @@ _LISTED = 10
 
 @dataclass(frozen=True)
 class Case:
-    """
-    What a verdict is about.
-
-    Attributes
-    ----------
-    overall : Summary or None
-    unresolved : Unresolved or None
-    missing : tuple of str
-    markers : int
-        With an accepted touch.
-    limits : Limits
-    faults : tuple of str
-        What is wrong with the inputs, in sentences.
-    rejected : dict of str to int
-    left_out : mapping of str to str
-        Marker -> why nobody need touch it.
-    """
+    """What a verdict is about."""
 
     overall: Summary | None
     unresolved: Unresolved | None
     missing: tuple[str, ...]
-    markers: int
+    markers: int  # With an accepted touch
     limits: Limits
-    faults: tuple[str, ...]
+    faults: tuple[str, ...]  # What is wrong with the inputs, in sentences
     rejected: dict[str, int]
-    left_out: Mapping[str, str] = field(default_factory=dict)
+    left_out: Mapping[str, str] = field(default_factory=dict)  # Marker -> why nobody need touch it
 
     def judged(self, times: Times | None) -> Verdict:
         """Return the verdict; times that were not measured are a note."""

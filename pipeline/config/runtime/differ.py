@@ -48,21 +48,11 @@ class Difference:
 
 @dataclass(frozen=True)
 class Differences:
-    """
-    All that differs.
+    """All that differs."""
 
-    Attributes
-    ----------
-    fields : tuple of Difference
-        Empty: the two are the same, file hashes included.
-    files : tuple of str
-        Files whose content differs, or that only one has.
-    mesh : mapping or None
-        ``facets`` of both and how far the surfaces are apart, mm; None where ``probe.ply`` is the same.
-    """
-
-    fields: tuple[Difference, ...]
-    files: tuple[str, ...]
+    fields: tuple[Difference, ...]  # Empty: the two are the same, file hashes included
+    files: tuple[str, ...]  # Files whose content differs, or that only one has
+    # ``facets`` of both and how far the surfaces are apart, mm; None where ``probe.ply`` is the same
     mesh: dict[str, Any] | None
 
     @property

@@ -26,25 +26,13 @@ RATE_OFF = 0.05  # share by which rates may differ and count as the same
 
 @dataclass(frozen=True)
 class Verified:
-    """
-    What was verified.
+    """What was verified."""
 
-    Attributes
-    ----------
-    sources : dict of str to str
-        SHA-256 by role.
-    rate : float or None
-        Of the recording, Hz; None if the verification does not say it.
-    mount : (4,) tuple or None
-        quaternion_ES; None if the verification does not say it.
-    model_error : WrenchNoise or None
-        What the wrench's model leaves out; None if it was not measured.
-    """
-
-    sources: dict[str, str]
-    rate: float | None
+    sources: dict[str, str]  # SHA-256 by role
+    rate: float | None  # Of the recording, Hz; None if the verification does not say it
+    # (4,) quaternion_ES; None if the verification does not say it
     mount: tuple[float, float, float, float] | None
-    model_error: WrenchNoise | None
+    model_error: WrenchNoise | None  # What the wrench's model leaves out; None if it was not measured
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:

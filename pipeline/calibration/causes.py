@@ -43,7 +43,7 @@ class Cause:
     key: str
     odds: float  # Its probability among all causes that were compared, 0 to 1
     sentence: str  # What it would mean, with its size and the remedy
-    believed: bool = False  # The evidence is strong: the calibration rests on it
+    believed: bool  # The evidence is strong: the calibration rests on it
 
     @property
     def diagnosed(self) -> bool:

@@ -231,7 +231,7 @@ def test_a_pose_that_is_used_beyond_the_limit_is_told():
 
 def test_a_cause_that_only_the_diagnosis_knows_is_no_agreement():
     calibration = calibrate(taken(turned(12)), NOISE)
-    swapped = Cause("fx_fz_swapped", 0.98, "Channels are swapped: fx with fz.")
+    swapped = Cause("fx_fz_swapped", 0.98, "Channels are swapped: fx with fz.", believed=False)
     text = Reader(report_html(replace(calibration, causes=(swapped,)))).text
     assert "agree with one another" not in text
     assert "98 % Channels are swapped: fx with fz." in text

@@ -72,7 +72,7 @@ class LiveView(QObject):
             return
 
         def work(_progress: object, _cancelled: object) -> None:
-            from contactbench.pipeline.session.making import mount_rotation
+            from contactbench.pipeline.calibration.parameters import mount_rotation
 
             bench.live.open(sensor, poses if isinstance(poses, str) else None, mount_rotation(mount))
 

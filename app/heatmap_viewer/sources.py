@@ -13,6 +13,7 @@ import numpy as np
 from contactbench.app.heatmap_viewer.how import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
+from contactbench.pipeline.calibration.parameters import mount_rotation
 from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError
@@ -24,8 +25,7 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.report.making import check_sources, sha256_of
 from contactbench.pipeline.report.reading import read_verification
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.making import mount_of, mount_rotation
-from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:

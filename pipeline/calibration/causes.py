@@ -70,7 +70,7 @@ def causes(poses: Sequence[PoseSample], compared: Comparison, told: Candidate) -
         shares[key] = shares.get(key, 0.0) + probability
         first.setdefault(key, candidate)
     found = [
-        Cause(key, share, _sentence(first[key], poses, compared), key == _key(told))
+        Cause(key, min(share, 1.0), _sentence(first[key], poses, compared), key == _key(told))
         for key, share in shares.items()
         if share > _TOLD or key == _key(told)
     ]

@@ -55,8 +55,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
         yield Files(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.making import mount_of
-    from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+    from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
 
     with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
         roles = newest_inputs(session.state, "report" if judged else "heatmap")
@@ -122,9 +121,9 @@ def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, 
             "a recording needs --calibration: the weight of the probe is in its readings."
         )
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.parameters import mount_rotation as of_degrees
     from contactbench.pipeline.contact import Gates
     from contactbench.pipeline.heatmap.contacts import locate_recording
-    from contactbench.pipeline.session.making import mount_rotation as of_degrees
 
     model = load_calibration(files.calibration).model
     R_ES = mount_rotation(mount) if mount is not None else of_degrees(files.mount)

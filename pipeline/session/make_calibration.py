@@ -9,27 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
+from contactbench.pipeline.calibration.parameters import Number, PoseParameters, Three, check_roles
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.making import (
-    Number,
-    Parameters,
-    Three,
-    check_roles,
-    folder_for,
-    mount_rotation,
-    read_parameters,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    import numpy as np
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration import ContactTask, PoseNoise, PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
-    from contactbench.pipeline.calibration.orientation import Convention
 
 FEWEST_POSES = 3
 
@@ -37,45 +25,14 @@ FEWEST_POSES = 3
 Moment = Annotated[float, Field(ge=-1e15, le=1e15, allow_inf_nan=False)]
 
 
-class PosesParameters(Parameters):
-    """How orientations in a table are written, and the sensor's in the flange: as the options of the commands."""
+class CapturesParameters(PoseParameters):
+    """As the options of ``contactbench calibrate captures``; the delay in seconds."""
 
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: str | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: Three | None = None
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the file's columns say."""
-        from contactbench.pipeline.calibration.orientation import convention_of
-
-        return convention_of(
-            self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
-        )
-
-    @property
-    def R_ES(self) -> NDArray[np.float64] | None:
-        """(3, 3) orientation of the sensor on the flange; None: nobody said."""
-        return mount_rotation(self.mount)
-
-
-class CapturesParameters(PosesParameters):
-    """
-    As the options of ``contactbench calibrate captures``; angles of the mount in degrees, the delay in seconds.
-
-    Attributes
-    ----------
-    leave_out : tuple of float
-        s, on the recording's clock: a capture in which such a moment lies is left out.
-    partial : bool
-        More poses will follow in another recording: fewer than three do.
-    """
+    endings = (".csv",)
 
     delay: Number | Literal["auto"] | None = None
-    leave_out: tuple[Moment, ...] = ()
-    partial: bool = False
+    leave_out: tuple[Moment, ...] = ()  # s, on the recording's clock: captures in which one lies are left out
+    partial: bool = False  # More poses will follow in another recording: fewer than three do
 
 
 def captures(
@@ -93,10 +50,11 @@ def captures(
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.files.capture_file import capture_any
-    from contactbench.pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.files.pose_csv import encode_poses
 
-    given = read_parameters(CapturesParameters, parameters)
-    recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
+    given = CapturesParameters.checked(parameters)
+    check_roles(inputs, ("recording",), ("calibration", "earlier", "robot_poses"))
+    recording = inputs["recording"]
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
     found = capture_any(
         recording,
@@ -121,9 +79,7 @@ def captures(
         raise SessionError(
             f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more of them still for some seconds.{why}"
         )
-    with folder_for(given.name, ".csv") as out:
-        write_poses(out, poses)
-        return {given.name: out.read_bytes()}
+    return {given.name: encode_poses(poses, given.name)}
 
 
 def _earlier(file: Path) -> tuple[PoseSample, ...]:
@@ -149,23 +105,14 @@ def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple
     )
 
 
-class CalibrationParameters(PosesParameters):
-    """
-    As the options of ``contactbench calibrate fit``; angles of the mount in degrees.
-
-    Attributes
-    ----------
-    orientation_noise : float or None
-        1 sigma of the poses' orientations about each axis, degrees; None: estimated.
-    down : (3,)
-        Where gravity points in W; its length does not matter.
-    """
+class CalibrationParameters(PoseParameters):
+    """As the options of ``contactbench calibrate fit``."""
 
     estimate_mount: bool = False
     noise_force: Number | None = None
     noise_torque: Number | None = None
-    orientation_noise: Number | None = None
-    down: Three = (0.0, 0.0, -1.0)
+    orientation_noise: Number | None = None  # 1 sigma about each axis, degrees; None: estimated
+    down: Three = (0.0, 0.0, -1.0)  # Where gravity points in W; its length does not matter
     tip: Three = (0.0, 0.0, 100.0)
     contact_force: Number = 10.0
 
@@ -205,15 +152,16 @@ def calibration(
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
     from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
+    from contactbench.pipeline.calibration.files.calibration_file import Mount, encode_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
     from contactbench.pipeline.calibration.mount import estimate_mount
 
-    given = read_parameters(CalibrationParameters, parameters)
+    given = CalibrationParameters.checked(parameters)
     if given.mount is not None and given.estimate_mount:
         raise SessionError("mount and estimate_mount contradict each other: give one.")
-    poses = check_roles(inputs, "poses")
+    check_roles(inputs, ("poses",))
+    poses = inputs["poses"]
     if is_recording(poses) or is_recorded_table(poses):
         raise SessionError(
             f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
@@ -230,6 +178,4 @@ def calibration(
     else:
         found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **given.assumed)
     time = None if created is None else datetime.fromisoformat(created)
-    with folder_for(given.name, ".json") as out:
-        save_calibration(found, out, source=poses, created=time, mount=mount)
-        return {given.name: out.read_bytes()}
+    return {given.name: encode_calibration(found, given.name, source=poses, created=time, mount=mount)}

@@ -8,21 +8,13 @@ from collections import OrderedDict
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast, get_args
 
+from contactbench.pipeline.calibration.parameters import Number, Parameters, check_roles
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.making import (
-    Number,
-    Parameters,
-    check_roles,
-    folder_for,
-    metres,
-    read_parameters,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.mesh.simplify import Engine
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.prepare import Dense, Preparation
@@ -37,6 +29,8 @@ _REMEMBERED = 2
 
 class ProbeParameters(Parameters):
     """As the options of ``contactbench probe prepare``; mount: mm, then degrees about the fixed axes."""
+
+    endings = (".ply",)
 
     units: str = "auto"
     close: tuple[str, ...] = ()
@@ -67,18 +61,11 @@ def probe(
     another, what ``contactbench probe regions export`` wrote of the aligned outer surface: see
     `contactbench.pipeline.preparation.painted`. For `remember` see `dense_of`.
     """
-    given = read_parameters(ProbeParameters, parameters)
+    from contactbench.pipeline.mesh.sidecar import encode_probe_file
+
+    given = ProbeParameters.checked(parameters)
     done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
-    return probe_files(done.content, given.name)
-
-
-def probe_files(content: ProbeFile, name: str) -> dict[str, bytes]:
-    """Return the files that a probe is kept in, under a name that ends in ``.ply``."""
-    from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
-
-    with folder_for(name, ".ply") as out:
-        save_probe_file(content, out)
-        return {file.name: file.read_bytes() for file in (out, sidecar_of(out))}
+    return encode_probe_file(done.content, given.name)
 
 
 def prepared(
@@ -98,7 +85,8 @@ def prepared(
         raise SessionError(
             f"engine {given.engine!r}: there is no such engine: give one of {get_args(Engine)}."
         )
-    mesh = check_roles(inputs, "mesh", "alignment", "regions")
+    check_roles(inputs, ("mesh",), ("alignment", "regions"))
+    mesh = inputs["mesh"]
     if given.mount is not None and "alignment" in inputs:
         raise SessionError("mount and an alignment contradict each other: give one.")
     alignment, target = alignment_of(given, inputs.get("alignment")), target_of(given)
@@ -171,8 +159,8 @@ def dense_of(
         mesh,
         cast("Any", given.units),
         ways[0] if len(ways) == 1 else ways or Closing.AUTO,
-        alpha=metres(given.alpha),
-        gap=metres(given.gap),
+        alpha=None if given.alpha is None else given.alpha / 1000,
+        gap=None if given.gap is None else given.gap / 1000,
         aligned_later=aligned_later,
         progress=progress,
         cancelled=cancelled,

@@ -17,8 +17,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
+from contactbench.pipeline.calibration.parameters import Three
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.report.making import ReportParameters, report
 from contactbench.pipeline.session.actions import main_file
@@ -30,7 +31,6 @@ from contactbench.pipeline.session.make_calibration import (
     captures,
 )
 from contactbench.pipeline.session.make_probe import ProbeParameters, probe
-from contactbench.pipeline.session.making import PREFIX
 from contactbench.pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
 from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch
 from contactbench.pipeline.verification.known_weight import WeightParameters, known_weight
@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.actions import Record
     from contactbench.pipeline.session.state import State
     from contactbench.pipeline.session.store import Session
+
+PREFIX = "contactbench-"  # of temporary folders
 
 # Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and
 # `remember`, those in _TELLING `tell`.
@@ -286,6 +288,27 @@ def settings_of(state: State, kind: str) -> dict[str, Any]:
         key.partition(".")[2]: each for key, each in state.settings.items() if key.startswith(f"{kind}.")
     }
     return {name: each.value for name, each in named.items() if name in known and each.value is not None}
+
+
+def mount_of(state: State) -> Three | None:
+    """
+    Return how a session says that its sensor is mounted, degrees about the fixed axes x, y, z; None: it does not.
+
+    Raises
+    ------
+    SessionError
+        What it says is not three angles.
+    """
+    given = state.setting("devices.mount")
+    if given is None:
+        return None
+    try:
+        angles: Three = TypeAdapter(Three).validate_python(given)
+    except ValidationError:
+        raise SessionError(
+            "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."
+        ) from None
+    return angles
 
 
 @contextmanager

@@ -1,32 +1,22 @@
-"""What the checks against a known weight and a known point share: parameters, outcome, the file they write."""
+"""What the checks against a known weight and a known point share: outcome, and the file they write."""
 
 from __future__ import annotations
 
 import json
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
-    from typing import Self
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.calibration.orientation import Convention
-
-_FOLDERS_SEPARATORS = ("/", "\\")
-
-Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
-Three = tuple[Number, Number, Number]
 
 WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
 SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}
@@ -45,54 +35,8 @@ class Outcome(StrEnum):
     UNDECIDED = "undecided"  # its uncertainty is too large to tell
 
 
-class CheckParameters(BaseModel):
-    """
-    Parameters of both checks: as the options of ``contactbench calibrate check``, angles of the mount in degrees.
-
-    Attributes
-    ----------
-    name : str
-        Of the file that is written.
-    euler, rotation_vector, robot, radians, inverse
-        How orientations in a CSV file are written.
-    mount : (3,), optional
-        Angles of the sensor on the flange about the fixed axes x, y, z, degrees; left out: as the calibration has it.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    name: str
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: Literal["elfin3"] | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: Three | None = None
-
-    @classmethod
-    def checked(cls, values: Mapping[str, Any]) -> Self:
-        """Return parameters; InputError, with the first that is wrong."""
-        try:
-            given = cls.model_validate(dict(values))
-        except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            where = ".".join(map(str, first["loc"]))
-            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
-        if not given.name.endswith(".json") or any(each in given.name for each in _FOLDERS_SEPARATORS):
-            raise InputError(f"{given.name}: the result is a file whose name ends in .json.")
-        return given
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the columns say. InputError: the parameters contradict."""
-        from contactbench.pipeline.calibration.orientation import convention_of
-
-        return convention_of(
-            self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
-        )
-
-
 def load_calibrated(
-    file: Path, mount: Three | None
+    file: Path, R_ES: NDArray[np.float64] | None
 ) -> tuple[Calibration, NDArray[np.float64] | None, tuple[str, ...]]:
     """
     Load a calibration.
@@ -101,7 +45,7 @@ def load_calibrated(
     -------
     Calibration
     (3, 3) or None
-        R_ES: as `mount` says, else as the calibration has it.
+        R_ES: as given, else as the calibration has it.
     tuple of str
         Why nothing that rests on it may pass: it was refused.
 
@@ -110,8 +54,6 @@ def load_calibrated(
     InputError
         It cannot be read.
     """
-    from scipy.spatial.transform import Rotation
-
     from contactbench.pipeline.calibration import Level
     from contactbench.pipeline.calibration.files.calibration_file import load_record
 
@@ -119,22 +61,9 @@ def load_calibrated(
     verdict = record.calibration.verdict
     refused = verdict.level is Level.REFUSE
     faults = (f"The calibration was refused: {verdict.reasons[0]}",) if refused else ()
-    if mount is not None:
-        return record.calibration, Rotation.from_euler("xyz", mount, degrees=True).as_matrix(), faults
-    return record.calibration, None if record.mount is None else record.mount.R_SE.T, faults
-
-
-def roles_of(inputs: Mapping[str, Path], roles: tuple[str, ...]) -> None:
-    """InputError unless the inputs are of these roles."""
-    if set(inputs) != set(roles):
-        raise InputError(f"inputs: {', '.join(roles)} are needed; there are {', '.join(inputs) or 'none'}.")
-
-
-def sha256_of(file: Path) -> str:
-    """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
-    from contactbench.pipeline.calibration.files.calibration_file import Source
-
-    return Source.of(file).sha256
+    if R_ES is None and record.mount is not None:
+        R_ES = record.mount.R_SE.T
+    return record.calibration, R_ES, faults
 
 
 def read_check(kind: str, file: Path) -> dict[str, Any]:

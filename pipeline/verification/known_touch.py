@@ -13,22 +13,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.calibration.parameters import (
+    NotNegative,
+    PoseParameters,
+    Positive,
+    Three,
+    check_roles,
+    sha256_of,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known import (
     SCHEMAS,
     TOUCH,
     TOUCH_ROLES,
     VERSION,
-    CheckParameters,
-    NotNegative,
     Outcome,
-    Positive,
-    Three,
     likely,
     load_calibrated,
     or_none,
-    roles_of,
-    sha256_of,
     to_bytes,
     words_of,
 )
@@ -121,23 +123,12 @@ MISTAKES = tuple(_mistakes())
 _MUST_SHOW = MISTAKES[:4]
 
 
-class TouchParameters(CheckParameters):
-    """
-    As the options of ``contactbench calibrate check touch``.
+class TouchParameters(PoseParameters):
+    """As the options of ``contactbench calibrate check touch``."""
 
-    Attributes
-    ----------
-    point : (3,)
-        That was pressed, mm, S: the coordinates of the prepared probe.
-    point_sigma : float
-        How well it is hit, 1 sigma, mm.
-    limit : float
-        Largest error that passes, mm.
-    """
-
-    point: Three
-    point_sigma: NotNegative = 2.0
-    limit: Positive = 5.0
+    point: Three  # That was pressed, mm, S: the coordinates of the prepared probe
+    point_sigma: NotNegative = 2.0  # How well it is hit, 1 sigma, mm
+    limit: Positive = 5.0  # Largest error that passes, mm
 
 
 @dataclass(frozen=True, eq=False)
@@ -395,8 +386,8 @@ def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: s
     from contactbench.pipeline.verification.result import load_surface
     from contactbench.pipeline.verification.source import read_touch_recording
 
-    roles_of(inputs, TOUCH_ROLES)
-    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
+    check_roles(inputs, TOUCH_ROLES)
+    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.R_ES)
     probe = load_surface(inputs["probe"])
     recording = read_touch_recording(inputs["touch"], given.convention(), R_ES)
     found = check_touch(

@@ -15,22 +15,24 @@ from scipy.special import chdtrc
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.calibration.parameters import (
+    NotNegative,
+    Number,
+    PoseParameters,
+    Positive,
+    check_roles,
+    sha256_of,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known import (
     SCHEMAS,
     VERSION,
     WEIGHT,
     WEIGHT_ROLES,
-    CheckParameters,
-    NotNegative,
-    Number,
     Outcome,
-    Positive,
     likely,
     load_calibrated,
     or_none,
-    roles_of,
-    sha256_of,
     to_bytes,
     words_of,
 )
@@ -79,29 +81,16 @@ _AXES = "xyz"
 _ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 
 
-class WeightParameters(CheckParameters):
-    """
-    As the options of ``contactbench calibrate check weight``.
+class WeightParameters(PoseParameters):
+    """As the options of ``contactbench calibrate check weight``."""
 
-    Attributes
-    ----------
-    mass, mass_sigma : float
-        Of the weight and its standard uncertainty, kg.
-    certificate : str
-        Number of its certificate; empty: it has none.
-    gravity : float, optional
-        Acceleration of free fall at this place, m/s²; left out: 9.80665 ± 0.015.
-    limit : float
-        Largest error of scale that passes, %.
-    reach : float
-        Largest lever that is plausible: distance of the line on which the weight hangs from the sensor's origin, mm.
-    """
-
+    # Of the weight and its standard uncertainty, kg
     mass: Positive
     mass_sigma: NotNegative = 0.0
-    certificate: str = ""
-    gravity: Number | None = None
-    limit: Positive = 1.0
+    certificate: str = ""  # Number of its certificate; empty: it has none
+    gravity: Number | None = None  # Free fall at this place, m/s²; None: 9.80665 ± 0.015
+    limit: Positive = 1.0  # Largest error of scale that passes, %
+    # Largest lever that is plausible: distance of the line on which the weight hangs from the sensor's origin, mm
     reach: Positive = 500.0
 
 
@@ -498,8 +487,8 @@ def weight_content(
     """Return all that the file of a check says; arguments and errors as for `known_weight`."""
     from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
-    roles_of(inputs, WEIGHT_ROLES)
-    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
+    check_roles(inputs, WEIGHT_ROLES)
+    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.R_ES)
     tables = [read_any_poses(inputs[role], given.convention(), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
     unloaded, loaded = (table.poses for table in tables)
     found = check_weight(

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.calibration.parameters import PoseParameters, Positive, check_roles, sha256_of
 from contactbench.pipeline.verification.figures import Limits, Times
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
@@ -18,23 +16,19 @@ from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
-    from contactbench.pipeline.calibration.orientation import Convention
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.figures import Verification
 
 ROLES = ("probe", "calibration", "markers", "recording")
 REFERENCE = "reference"
-_BLOCK = 1 << 20
 _TOUCH_N, _RELEASE_N = 2.0, 1.0
 
-_Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-_Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 _Words = Annotated[str, Field(min_length=1, max_length=200)]
-_Three = tuple[_Number, _Number, _Number]
 
 
-class VerificationParameters(BaseModel):
+class VerificationParameters(PoseParameters):
     """
     As the options of ``contactbench verify touches``; lengths in mm, angles in degrees, times in s.
 
@@ -43,39 +37,21 @@ class VerificationParameters(BaseModel):
     for windows below. ``left_out`` has markers that need not be touched, each with why.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    name: str
-    windows: Annotated[tuple[tuple[_Positive, _Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
+    windows: Annotated[tuple[tuple[Positive, Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
     samples: int = 50
     repeats: int = 1
     order: Annotated[tuple[str, ...], Field(max_length=10_000)] = ()
-    mean_limit_mm: _Positive = 1.0
-    max_limit_mm: _Positive = 2.0
-    p99_limit_s: _Positive = 0.001
-    noise_force: _Positive | None = None
-    noise_torque: _Positive | None = None
-    touch_force: _Positive | None = None
-    release_force: _Positive | None = None
-    euler: str | None = None
-    rotation_vector: bool = False
-    radians: bool = False
-    inverse: bool = False
-    mount: _Three | None = None
+    mean_limit_mm: Positive = 1.0
+    max_limit_mm: Positive = 2.0
+    p99_limit_s: Positive = 0.001
+    noise_force: Positive | None = None
+    noise_torque: Positive | None = None
+    touch_force: Positive | None = None
+    release_force: Positive | None = None
     resamples: int = 2000
     seed: int = 0
-    times: tuple[int, _Positive, _Positive] | None = None
-    left_out: Annotated[dict[_Words, _Words], Field(max_length=10_000)] = {}
-
-    @classmethod
-    def checked(cls, values: Mapping[str, Any]) -> VerificationParameters:
-        """Return parameters; InputError, with the first that is wrong."""
-        try:
-            return cls.model_validate(dict(values))
-        except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            where = ".".join(map(str, first["loc"]))
-            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
+    times: tuple[int, Positive, Positive] | None = None
+    left_out: Annotated[dict[_Words, _Words], Field(max_length=10_000)] = {}  # noqa: RUF012  (pydantic copies it)
 
     def settings(self) -> VerifySettings:
         """Return them as the settings of a verification; InputError if one is out of its range."""
@@ -98,19 +74,6 @@ class VerificationParameters(BaseModel):
             dict(sorted(self.left_out.items())),
         )
 
-    def convention(self) -> Convention | None:
-        """Return how orientations in a CSV file are written; None: as its columns say."""
-        from contactbench.pipeline.calibration.orientation import Convention, Kind
-
-        if self.euler and self.rotation_vector:
-            raise InputError("euler and rotation_vector contradict each other: give one.")
-        degrees = not self.radians
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
-        return Convention(inverse=True) if self.inverse else None
-
 
 def verification(
     inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
@@ -129,8 +92,6 @@ def verification(
         An input or a parameter cannot be used.
     """
     given = VerificationParameters.checked(parameters)
-    if Path(given.name).name != given.name or not given.name.endswith(".json"):
-        raise InputError(f"{given.name}: a verification is a file whose name ends in .json.")
     return {given.name: verify_files(inputs, given).to_bytes()}
 
 
@@ -155,14 +116,8 @@ def verify_files(
     from contactbench.pipeline.calibration import Level
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 
-    missing = [role for role in ROLES if role not in inputs]
-    strangers = sorted(set(inputs) - {*ROLES, REFERENCE})
-    if missing or strangers:
-        raise InputError(
-            f"inputs: {', '.join(ROLES)} are needed, and perhaps {REFERENCE}; missing: {', '.join(missing) or 'none'},"
-            f" unknown: {', '.join(strangers) or 'none'}."
-        )
-    settings, R_ES = given.settings(), _mount(given.mount)
+    check_roles(inputs, ROLES, (REFERENCE,))
+    settings, R_ES = given.settings(), given.R_ES
     markers = load_markers(inputs["markers"])
     calibration = load_calibration(inputs["calibration"])
     probe, said, aligned = _load_probe(inputs["probe"])
@@ -181,7 +136,7 @@ def verify_files(
         reference=read_reference(inputs[REFERENCE]) if REFERENCE in inputs else None,
         times=None if given.times is None else Times(*given.times),
         timed=timed,
-        sources={role: _sha256(path) for role, path in inputs.items()},
+        sources={role: sha256_of(path) for role, path in inputs.items()},
         faults=tuple(faults),
     )
 
@@ -216,17 +171,3 @@ def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
         said += known.notes
         aligned = not known.history or known.frame == "S"
     return probe, said, aligned
-
-
-def _mount(degrees: _Three | None) -> Any:
-    from scipy.spatial.transform import Rotation
-
-    return None if degrees is None else Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
-
-
-def _sha256(file: Path) -> str:
-    digest = hashlib.sha256()
-    with file.open("rb") as stream:
-        while block := stream.read(_BLOCK):
-            digest.update(block)
-    return digest.hexdigest()

@@ -18,7 +18,6 @@ from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.make_calibration import CalibrationParameters
-from contactbench.pipeline.session.making import read_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -95,7 +94,7 @@ def gravity_settings(state: State) -> GravitySettings:
         given["mount"] = mount.value if mount.value and any(mount.value) else None
     if given.get("estimate_mount"):
         given.pop("mount", None)
-    parameters = read_parameters(CalibrationParameters, {**given, "name": CALIBRATION_FILE})
+    parameters = CalibrationParameters.checked({**given, "name": CALIBRATION_FILE})
     tilt = state.settings.get(TILT)
     degrees = 180.0 if tilt is None else tilt.value
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:

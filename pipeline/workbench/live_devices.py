@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
+from contactbench.pipeline.calibration.parameters import mount_rotation
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
-from contactbench.pipeline.session.making import mount_rotation
 from contactbench.pipeline.workbench.statuses import MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:

@@ -18,6 +18,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
 from contactbench.pipeline.preparation.painted import put_on
 from contactbench.pipeline.preparation.prepare import place
@@ -29,10 +30,8 @@ from contactbench.pipeline.session.make_probe import (
     alignment_of,
     dense_of,
     prepared,
-    probe_files,
 )
-from contactbench.pipeline.session.making import PREFIX, read_parameters
-from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.session.recompute import PREFIX, lay_out
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
@@ -106,7 +105,7 @@ class Plan:
     @property
     def given(self) -> ProbeParameters:
         """The same, checked. SessionError: something is not as it should be."""
-        return read_parameters(ProbeParameters, {**self.parameters, "name": PROBE_FILE})
+        return ProbeParameters.checked({**self.parameters, "name": PROBE_FILE})
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +184,7 @@ class ProbeWork:
             return None
         wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
         files = lay_out(self.desk.folder, state, wanted, self._place())
-        given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
+        given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
         known = {each.name for each in fields(Plan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
         plan = Plan(alignment=alignment, **{name: getattr(given, name) for name in known})
@@ -286,7 +285,7 @@ def commit(session: Session, preview: Preview) -> Record:
     As ``contactbench session add SESSION MESH --kind mesh``, the same of the alignment, and ``contactbench session
     compute SESSION probe probe.ply --set ...`` do, with the same bytes.
     """
-    files = probe_files(preview.done.content, PROBE_FILE)
+    files = encode_probe_file(preview.done.content, PROBE_FILE)
     session.check_writable()
     inputs = {"mesh": _mesh(session, preview.mesh)}
     if preview.plan.alignment is not None:

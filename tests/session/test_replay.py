@@ -62,7 +62,7 @@ def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_pat
         100,
         "--engine",
         "fast-simplification",
-        "--mount",
+        "--place",
         "0,0,40,0,0,90",
         "--units",
         "mm",

@@ -10,7 +10,13 @@ from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
-from contactbench.pipeline.calibration.comparison import ONLY_BIAS, POSSIBLE, Candidate, Comparison, compare
+from contactbench.pipeline.calibration.comparison import (
+    ONLY_BIAS,
+    POSSIBLE,
+    Candidate,
+    CauseComparison,
+    compare,
+)
 from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task
 from contactbench.pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
 from contactbench.pipeline.calibration.model import (
@@ -256,7 +262,7 @@ def _doubtful(findings: Findings, verdict: Verdict) -> bool:
 
 def findings_of(
     poses: Sequence[PoseSample],
-    compared: Comparison,
+    compared: CauseComparison,
     told: Candidate,
     chosen: Candidate,
     model: GravityModel,

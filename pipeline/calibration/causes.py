@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
+from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, CauseComparison
 from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
 from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
@@ -52,13 +52,13 @@ class Cause:
         return self.key not in own
 
 
-def causes(poses: Sequence[PoseSample], compared: Comparison, told: Candidate) -> tuple[Cause, ...]:
+def causes(poses: Sequence[PoseSample], compared: CauseComparison, told: Candidate) -> tuple[Cause, ...]:
     """Return what the comparison found, the most probable first.
 
     Parameters
     ----------
     poses : sequence of PoseSample
-    compared : Comparison
+    compared : CauseComparison
         Of the same.
     told : Candidate
         The cause that is believed; it is listed in any case.
@@ -118,7 +118,7 @@ def _key(candidate: Candidate) -> str:
     return NOISE if doubted else candidate.key
 
 
-def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
+def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
     fit, arrays = candidate.noisy.fit, compared.poses
     match _key(candidate):
         case nuisance.DRIFT:
@@ -177,7 +177,7 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
     )
 
 
-def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
+def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
     moments = {
         each.moment: probability
         for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True)

@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.orientation import Convention
-    from contactbench.pipeline.calibration.suggest import Plan
+    from contactbench.pipeline.calibration.suggest import PosePlan
 
 
 _NOT_GOOD_ENOUGH = 1
@@ -145,7 +145,7 @@ def fit(
     from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import (
-        Source,
+        SourceFile,
         creation_time,
         save_calibration,
     )
@@ -160,7 +160,7 @@ def fit(
     else:
         calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
-    source = Source.of(poses)
+    source = SourceFile.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
     if report:
         from contactbench.pipeline.calibration.report.page import write_report
@@ -680,7 +680,7 @@ def captures(
         raise typer.Exit(1)
 
 
-def _write(out: Path, planned: Plan) -> None:
+def _write(out: Path, planned: PosePlan) -> None:
     from contactbench.pipeline.durable import write_durably
 
     text = io.StringIO()

@@ -34,7 +34,7 @@ _HEAVY_N = 1.0  # a sensor at rest, compensated, shows far less
 
 
 @dataclass(frozen=True)
-class Trial:
+class MistakeTrial:
     """One mistake, undone."""
 
     name: str  # ``torques_in_Nmm``, ``reversed``, ``turned`` or ``not_compensated``
@@ -61,10 +61,10 @@ class Plausibility:
     reach_m: float  # From the sensor origin to the farthest point of the probe, m
     miss_m: float  # Median distance at which the line of force passes the probe, m; 0 where it meets it
     smallest_force_N: float  # In the whole file
-    trials: tuple[Trial, ...]  # The mistakes, those that explain most first
+    trials: tuple[MistakeTrial, ...]  # The mistakes, those that explain most first
 
     @property
-    def likely(self) -> tuple[Trial, ...]:
+    def likely(self) -> tuple[MistakeTrial, ...]:
         """The mistake that makes most wrenches plausible, and those that cannot be told from it; none: empty."""
         good = [trial for trial in self.trials if trial.plausible >= _FEWEST and trial.share > _MOST]
         return tuple(trial for trial in good if trial.share >= good[0].share - _CLOSE)
@@ -130,7 +130,7 @@ class Sample:
         arm = float(np.median(np.linalg.norm(wrenches[:, 3:], axis=1) / force))
         _, plausible = _count(locator, wrenches)
         trials = [
-            Trial(name, cause, remedy, *_count(locator, undone))
+            MistakeTrial(name, cause, remedy, *_count(locator, undone))
             for name, cause, remedy, undone in _mistakes(wrenches, arm / reach)
         ]
         trials.sort(key=lambda trial: -trial.share)  # of equals the simpler one stays first

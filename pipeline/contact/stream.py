@@ -16,7 +16,7 @@ import numpy as np
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
 from contactbench.pipeline.contact.plausibility import Plausibility, Sample, unexplained
-from contactbench.pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
+from contactbench.pipeline.contact.wrench_csv import WrenchBlock, WrenchFileError, WrenchReader
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
@@ -171,7 +171,7 @@ class _Untracked:
     def __init__(self, locator: Locator) -> None:
         self._locator = locator
 
-    def __call__(self, rows: WrenchRows) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Answers:
         return self._locator.locate_batch(rows.wrenches)
 
     def warnings(self) -> tuple[str, ...]:
@@ -188,7 +188,7 @@ class _Tracked(_Untracked):
         self._first_stale = 0
         solver.reset()
 
-    def __call__(self, rows: WrenchRows) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Answers:
         assert rows.t is not None  # noqa: S101  (the reader was asked for it)
         # fmax: a NaN, where they are allowed, is not a time, but does not hide the times after it.
         newest = np.fmax.accumulate(np.concatenate(([self._latest], rows.t)))
@@ -219,15 +219,15 @@ def _tracked(locator: Locator) -> _Tracked:
 
 
 def _ahead(
-    blocks: WrenchReader, answer: Callable[[WrenchRows], Answers]
-) -> Iterator[tuple[WrenchRows, Answers]]:
+    blocks: WrenchReader, answer: Callable[[WrenchBlock], Answers]
+) -> Iterator[tuple[WrenchBlock, Answers]]:
     """Answer each block in a second thread while the next is read and the one before is written.
 
     The solver releases the interpreter's lock, so this saves up to a quarter of the time where a second
     core is free. One thread, because a stream has an order.
     """
     with ThreadPoolExecutor(1, "locate") as pool:
-        waiting: tuple[WrenchRows, Future[Answers]] | None = None
+        waiting: tuple[WrenchBlock, Future[Answers]] | None = None
         for rows in blocks:
             ahead = pool.submit(answer, rows)
             if waiting is not None:

@@ -41,7 +41,7 @@ _WORDING = Wording(
 
 
 @dataclass(frozen=True)
-class WrenchRows:
+class WrenchBlock:
     """Consecutive rows of a file."""
 
     times: npt.NDArray[np.bytes_]  # (n,) the cells of column t as they stand in the file, UTF-8
@@ -110,10 +110,10 @@ class WrenchReader:
         """Bytes read from the stream so far."""
         return self._table.bytes_read
 
-    def __iter__(self) -> Iterator[WrenchRows]:
+    def __iter__(self) -> Iterator[WrenchBlock]:
         """Yield blocks of at least one row."""
         for rows in self._table:
             assert rows.text is not None  # noqa: S101  (the table was asked for it)
             t = rows.numbers[:, 0] if self._timed else None
             wrenches = np.ascontiguousarray(rows.numbers[:, -len(CHANNELS) :])
-            yield WrenchRows(rows.text, t, wrenches, rows.lines)
+            yield WrenchBlock(rows.text, t, wrenches, rows.lines)

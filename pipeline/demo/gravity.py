@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
-from contactbench.pipeline.calibration.files.calibration_file import Source, save_calibration
+from contactbench.pipeline.calibration.files.calibration_file import SourceFile, save_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.calibration.report.page import write_report
 
@@ -79,7 +79,7 @@ def calibrate_folder(
     """
     poses = read_poses(folder / "poses.csv").poses
     calibration = calibrate(poses)
-    source = Source.of(folder / "poses.csv")
+    source = SourceFile.of(folder / "poses.csv")
     save_calibration(calibration, folder / "calibration.json", source=source)
     write_report(calibration, folder / "calibration.html", source=source)
     off = calibration.model.vector - truth.vector

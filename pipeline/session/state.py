@@ -122,7 +122,7 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Rezero:
+class RezeroRecord:
     """A sensor's zero was moved."""
 
     sensor: str
@@ -148,7 +148,7 @@ class State:
         The same of results.
     settings : dict
         Key -> Setting.
-    rezeros : tuple of Rezero
+    rezeros : tuple of RezeroRecord
     notes : tuple of Note
     count : int
         Of records.
@@ -159,7 +159,7 @@ class State:
     inputs: tuple[Input, ...] = ()
     results: tuple[Result, ...] = ()
     settings: dict[str, Setting] = field(default_factory=dict)
-    rezeros: tuple[Rezero, ...] = ()
+    rezeros: tuple[RezeroRecord, ...] = ()
     notes: tuple[Note, ...] = ()
     count: int = 0
 
@@ -223,7 +223,7 @@ class _Gathered:
         self._marks: dict[int, list[ResultMarked]] = {}
         self._newest: dict[tuple[str, str], int] = {}
         self._settings: dict[str, Setting] = {}
-        self._rezeros: list[Rezero] = []
+        self._rezeros: list[RezeroRecord] = []
         self._notes: list[Note] = []
 
     def add(self, record: Record) -> None:
@@ -250,7 +250,7 @@ class _Gathered:
             case ParameterSet(key=key, value=value):
                 self._settings[key] = Setting(value, number, at)
             case DeviceRezeroed(sensor=sensor, reason=reason):
-                self._rezeros.append(Rezero(sensor, reason, number, at))
+                self._rezeros.append(RezeroRecord(sensor, reason, number, at))
             case Note() as note:
                 self._notes.append(note)
 

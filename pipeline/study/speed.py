@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation import Touches
 
 DEFAULT_FACETS = (500, 1_000, 20_000, 100_000)
@@ -224,7 +224,7 @@ def _compiled_rows(
 
 
 def _scored(
-    method: Method,
+    method: ContactMethod,
     language: str,
     probe: Probe,
     timing: Timing,

@@ -13,7 +13,7 @@ Vector = tuple[float, float, float]
 Interval = tuple[float, float]
 
 
-class Cause(StrEnum):
+class ErrorCause(StrEnum):
     """What can make a contact point wrong."""
 
     ALIGNMENT = "alignment"
@@ -102,17 +102,17 @@ class ForceAccuracy:
 class Share:
     """How much of the squared error a cause explains."""
 
-    cause: Cause
+    cause: ErrorCause
     share: float  # From 0 to 1; all together are 1
     # Gain of log likelihood by allowing for the cause; that of noise is 0, it is always allowed for
     evidence: float
 
 
 @dataclass(frozen=True)
-class Diagnosis:
+class ErrorDiagnosis:
     """What to fix first."""
 
-    first: Cause
+    first: ErrorCause
     text: str  # One paragraph
     shares: tuple[Share, ...]  # Largest first
     noise_scale: float  # Scatter that is left over what was predicted
@@ -153,7 +153,7 @@ class ModelError:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class VerificationVerdict:
     """
     Whether the limits are kept.
 
@@ -181,7 +181,7 @@ class Unresolved:
 
 
 @dataclass(frozen=True)
-class Limits:
+class VerificationLimits:
     """What a verification must keep: mean and largest |e|, m, and the p99 of the time of a solve, s."""
 
     mean_m: float = 0.001
@@ -212,14 +212,14 @@ class Verification:
         None: not measured.
     force : ForceAccuracy or None
         None: there was no reference.
-    verdict : Verdict
-    diagnosis : Diagnosis or None
+    verdict : VerificationVerdict
+    diagnosis : ErrorDiagnosis or None
         None: too few touches.
     alignment_refined : Refined or None
         None: too few markers.
     missing : tuple of str
         Markers with fewer accepted touches than wanted; of several force windows, with the window.
-    limits : Limits
+    limits : VerificationLimits
     settings : dict
         All that the figures depend on beside the data.
     sources : dict of str to str
@@ -242,11 +242,11 @@ class Verification:
     ratio: float | None
     times: Times | None
     force: ForceAccuracy | None
-    verdict: Verdict
-    diagnosis: Diagnosis | None
+    verdict: VerificationVerdict
+    diagnosis: ErrorDiagnosis | None
     alignment_refined: Refined | None
     missing: tuple[str, ...]
-    limits: Limits
+    limits: VerificationLimits
     settings: dict[str, Any]
     sources: dict[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()

@@ -27,7 +27,7 @@ WEIGHT_ROLES = ("calibration", "unloaded", "loaded")
 TOUCH_ROLES = ("calibration", "probe", "touch")
 
 
-class Outcome(StrEnum):
+class CheckOutcome(StrEnum):
     """What a check says."""
 
     PASSED = "passed"
@@ -91,7 +91,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
         VERSION,
     )
     words = (content.get("sentence"), content.get("outcome")) if known else ()
-    if not words or not isinstance(words[0], str) or words[1] not in set(Outcome):
+    if not words or not isinstance(words[0], str) or words[1] not in set(CheckOutcome):
         raise InputError(f"{file}: this is no {SCHEMAS[kind]} of version {VERSION}: {remedy}")
     found: dict[str, Any] = content
     return found
@@ -113,11 +113,11 @@ def likely(causes: list[str]) -> str:
     return " ".join([f"Likely cause: {first}.", *(f"Also possible: {each}." for each in others)])
 
 
-def words_of(outcome: Outcome, reasons: list[str], passed: str) -> str:
+def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:
     """Return the one paragraph that says all."""
     start = {
-        Outcome.PASSED: passed,
-        Outcome.FAILED: "The check failed.",
-        Outcome.UNDECIDED: "The check cannot tell.",
+        CheckOutcome.PASSED: passed,
+        CheckOutcome.FAILED: "The check failed.",
+        CheckOutcome.UNDECIDED: "The check cannot tell.",
     }[outcome]
     return " ".join([start, *reasons])

@@ -27,14 +27,14 @@ from contactbench.pipeline.verification.known import (
     TOUCH,
     TOUCH_ROLES,
     VERSION,
-    Outcome,
+    CheckOutcome,
     likely,
     load_calibrated,
     or_none,
     to_bytes,
     words_of,
 )
-from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.locating import TouchLocator
 from contactbench.pipeline.verification.markers import make_markers, with_normals
 from contactbench.pipeline.verification.noise import measured_noise
 from contactbench.pipeline.verification.protocol import ProtocolSettings
@@ -135,7 +135,7 @@ class TouchParameters(PoseParameters):
 class TouchCheck:
     """What a press on a known point shows; lengths in m."""
 
-    outcome: Outcome
+    outcome: CheckOutcome
     reasons: tuple[str, ...]  # What is wrong or missing, in sentences
     sentence: str  # All in a paragraph
     point: Floats  # (3,) that was pressed, S
@@ -152,7 +152,7 @@ class TouchCheck:
     @property
     def passed(self) -> bool:
         """Whether the contact is where it should be."""
-        return self.outcome is Outcome.PASSED
+        return self.outcome is CheckOutcome.PASSED
 
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
@@ -213,7 +213,7 @@ def check_touch(
     marker, _ = with_normals(make_markers(np.asarray(point, dtype=np.float64)[None], [_POINT]), probe)
     compensated = recording.compensated(model)
     noise, correlation, _ = measured_noise(compensated, PROTOCOL, None)
-    placing = Placing(probe, marker, model, noise, PROTOCOL.samples, correlation)
+    placing = TouchLocator(probe, marker, model, noise, PROTOCOL.samples, correlation)
     touches = [touch for touch in find_touches(compensated, placing, PROTOCOL) if touch.span is not None]
     if not touches:
         most = (
@@ -229,7 +229,7 @@ def check_touch(
 def _judged(
     touches: list[Touch],
     compensated: TouchRecording,
-    placing: Placing,
+    placing: TouchLocator,
     point_sigma: float,
     limit: float,
     faults: tuple[str, ...],
@@ -247,16 +247,16 @@ def _judged(
     spread = [np.trace(touch.located.covariance) for touch in touches if touch.located is not None]
     sigma = float(np.sqrt((np.mean(spread) if spread else 0.0) + point_sigma**2))
     allowed = limit + _EXCLUDED * sigma
-    reasons, outcome = [], Outcome.PASSED
+    reasons, outcome = [], CheckOutcome.PASSED
     if error is None or error > allowed:
-        outcome = Outcome.FAILED
+        outcome = CheckOutcome.FAILED
         reasons = [_where(error, sigma), presses.cause(allowed)]
     elif error > limit or sigma > limit / _EXCLUDED:
-        outcome = Outcome.UNDECIDED
+        outcome = CheckOutcome.UNDECIDED
         what = f"Press harder and with something thin, and hit the point within {500 * limit:.1f} mm."
         reasons = [_where(error, sigma), what]
     elif any(presses.would_hide(each, allowed) for each in _MUST_SHOW):
-        outcome = Outcome.UNDECIDED
+        outcome = CheckOutcome.UNDECIDED
         reasons = [
             (
                 f"The line of force passes {1e3 * presses.lever:.0f} mm from the sensor's origin: a wrong sign or unit"
@@ -265,7 +265,7 @@ def _judged(
             f"Press a point on the side of the probe, {3e3 * limit:.0f} mm or more off the sensor's axis.",
         ]
     if faults:
-        outcome, reasons = Outcome.FAILED, [*faults, *reasons]
+        outcome, reasons = CheckOutcome.FAILED, [*faults, *reasons]
     passed = (
         f"The press was located {1e3 * (error or 0.0):.1f} ± {1e3 * sigma:.1f} mm from the known point: signs and units"
         " are right."
@@ -349,7 +349,7 @@ def _mean(touch: Touch, recording: TouchRecording) -> Floats:
     return mean
 
 
-def _located(touch: Touch, wrench: Floats, placing: Placing) -> Floats | None:
+def _located(touch: Touch, wrench: Floats, placing: TouchLocator) -> Floats | None:
     """Return where a press was found; where its line meets the probe twice, the place near the point."""
     contact = placing.solver.locate(wrench, placing.markers.points[0])
     if contact.point is not None and contact.accepted:

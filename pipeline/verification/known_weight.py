@@ -29,7 +29,7 @@ from contactbench.pipeline.verification.known import (
     VERSION,
     WEIGHT,
     WEIGHT_ROLES,
-    Outcome,
+    CheckOutcome,
     likely,
     load_calibrated,
     or_none,
@@ -98,7 +98,7 @@ class WeightParameters(PoseParameters):
 class WeightCheck:
     """What a known weight shows."""
 
-    outcome: Outcome
+    outcome: CheckOutcome
     reasons: tuple[str, ...]  # What is wrong or missing, and what else to know; sentences
     sentence: str  # All in a paragraph
     # The weight as the sensor reads it, along gravity, kg; minus: upwards
@@ -118,7 +118,7 @@ class WeightCheck:
     @property
     def passed(self) -> bool:
         """Whether the weight is what it should be."""
-        return self.outcome is Outcome.PASSED
+        return self.outcome is CheckOutcome.PASSED
 
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
@@ -207,9 +207,9 @@ def check_weight(
             unsure = _too_unsure(mass, mass_sigma, noise_share, of_weight, limit, len(loaded))
     wrong += _wrong_torque(lever, twist, reach)
     if wrong:
-        outcome, reasons = Outcome.FAILED, wrong
+        outcome, reasons = CheckOutcome.FAILED, wrong
     else:
-        outcome = Outcome.UNDECIDED if unsure else Outcome.PASSED
+        outcome = CheckOutcome.UNDECIDED if unsure else CheckOutcome.PASSED
         reasons = [*([unsure] if unsure else []), *weighed.notes()]
     return WeightCheck(
         outcome,

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.verification.causes import Evidence
+    from contactbench.pipeline.verification.causes import TouchEvidence
 
     Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ _SMALLEST, _LARGEST = 0.02, 8.0  # times the default; times what the errors seem
 _STEP, _FINE = 0.5, 33  # of the logarithm of the size; ratios that are interpolated
 
 
-def measure_model_error(evidence: Evidence, model: GravityModel) -> ModelError | None:
+def measure_model_error(evidence: TouchEvidence, model: GravityModel) -> ModelError | None:
     """
     Estimate how far wrenches are off beyond what is known: the covariance diag(F² I, M² I) that the errors show.
 
@@ -52,7 +52,7 @@ def measure_model_error(evidence: Evidence, model: GravityModel) -> ModelError |
 
     Parameters
     ----------
-    evidence : Evidence
+    evidence : TouchEvidence
         Accepted touches.
     model : GravityModel
         With the covariance of its parameters.
@@ -148,7 +148,7 @@ class _Touched:
     starts: NDArray[np.intp]  # (g,) first touch of each marker
 
     @classmethod
-    def of(cls, evidence: Evidence, model: GravityModel) -> _Touched:
+    def of(cls, evidence: TouchEvidence, model: GravityModel) -> _Touched:
         rows = evidence.only(np.argsort(evidence.markers, kind="stable"))
         J = across(rows.normals) @ rows.sensitivities
         F = rows.wrenches[:, :3]

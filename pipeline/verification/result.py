@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import PoseParameters, Positive, check_roles, sha256_of
-from contactbench.pipeline.verification.figures import Limits, Times
+from contactbench.pipeline.verification.figures import Times, VerificationLimits
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
 from contactbench.pipeline.verification.source import read_reference, read_touch_recording
@@ -62,7 +62,7 @@ class VerificationParameters(PoseParameters):
         protocol = ProtocolSettings(
             self.windows, self.samples, self.repeats, touch, release, order=self.order
         )
-        limits = Limits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
+        limits = VerificationLimits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
         return VerifySettings(
             protocol,
             limits,

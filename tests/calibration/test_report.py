@@ -25,7 +25,7 @@ from contactbench.pipeline.calibration import (
     calibrate,
 )
 from contactbench.pipeline.calibration.causes import Cause
-from contactbench.pipeline.calibration.files.calibration_file import Source
+from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 from contactbench.pipeline.calibration.report.figures import (
     _signed,
     error_map,
@@ -41,7 +41,7 @@ from contactbench.pipeline.errors import InputError
 
 MODEL = GravityModel([0.05, -0.1, -9.0], [3.0, -4.0, 6.0], [0.004, -0.002, 0.06], [0.1, 0.05, -0.2])
 NOISE = PoseNoise(0.012, 0.0004)
-SOURCE = Source("poses.csv", hashlib.sha256(b"poses").hexdigest())
+SOURCE = SourceFile("poses.csv", hashlib.sha256(b"poses").hexdigest())
 CREATED = datetime(2026, 11, 21, 17, 5, tzinfo=UTC)
 VOID = {"meta", "br", "link", "img", "hr", "input"}
 
@@ -377,7 +377,7 @@ def test_names_are_escaped_and_what_no_page_can_hold_is_replaced():
     names = [nasty, *(f"p{index}" for index in range(8))]
     calibration = calibrate(taken(turned(9), bumped=(0,), names=names), NOISE)
     assert calibration.rejected[0].name == nasty
-    page = report_html(calibration, title=nasty, source=Source(nasty, "0" * 64))
+    page = report_html(calibration, title=nasty, source=SourceFile(nasty, "0" * 64))
     reader = Reader(page)
     assert "<script" not in page
     assert "script" not in reader.tags

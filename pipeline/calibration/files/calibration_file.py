@@ -52,14 +52,14 @@ class CalibrationFileError(InputError):
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceFile:
     """The file that the poses came from."""
 
     name: str  # Its name, without folders
     sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]  # Of its content
 
     @classmethod
-    def of(cls, file: Path) -> Source:
+    def of(cls, file: Path) -> SourceFile:
         """Read a file for its hash; CalibrationFileError if that fails."""
         try:
             with file.open("rb") as stream:
@@ -99,7 +99,7 @@ class CalibrationRecord:
     calibration: Calibration
     created: datetime | None  # When, UTC; None if nobody said
     tool: str  # What wrote the file
-    source: Source | None  # What the poses came from
+    source: SourceFile | None  # What the poses came from
     mount: Mount | None
 
 
@@ -107,7 +107,7 @@ def save_calibration(
     calibration: Calibration,
     file: Path,
     *,
-    source: Path | Source | None = None,
+    source: Path | SourceFile | None = None,
     created: datetime | None = None,
     mount: Mount | None = None,
 ) -> None:
@@ -119,7 +119,7 @@ def save_calibration(
     calibration : Calibration
     file : path
         Appears as a whole; what was there stays until then.
-    source : path or Source, optional
+    source : path or SourceFile, optional
         The file of the poses, noted with its hash.
     created : datetime, optional
         With a time zone; `creation_time` gives one. Kept to the second.
@@ -144,14 +144,14 @@ def encode_calibration(
     calibration: Calibration,
     name: str,
     *,
-    source: Path | Source | None = None,
+    source: Path | SourceFile | None = None,
     created: datetime | None = None,
     mount: Mount | None = None,
 ) -> bytes:
     """Return what `save_calibration` writes; `name` is what messages call it."""
     if created is not None and created.tzinfo is None:
         raise CalibrationFileError(f"{name}: created: the time has no zone: use datetime.now(UTC).")
-    source = Source.of(source) if isinstance(source, Path) else source
+    source = SourceFile.of(source) if isinstance(source, Path) else source
     content = _document(calibration, source, created, mount)
     try:
         data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
@@ -350,7 +350,7 @@ class _Document(_Part):
     version: Literal[2]
     tool: str
     created: _Time | None
-    source: Source | None
+    source: SourceFile | None
     verdict: Verdict
     contact_error: _Positive = Field(alias="contact_error_m")
     task: _TaskPart
@@ -379,7 +379,7 @@ class _Document(_Part):
 
 
 def _document(
-    calibration: Calibration, source: Source | None, created: datetime | None, mount: Mount | None
+    calibration: Calibration, source: SourceFile | None, created: datetime | None, mount: Mount | None
 ) -> dict[str, Any]:
     """Lay a calibration out as JSON."""
     noise, sight = calibration.noise, calibration.observability

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.files.calibration_file import Source
+    from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 
 __all__ = ["report_html", "write_report"]
 
@@ -72,7 +72,7 @@ def write_report(
     file: Path,
     *,
     title: str = "Gravity calibration",
-    source: Source | None = None,
+    source: SourceFile | None = None,
     created: datetime | None = None,
 ) -> None:
     """Write a calibration's report as one HTML file that needs nothing beside itself.
@@ -84,7 +84,7 @@ def write_report(
         Appears as a whole; what was there stays until then.
     title : str
         Heading of the page.
-    source : Source, optional
+    source : SourceFile, optional
         The file of the poses, with its hash.
     created : datetime, optional
         When the calibration was made, with a time zone.
@@ -108,7 +108,7 @@ def report_html(
     calibration: Calibration,
     *,
     title: str = "Gravity calibration",
-    source: Source | None = None,
+    source: SourceFile | None = None,
     created: datetime | None = None,
 ) -> str:
     """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""

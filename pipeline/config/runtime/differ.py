@@ -37,7 +37,7 @@ _MEANINGS = {
 
 
 @dataclass(frozen=True)
-class Difference:
+class ConfigDifference:
     """A field with two values: its path, the values (JSON), and what it means."""
 
     field: str
@@ -50,7 +50,7 @@ class Difference:
 class Differences:
     """All that differs."""
 
-    fields: tuple[Difference, ...]  # Empty: the two are the same, file hashes included
+    fields: tuple[ConfigDifference, ...]  # Empty: the two are the same, file hashes included
     files: tuple[str, ...]  # Files whose content differs, or that only one has
     # ``facets`` of both and how far the surfaces are apart, mm; None where ``probe.ply`` is the same
     mesh: dict[str, Any] | None
@@ -74,7 +74,7 @@ def differences(one: RuntimeConfig, other: RuntimeConfig) -> Differences:
     """Compare two configs field by field, and their surfaces by distance."""
     first, second = (dict(_flat("", config.model.to_json())) for config in (one, other))
     fields = tuple(
-        Difference(path, first.get(path, _ABSENT), second.get(path, _ABSENT), _meaning(path))
+        ConfigDifference(path, first.get(path, _ABSENT), second.get(path, _ABSENT), _meaning(path))
         for path in sorted(first.keys() | second.keys())
         if first.get(path, _ABSENT) != second.get(path, _ABSENT)
     )

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation.scenes import Moment
     from contactbench.pipeline.study.marker_touches import Touched
     from contactbench.pipeline.study.paper_setup import Bench
@@ -170,7 +170,7 @@ class ProbeResult:
     notes: tuple[str, ...]  # Methods that are left out
 
 
-def solver_for(method: str, name: str, facets: int, bench: Bench, R_WS: NDArray[np.float64]) -> Method:
+def solver_for(method: str, name: str, facets: int, bench: Bench, R_WS: NDArray[np.float64]) -> ContactMethod:
     """Build a method that knows the filtered noise and what the calibration leaves, averaged over the touches."""
     extra = bench.calibration.model.wrench_covariance(R_WS).mean(axis=0)
     left = bench.filtered_noise

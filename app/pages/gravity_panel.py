@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.calibration import Limits
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.coverage import Coverage
 from contactbench.widgets.icons import icon

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.known import CheckOutcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.workbench.known_checks import (
     KnownChecks,
     KnownOutcome,

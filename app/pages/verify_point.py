@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QWidget
 
 from contactbench.app.pages.known_check import TALL, KnownCheckPanel
-from contactbench.pipeline.verification.known import TOUCH
+from contactbench.pipeline.verification.known_check import TOUCH
 from contactbench.pipeline.workbench.known_checks import PressReading
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -17,8 +17,8 @@ from contactbench.pipeline.calibration.contact_error import (
 )
 from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
 from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import describe
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:

@@ -277,7 +277,7 @@ def _table(calibration: Calibration) -> Table:
     from rich.table import Table
 
     from contactbench.pipeline.calibration.fit import UNKNOWN
-    from contactbench.pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.number_text import with_sigma
 
     table = Table(box=None)
     for heading in ("", "x", "y", "z", "unit"):
@@ -312,7 +312,7 @@ def _table(calibration: Calibration) -> Table:
 
 def _trusted(value: float, sigma: float, unknown: float) -> str:
     """Write a value with its uncertainty, or that nobody knows."""
-    from contactbench.pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.number_text import with_sigma
 
     return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
 

@@ -195,7 +195,7 @@ def _finish(content: Mapping[str, Any], out: Path | None) -> None:
     """Write, show, and end with the exit code."""
     from contactbench.pipeline.durable import write_durably
     from contactbench.pipeline.errors import InputError
-    from contactbench.pipeline.verification.known import to_bytes
+    from contactbench.pipeline.verification.known_check import to_bytes
 
     if out is not None:
         try:

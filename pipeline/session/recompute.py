@@ -31,7 +31,7 @@ from contactbench.pipeline.session.make_calibration import (
     captures,
 )
 from contactbench.pipeline.session.make_probe import ProbeParameters, probe
-from contactbench.pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
+from contactbench.pipeline.verification.known_check import TOUCH_ROLES, WEIGHT_ROLES
 from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch
 from contactbench.pipeline.verification.known_weight import WeightParameters, known_weight
 from contactbench.pipeline.verification.result import REFERENCE, VerificationParameters, verification

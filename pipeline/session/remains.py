@@ -27,10 +27,10 @@ from contactbench.pipeline.session.actions import (
     read_entry,
     user,
 )
+from contactbench.pipeline.session.content import content_of
 from contactbench.pipeline.session.errors import JournalError
 from contactbench.pipeline.session.journal import read_journal, refuse_damage
 from contactbench.pipeline.session.migrate import version_of
-from contactbench.pipeline.session.reading import content_of
 from contactbench.pipeline.session.sources import sources_of
 from contactbench.pipeline.session.state import MESH, fold
 
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from pathlib import Path
 
+    from contactbench.pipeline.session.content import Content
     from contactbench.pipeline.session.frames import JournalFrame
-    from contactbench.pipeline.session.reading import Content
     from contactbench.pipeline.session.sources import InputSource
     from contactbench.pipeline.session.state import Result, State
 

@@ -22,7 +22,7 @@ from contactbench.pipeline.calibration.parameters import (
     sha256_of,
 )
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.known import (
+from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
     TOUCH,
     TOUCH_ROLES,
@@ -34,10 +34,10 @@ from contactbench.pipeline.verification.known import (
     to_bytes,
     words_of,
 )
-from contactbench.pipeline.verification.locating import TouchLocator
 from contactbench.pipeline.verification.markers import make_markers, with_normals
 from contactbench.pipeline.verification.noise import measured_noise
 from contactbench.pipeline.verification.protocol import ProtocolSettings
+from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verify import find_touches
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from contactbench.pipeline.calibration.parameters import (
     sha256_of,
 )
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.known import (
+from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
     VERSION,
     WEIGHT,

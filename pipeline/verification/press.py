@@ -13,7 +13,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.verification.locating import MarkerMatch, TouchLocation
+    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation
 
 
 class ProtocolState(StrEnum):

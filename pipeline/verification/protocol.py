@@ -22,7 +22,7 @@ from contactbench.pipeline.verification.press import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.verification.locating import MarkerMatch, TouchLocation, TouchLocator
+    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation, TouchLocator
 
 __all__ = ["UNRESOLVED", "ProtocolSettings", "ProtocolState", "Touch", "TouchEvent", "TouchProtocol", "Why"]
 

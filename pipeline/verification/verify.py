@@ -13,13 +13,13 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
 from contactbench.pipeline.verification.figures import Times, TouchFigure, Verification, VerificationLimits
-from contactbench.pipeline.verification.locating import TouchLocator
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.model_error import measure_model_error
 from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
 from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
 from contactbench.pipeline.verification.reference import force_accuracy
 from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
+from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verdict import VerdictCase, checks, crowded, missing, unresolved
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from contactbench.pipeline.calibration.stillness import StillnessDetector, Still
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, CheckOutcome, read_check
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.workbench.tape import Tape
 from contactbench.pipeline.workbench.verify import REPORT
 

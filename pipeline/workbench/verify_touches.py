@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.verification.locating import TouchLocator, memory, sample_noise
 from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
+from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,7 +13,7 @@ from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.verify_point import PointPanel
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, CheckOutcome
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.known_checks import FILES
 from contactbench.pipeline.workbench.steps import StepState, StepStatus

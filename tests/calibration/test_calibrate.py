@@ -23,8 +23,8 @@ from contactbench.pipeline.calibration import (
 )
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.simulation.weighing import draw_load, draw_weighing, weigh
 
 NOISE = PoseNoise(0.05, 0.002)

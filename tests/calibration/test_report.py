@@ -26,6 +26,7 @@ from contactbench.pipeline.calibration import (
 )
 from contactbench.pipeline.calibration.causes import Cause
 from contactbench.pipeline.calibration.files.calibration_file import SourceFile
+from contactbench.pipeline.calibration.number_text import plain, with_sigma
 from contactbench.pipeline.calibration.report.figures import (
     _signed,
     error_map,
@@ -36,7 +37,6 @@ from contactbench.pipeline.calibration.report.figures import (
     upright,
 )
 from contactbench.pipeline.calibration.report.page import report_html, tilt_of, write_report
-from contactbench.pipeline.calibration.wording import plain, with_sigma
 from contactbench.pipeline.errors import InputError
 
 MODEL = GravityModel([0.05, -0.1, -9.0], [3.0, -4.0, 6.0], [0.004, -0.002, 0.06], [0.1, 0.05, -0.2])

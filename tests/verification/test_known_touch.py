@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.verification.known import CheckOutcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.verification.known_touch import MISTAKES, TouchParameters, check_touch
 from contactbench.pipeline.verification.markers import MarkerError
 from contactbench.pipeline.verification.source import TouchRecording

@@ -12,7 +12,7 @@ from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.weighing import weigh
-from contactbench.pipeline.verification.known import CheckOutcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.verification.known_weight import WeightParameters, check_weight
 
 G = 9.80665

@@ -9,7 +9,7 @@ from workbench.touch_session import STEPWISE, make_session, press, surface, veri
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, CheckOutcome
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.known_checks import (
     FILES,

@@ -18,13 +18,13 @@ from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
 from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
+from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.verdict import Level
-from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
 

@@ -22,7 +22,7 @@ from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.canonical import encode_json
-from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.config.runtime.values import kernel_arguments
 from contactbench.pipeline.contact.facet_marks import facet_marks
 
 ROOT = Path(__file__).parents[2]

@@ -19,7 +19,14 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import load_record
 from contactbench.pipeline.config.runtime.build import Filters, RobotNames, build_config
-from contactbench.pipeline.config.runtime.checks import CHECK_KINDS, checks_of, made_with_others, read_check
+from contactbench.pipeline.config.runtime.checks import (
+    CHECK_KINDS,
+    checks_of,
+    made_with_others,
+    rate_reasons,
+    read_check,
+    read_verification,
+)
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
@@ -29,7 +36,6 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_of_angles,
     mount_reasons,
 )
-from contactbench.pipeline.config.runtime.verified import rate_reasons, read_verification
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel

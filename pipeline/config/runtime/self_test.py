@@ -17,8 +17,8 @@ import numpy as np
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import SelfTestPart
 from contactbench.pipeline.config.runtime.pack import SELF_TEST
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
 from contactbench.pipeline.config.runtime.synthetic import Row, StreamPose, StreamSample, synthetic_stream
+from contactbench.pipeline.config.runtime.values import make_runtime
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.values import make_runtime
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -67,6 +67,26 @@ def shortest(values: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
     return out
 
 
+def csv_rows(*columns: npt.NDArray[np.float64] | npt.NDArray[np.bytes_]) -> bytes:
+    """Write CSV lines of columns (n,), of floats or of texts without NUL bytes.
+
+    Rows are laid side by side in a byte matrix, each column as wide as its longest cell, with NUL bytes in
+    the gaps; taking these out leaves the text. No Python object is made per row.
+    """
+    widths = [WIDTH if column.dtype.kind == "f" else column.itemsize for column in columns]
+    rows = np.empty((len(columns[0]), sum(widths) + len(widths)), dtype=np.uint8)
+    end = -1
+    for column, width in zip(columns, widths, strict=True):
+        start, end = end + 1, end + 1 + width
+        if column.dtype.kind == "f":
+            rows[:, start:end] = shortest(column)
+        else:
+            rows[:, start:end] = column.view(np.uint8).reshape(-1, width)
+        rows[:, end] = ord(",")
+    rows[:, end] = ord("\n")
+    return rows.tobytes().translate(None, b"\0")
+
+
 def _digits(x: npt.NDArray[np.float64], p: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
     """Seventeen digits of the shortest text of x, as an integer near x 10^p, and whether that is certain."""
     high, low = _exact_product(x, float(10**p))

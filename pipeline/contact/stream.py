@@ -9,7 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar
 
 import numpy as np
 
@@ -22,15 +22,17 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh import Probe
 
-__all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting", "whole_output"]
+__all__ = ["LocateSummary", "WrenchFileError", "ahead", "locate_file", "refuse_overwriting", "whole_output"]
 
 Progress = Callable[[int, int], None]
+_Block = TypeVar("_Block")
+_Done = TypeVar("_Done")
 
 
 class Locator(Protocol):
@@ -140,7 +142,7 @@ def locate_file(
             reader.refuse_raw()
         write(HEADER)
         text = ContactRows()
-        for rows, answers in _ahead(reader, answer):
+        for rows, answers in ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             marks = mark(answers.faces)
             write(text.encode(rows.times, answers, sigma_mm, marks))
@@ -218,21 +220,24 @@ def _tracked(locator: Locator) -> _Tracked:
     return _Tracked(locator)
 
 
-def _ahead(
-    blocks: WrenchReader, answer: Callable[[WrenchBlock], Answers]
-) -> Iterator[tuple[WrenchBlock, Answers]]:
-    """Answer each block in a second thread while the next is read and the one before is written.
+def ahead(blocks: Iterable[_Block], work: Callable[[_Block], _Done]) -> Iterator[tuple[_Block, _Done]]:
+    """Do the work on each block in a second thread while the next is read and the one before is written.
 
-    The solver releases the interpreter's lock, so this saves up to a quarter of the time where a second
+    Solver and NumPy release the interpreter's lock, so this saves up to a quarter of the time where a second
     core is free. One thread, because a stream has an order.
     """
-    with ThreadPoolExecutor(1, "locate") as pool:
-        waiting: tuple[WrenchBlock, Future[Answers]] | None = None
-        for rows in blocks:
-            ahead = pool.submit(answer, rows)
+    with ThreadPoolExecutor(1, "ahead") as pool:
+        waiting: tuple[_Block, Future[_Done]] | None = None
+        try:
+            for rows in blocks:
+                following = pool.submit(work, rows)
+                if waiting is not None:
+                    yield waiting[0], waiting[1].result()
+                waiting = rows, following
+        except InputError:
             if waiting is not None:
-                yield waiting[0], waiting[1].result()
-            waiting = rows, ahead
+                waiting[1].result()  # what is wrong further up in the file comes first
+            raise
         if waiting is not None:
             yield waiting[0], waiting[1].result()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -259,11 +259,6 @@ def time_solves(placing: TouchLocator, wrenches: NDArray[np.float64]) -> Times:
     many = np.ascontiguousarray(np.resize(wrenches, (_SOLVES, 6)))
     seconds = 1e-9 * np.asarray(placing.solver.time_each(many))
     return Times(len(seconds), float(np.median(seconds)), float(np.percentile(seconds, 99)))
-
-
-def without_times(found: Verification) -> Verification:
-    """Return a verification without what differs from run to run: what is compared to tell whether two are the same."""
-    return replace(found, times=None, verdict=replace(found.verdict, reasons=(), notes=()))
 
 
 def _sentences(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,29 @@ class CheckOutcome(StrEnum):
     PASSED = "passed"
     FAILED = "failed"
     UNDECIDED = "undecided"  # its uncertainty is too large to tell
+
+
+@dataclass(frozen=True, eq=False)
+class KnownCheck:
+    """What a check shows."""
+
+    outcome: CheckOutcome
+    reasons: tuple[str, ...]  # What is wrong or missing, and what else to know; sentences
+    sentence: str  # All in a paragraph
+
+    @property
+    def passed(self) -> bool:
+        """Whether what was measured is what it should be."""
+        return self.outcome is CheckOutcome.PASSED
+
+    def said(self) -> dict[str, Any]:
+        """Return it as the file of the check has it."""
+        return {
+            "outcome": self.outcome.value,
+            "passed": self.passed,
+            "reasons": list(self.reasons),
+            "sentence": self.sentence,
+        }
 
 
 def load_calibrated(

@@ -28,6 +28,7 @@ from contactbench.pipeline.verification.known_check import (
     TOUCH_ROLES,
     VERSION,
     CheckOutcome,
+    KnownCheck,
     likely,
     load_calibrated,
     or_none,
@@ -132,12 +133,9 @@ class TouchParameters(PoseParameters):
 
 
 @dataclass(frozen=True, eq=False)
-class TouchCheck:
+class TouchCheck(KnownCheck):
     """What a press on a known point shows; lengths in m."""
 
-    outcome: CheckOutcome
-    reasons: tuple[str, ...]  # What is wrong or missing, in sentences
-    sentence: str  # All in a paragraph
     point: Floats  # (3,) that was pressed, S
     # (3,) where the contact was found, S, mean over the presses; None: nowhere on the probe
     located: Floats | None
@@ -148,11 +146,6 @@ class TouchCheck:
     lever: float  # Of that line from the sensor's origin: how much the touch says of the torques
     force: float  # Mean |F|, N
     presses: int
-
-    @property
-    def passed(self) -> bool:
-        """Whether the contact is where it should be."""
-        return self.outcome is CheckOutcome.PASSED
 
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
@@ -165,10 +158,7 @@ class TouchCheck:
             "lever_m": self.lever,
             "force_N": self.force,
             "presses": self.presses,
-            "outcome": self.outcome.value,
-            "passed": self.passed,
-            "reasons": list(self.reasons),
-            "sentence": self.sentence,
+            **self.said(),
         }
 
 

@@ -30,6 +30,7 @@ from contactbench.pipeline.verification.known_check import (
     WEIGHT,
     WEIGHT_ROLES,
     CheckOutcome,
+    KnownCheck,
     likely,
     load_calibrated,
     or_none,
@@ -95,12 +96,9 @@ class WeightParameters(PoseParameters):
 
 
 @dataclass(frozen=True, eq=False)
-class WeightCheck:
+class WeightCheck(KnownCheck):
     """What a known weight shows."""
 
-    outcome: CheckOutcome
-    reasons: tuple[str, ...]  # What is wrong or missing, and what else to know; sentences
-    sentence: str  # All in a paragraph
     # The weight as the sensor reads it, along gravity, kg; minus: upwards
     measured: float
     measured_sigma: float
@@ -115,11 +113,6 @@ class WeightCheck:
     axes: tuple[str, ...]
     offset: float  # |F| without the weight after compensation, N
 
-    @property
-    def passed(self) -> bool:
-        """Whether the weight is what it should be."""
-        return self.outcome is CheckOutcome.PASSED
-
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
         return {
@@ -132,10 +125,7 @@ class WeightCheck:
             "lever_mm": 1e3 * self.lever,
             "axes": list(self.axes),
             "offset_N": self.offset,
-            "outcome": self.outcome.value,
-            "passed": self.passed,
-            "reasons": list(self.reasons),
-            "sentence": self.sentence,
+            **self.said(),
         }
 
 

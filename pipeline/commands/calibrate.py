@@ -639,12 +639,12 @@ def captures(
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_file import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_poses
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model
     with Bar("looking for still poses") as bar:
-        found = capture_any(
+        found = capture_poses(
             sys.stdin.buffer if recording == Path("-") else recording,
             written_as,
             R_ES=mount_rotation(mount),

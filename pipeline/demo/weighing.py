@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import PoseNoise
-from contactbench.pipeline.calibration.files.capture_file import capture_recording
+from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
@@ -73,7 +73,7 @@ def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Genera
         spans.append((begin, tape.end))
     tape.write(folder / "gravity.mcap", tool, rng)
     # From here on only the files count: what works here works for files from elsewhere.
-    found = capture_recording(folder / "gravity.mcap")
+    found = capture_poses(folder / "gravity.mcap")
     write_poses(folder / "poses.csv", found.poses)
     starts = [capture.start for capture in found.captures]
     begin, end = spans[pushed]

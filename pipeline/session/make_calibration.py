@@ -49,14 +49,14 @@ def captures(
     same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_file import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_poses
     from contactbench.pipeline.calibration.files.pose_csv import encode_poses
 
     given = CapturesParameters.checked(parameters)
     check_roles(inputs, ("recording",), ("calibration", "earlier", "robot_poses"))
     recording = inputs["recording"]
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
-    found = capture_any(
+    found = capture_poses(
         recording,
         given.convention(),
         robot_poses=inputs.get("robot_poses"),

@@ -6,7 +6,7 @@ take longer than reading the wrench and locating the contact together.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -67,7 +67,7 @@ def shortest(values: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
     return out
 
 
-def csv_rows(*columns: npt.NDArray[np.float64] | npt.NDArray[np.bytes_]) -> bytes:
+def csv_rows(*columns: npt.NDArray[Any]) -> bytes:
     """Write CSV lines of columns (n,), of floats or of texts without NUL bytes.
 
     Rows are laid side by side in a byte matrix, each column as wide as its longest cell, with NUL bytes in

@@ -144,7 +144,7 @@ def _why_read_only(session: Session) -> str:
 
 def adopt(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Take recordings into the session that were cut short; what was done, and what could not be."""
-    from contactbench.pipeline.session.unfinished import adopt_unfinished
+    from contactbench.pipeline.session.adoption import adopt_unfinished
 
     return adopt_unfinished(session)
 

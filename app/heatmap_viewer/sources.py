@@ -23,8 +23,7 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.report.report_file import check_sources, sha256_of
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.making import mount_of
-from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
 from contactbench.pipeline.settings import mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QLineEdit, QW
 
 from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.verification.known import WEIGHT
+from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.known_checks import StillReading
 from contactbench.widgets.controls import accent, named, push_button, sentence_label
 

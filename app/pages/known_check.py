@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QGroupBox, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.workbench.known_checks import (
     KnownChecks,
     KnownOutcome,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
 
-_LEVELS = {Outcome.PASSED: GOOD, Outcome.UNDECIDED: USABLE, Outcome.FAILED: REFUSE}
+_LEVELS = {CheckOutcome.PASSED: GOOD, CheckOutcome.UNDECIDED: USABLE, CheckOutcome.FAILED: REFUSE}
 
 
 class KnownCheckPanel(QGroupBox):
@@ -130,7 +130,7 @@ class KnownCheckPanel(QGroupBox):
         def judged(found: KnownOutcome) -> None:
             self._read_at = self.bench.desk.state.count
             self.have(found)
-            weights = {Outcome.PASSED: Weight.GOOD, Outcome.UNDECIDED: Weight.WARNING}
+            weights = {CheckOutcome.PASSED: Weight.GOOD, CheckOutcome.UNDECIDED: Weight.WARNING}
             self.bench.tell(
                 weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {said(found.sentence)}"
             )
@@ -170,9 +170,9 @@ class KnownCheckPanel(QGroupBox):
         self.verdict.setVisible(found is not None)
         if found is not None:
             words = {
-                Outcome.PASSED: self.tr("Passed"),
-                Outcome.UNDECIDED: self.tr("Cannot tell"),
-                Outcome.FAILED: self.tr("Failed"),
+                CheckOutcome.PASSED: self.tr("Passed"),
+                CheckOutcome.UNDECIDED: self.tr("Cannot tell"),
+                CheckOutcome.FAILED: self.tr("Failed"),
             }
             if found.stale:
                 self.verdict.show_verdict(LOCKED, [found.stale], self.tr("Stale: check again"))

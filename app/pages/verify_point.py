@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtWidgets import QLabel, QWidget
 
 from contactbench.app.pages.known_check import KnownCheckPanel
-from contactbench.pipeline.verification.known import TOUCH
+from contactbench.pipeline.verification.known_check import TOUCH
 from contactbench.pipeline.workbench.known_checks import PressReading
 from contactbench.widgets.controls import accent, choice, push_button, row, sentence_label
 

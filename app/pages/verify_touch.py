@@ -12,7 +12,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.pages.verify_scene import firm_contact
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.kernel import Reason
-from contactbench.pipeline.verification.protocol import State
+from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOf, TouchView
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
-_DECIDED = (State.ACCEPTED, State.REJECTED)
+_DECIDED = (ProtocolState.ACCEPTED, ProtocolState.REJECTED)
 _SURE = (Reason.OK, Reason.VERTEX, Reason.BY_REGION)
 _LONGEST = 200  # characters of a reason
 
@@ -158,9 +158,9 @@ class TouchPanel(QWidget):
         self._play(touches, view)
         state, detail = view.state.value, self._wish(view)
         if self._decided is not None and self._left > 0:
-            self._left -= view.state is State.ARMED
-            state = State.REJECTED.value if self._decided.why else State.ACCEPTED.value
-            detail = self._said(self._decided, view.state is State.ARMED)
+            self._left -= view.state is ProtocolState.ARMED
+            state = ProtocolState.REJECTED.value if self._decided.why else ProtocolState.ACCEPTED.value
+            detail = self._said(self._decided, view.state is ProtocolState.ARMED)
         self.state.show_state(state, detail, view.force, view.window)
         self.next.setText(self._next(view))
         findings = self._work.findings
@@ -174,7 +174,7 @@ class TouchPanel(QWidget):
         for event in events:
             if event.touch is not None:
                 self._decided, self._left = view.last, _KEPT_TICKS
-            elif event.state is State.TOUCHING:
+            elif event.state is ProtocolState.TOUCHING:
                 self._decided, self._left = None, 0
         loudest = next((each for each in reversed(events) if each.state in _DECIDED), None)
         if events:
@@ -242,11 +242,11 @@ class TouchPanel(QWidget):
     def _wish(self, view: TouchView) -> str:
         low, high = view.window
         words = {
-            State.ARMED: self.tr("Press with {low} to {high} N, and hold still."),
-            State.TOUCHING: self.tr("Bring the force to {low} to {high} N, and hold still."),
-            State.SETTLED: self.tr("Do not move: the samples are taken."),
-            State.ACCEPTED: self.tr("Let go."),
-            State.REJECTED: self.tr("Let go."),
+            ProtocolState.ARMED: self.tr("Press with {low} to {high} N, and hold still."),
+            ProtocolState.TOUCHING: self.tr("Bring the force to {low} to {high} N, and hold still."),
+            ProtocolState.SETTLED: self.tr("Do not move: the samples are taken."),
+            ProtocolState.ACCEPTED: self.tr("Let go."),
+            ProtocolState.REJECTED: self.tr("Let go."),
         }[view.state]
         return words.format(low=f"{low:g}", high=f"{high:g}")
 

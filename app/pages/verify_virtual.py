@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.pipeline.verification.protocol import State
+from contactbench.pipeline.verification.protocol import ProtocolState
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -72,7 +72,7 @@ class Toucher(QObject):
         if touches is None or view is None or view.next_one is None:
             self._stop("")
             return
-        if view.state is not State.ARMED:
+        if view.state is not ProtocolState.ARMED:
             return
         self._tries = self._tries + 1 if view.next_one == self._tried else 1
         self._tried = view.next_one

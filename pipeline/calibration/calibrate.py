@@ -10,7 +10,13 @@ from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
-from contactbench.pipeline.calibration.comparison import ONLY_BIAS, POSSIBLE, Candidate, Comparison, compare
+from contactbench.pipeline.calibration.comparison import (
+    ONLY_BIAS,
+    POSSIBLE,
+    Candidate,
+    CauseComparison,
+    compare,
+)
 from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task
 from contactbench.pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
 from contactbench.pipeline.calibration.model import (
@@ -41,65 +47,38 @@ _UNEXPECTED = 3.0  # times the noise that was given
 
 @dataclass(frozen=True, eq=False)
 class Findings:
-    """What poses say of bias, weight and centre of mass.
+    """What poses say of bias, weight and centre of mass."""
 
-    Attributes
-    ----------
-    model : GravityModel
-        The parameters, with their covariance.
-    noise : PoseNoise
-        Of a pose's mean; `estimated` tells whether it was given or follows from the residuals.
-    poses : tuple of PoseSample
-        As given.
-    residuals : (n, 6)
-        Read minus predicted minus `offsets`, N and N·m; also of poses that were left out.
-    deviates : (n, 2)
-        Distance of each pose's force and torque from what the (other) poses predict, as normal deviates.
-    rejected : tuple of Rejection
-        Poses that were left out, with reasons.
-    observability : Observability
-        Rank, condition, and what cannot be told apart.
-    scatter : float
-        Residual variance over the noise's: near 1 when the noise is right.
-    plausible : bool
-        Whether chance explains the residuals with the noise that was given. Where it does not, the noise has been
-        estimated.
-    task : ContactTask
-        The touches behind `contact_error`.
-    contact_error : float
-        The calibration's share of the contact error: worst 1 sigma over the task, `model_error` included, m.
-    causes : tuple of Cause
-        What may be behind the residuals, the most probable first.
-    offsets : (n, 6)
-        What a drift or a re-zero that was found adds to each pose's reading, N and N·m; zero at the session's
-        end, so that the biases are those of the end.
-    drift_rate, drift_rate_sigma : (6,) or None
-        Growth of the biases at the session's end, N/s and N·m/s; None without a drift, or without times.
-    noise_factor : (2,)
-        How many times the noise that was given forces and torques show; 1 where it is believed, or none was given.
-    model_error : float
-        How far a pull that follows the orientation, or a turned mount, moves a contact, m.
-    down_W : (3,)
-        Where gravity was said to point, W; of length 1.
-    """
-
-    model: GravityModel
-    noise: PoseNoise
-    poses: tuple[PoseSample, ...]
+    model: GravityModel  # The parameters, with their covariance
+    noise: PoseNoise  # Of a pose's mean; `estimated` tells whether it was given or follows from the residuals
+    poses: tuple[PoseSample, ...]  # As given
+    # (n, 6) read minus predicted minus `offsets`, N and N·m; also of poses that were left out
     residuals: NDArray[np.float64]
+    # (n, 2) distance of each pose's force and torque from what the (other) poses predict, as normal deviates
     deviates: NDArray[np.float64]
-    rejected: tuple[Rejection, ...]
-    observability: Observability
-    scatter: float
+    rejected: tuple[Rejection, ...]  # Poses that were left out, with reasons
+    observability: Observability  # Rank, condition, and what cannot be told apart
+    scatter: float  # Residual variance over the noise's: near 1 when the noise is right
+    # Whether chance explains the residuals with the noise that was given. Where it does not, the noise has
+    # been estimated.
     plausible: bool
-    task: ContactTask
+    task: ContactTask  # The touches behind `contact_error`
+    # The calibration's share of the contact error: worst 1 sigma over the task, `model_error` included, m
     contact_error: float
-    causes: tuple[Cause, ...] = ()
+    causes: tuple[Cause, ...] = ()  # What may be behind the residuals, the most probable first
+    # (n, 6) what a drift or a re-zero that was found adds to each pose's reading, N and N·m; zero at the
+    # session's end, so that the biases are those of the end
     offsets: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 6)))
+    # (6,) growth of the biases at the session's end, N/s and N·m/s; None without a drift, or without
+    # times
     drift_rate: NDArray[np.float64] | None = None
     drift_rate_sigma: NDArray[np.float64] | None = None
+    # (2,) how many times the noise that was given forces and torques show; 1 where it is believed, or none
+    # was given
     noise_factor: tuple[float, float] = (1.0, 1.0)
+    # How far a pull that follows the orientation, or a turned mount, moves a contact, m
     model_error: float = 0.0
+    # (3,) where gravity was said to point, W; of length 1
     down_W: NDArray[np.float64] = field(default_factory=lambda: np.array(DOWN_W))
 
     @property
@@ -283,7 +262,7 @@ def _doubtful(findings: Findings, verdict: Verdict) -> bool:
 
 def findings_of(
     poses: Sequence[PoseSample],
-    compared: Comparison,
+    compared: CauseComparison,
     told: Candidate,
     chosen: Candidate,
     model: GravityModel,

@@ -9,14 +9,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
+from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, CauseComparison
 from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
 from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,7 +43,7 @@ class Cause:
     key: str
     odds: float  # Its probability among all causes that were compared, 0 to 1
     sentence: str  # What it would mean, with its size and the remedy
-    believed: bool = False  # The evidence is strong: the calibration rests on it
+    believed: bool  # The evidence is strong: the calibration rests on it
 
     @property
     def diagnosed(self) -> bool:
@@ -52,13 +52,13 @@ class Cause:
         return self.key not in own
 
 
-def causes(poses: Sequence[PoseSample], compared: Comparison, told: Candidate) -> tuple[Cause, ...]:
+def causes(poses: Sequence[PoseSample], compared: CauseComparison, told: Candidate) -> tuple[Cause, ...]:
     """Return what the comparison found, the most probable first.
 
     Parameters
     ----------
     poses : sequence of PoseSample
-    compared : Comparison
+    compared : CauseComparison
         Of the same.
     told : Candidate
         The cause that is believed; it is listed in any case.
@@ -70,7 +70,7 @@ def causes(poses: Sequence[PoseSample], compared: Comparison, told: Candidate) -
         shares[key] = shares.get(key, 0.0) + probability
         first.setdefault(key, candidate)
     found = [
-        Cause(key, share, _sentence(first[key], poses, compared), key == _key(told))
+        Cause(key, min(share, 1.0), _sentence(first[key], poses, compared), key == _key(told))
         for key, share in shares.items()
         if share > _TOLD or key == _key(told)
     ]
@@ -118,7 +118,7 @@ def _key(candidate: Candidate) -> str:
     return NOISE if doubted else candidate.key
 
 
-def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
+def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
     fit, arrays = candidate.noisy.fit, compared.poses
     match _key(candidate):
         case nuisance.DRIFT:
@@ -177,7 +177,7 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
     )
 
 
-def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
+def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseComparison) -> str:
     moments = {
         each.moment: probability
         for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True)

@@ -76,7 +76,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class CauseComparison:
     """All causes that were fitted, the most probable first."""
 
     poses: Stack
@@ -136,7 +136,7 @@ class Comparison:
 
 def compare(
     poses: Stack, prior: NoisePrior, down_W: NDArray[np.float64], *, mounted: bool = True
-) -> Comparison:
+) -> CauseComparison:
     """Fit every cause that is worth it.
 
     Parameters
@@ -164,7 +164,7 @@ def compare(
             found.append(_fitted(poses, prior.doubted, key, moment, terms, common, inside))
     found.sort(key=lambda candidate: -candidate.log_odds)
     odds = np.array([candidate.log_odds for candidate in found])
-    return Comparison(poses, prior, down_W, tuple(found), np.exp(odds - logsumexp(odds)))
+    return CauseComparison(poses, prior, down_W, tuple(found), np.exp(odds - logsumexp(odds)))
 
 
 def _fitted(

@@ -25,9 +25,9 @@ from contactbench.pipeline.calibration.model import (
     TORQUE_BIAS,
     cross_matrix,
 )
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reml import fit_with_noise
-from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -17,8 +17,8 @@ from contactbench.pipeline.calibration.contact_error import (
 )
 from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
 from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import describe
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Suggestion:
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class PosePlan:
     """Poses to take, in this order."""
 
     R_WS: NDArray[np.float64]  # (n, 3, 3)
@@ -119,7 +119,7 @@ def plan_poses(
     noise: PoseNoise = USUAL_NOISE,
     task: ContactTask | None = None,
     progress: Callable[[int, int], None] | None = None,
-) -> Plan:
+) -> PosePlan:
     """Return `count` poses that together leave the least error at the contact.
 
     Poses are added one by one, then exchanged one for another as long as that helps (Fedorov's exchange),
@@ -162,7 +162,7 @@ def plan_poses(
     order, warnings = _ordered(chosen, reachable)
     errors = [worst_sigma(A, parameter_covariance(J[order[: k + 1]])) for k in range(count)]
     joints = None if reachable.joints is None else reachable.joints[order]
-    return Plan(reachable.R_WS[order], joints, np.array(errors), warnings)
+    return PosePlan(reachable.R_WS[order], joints, np.array(errors), warnings)
 
 
 def plan_error(

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.outliers import limit
 from contactbench.pipeline.calibration.poses import named, stack
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.reachable import Reachable
-    from contactbench.pipeline.calibration.suggest import Plan
+    from contactbench.pipeline.calibration.suggest import PosePlan
 
 
 _NOT_GOOD_ENOUGH = 1
@@ -102,7 +102,7 @@ def fit(
     from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import (
-        Source,
+        SourceFile,
         creation_time,
         save_calibration,
     )
@@ -118,7 +118,7 @@ def fit(
     else:
         calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
-    source = Source.of(poses)
+    source = SourceFile.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
     if report:
         from contactbench.pipeline.calibration.report.page import write_report
@@ -236,7 +236,7 @@ def _table(calibration: Calibration) -> Table:
     from rich.table import Table
 
     from contactbench.pipeline.calibration.fit import UNKNOWN
-    from contactbench.pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.number_text import with_sigma
 
     table = Table(box=None)
     for heading in ("", "x", "y", "z", "unit"):
@@ -271,7 +271,7 @@ def _table(calibration: Calibration) -> Table:
 
 def _trusted(value: float, sigma: float, unknown: float) -> str:
     """Write a value with its uncertainty, or that nobody knows."""
-    from contactbench.pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.number_text import with_sigma
 
     return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
 
@@ -583,12 +583,12 @@ def captures(
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     convention = written(given)
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_file import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_poses
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model
     with Bar("looking for still poses") as bar:
-        found = capture_any(
+        found = capture_poses(
             sys.stdin.buffer if recording == Path("-") else recording,
             convention,
             R_ES=given.R_ES,
@@ -624,7 +624,7 @@ def captures(
         raise typer.Exit(1)
 
 
-def _write(out: Path, planned: Plan) -> None:
+def _write(out: Path, planned: PosePlan) -> None:
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")
     names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []

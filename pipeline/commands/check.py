@@ -127,7 +127,7 @@ def _now() -> str:
 
 def _finish(content: Mapping[str, Any], out: Path | None) -> None:
     """Write, show, and end with the exit code."""
-    from contactbench.pipeline.verification.known import to_bytes
+    from contactbench.pipeline.verification.known_check import to_bytes
 
     if out is not None:
         write_file(out, to_bytes(content))

@@ -58,8 +58,7 @@ def chosen(
         yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.making import mount_of
-    from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+    from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
 
     with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
         roles = newest_inputs(session.state, "report" if judged else "heatmap")

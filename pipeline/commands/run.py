@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime import Run
-    from contactbench.pipeline.runtime.outlet import Target
+    from contactbench.pipeline.runtime.outlet import OutletTarget
     from contactbench.pipeline.streams import Pair
 
 run_app = Noun()
@@ -128,10 +128,10 @@ def run(
 
 def _targets(
     out: str | None, mcap: Path | None, udp: str | None, about: RecordingInfo, *, allow_remote: bool
-) -> list[Target]:
+) -> list[OutletTarget]:
     from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
 
-    targets: list[Target] = []
+    targets: list[OutletTarget] = []
     try:
         if udp is not None:
             targets.append(UdpTarget(udp, remote=allow_remote))

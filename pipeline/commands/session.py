@@ -523,15 +523,15 @@ def rezero(
 def replay(folder: FolderArgument) -> None:
     """Compute every result again from raw inputs and compare the bytes. Exit code 1: one differs or cannot be."""
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.replay import Outcome
+    from contactbench.pipeline.session.replay import ReplayOutcome
     from contactbench.pipeline.session.replay import replay as run
 
     with Session.open(folder, write=False) as session, Bar("replaying", counted=True) as bar:
         found = run(session, bar)
-    wrong = [each for each in found if each.outcome in {Outcome.DIFFERENT, Outcome.FAILED}]
+    wrong = [each for each in found if each.outcome in {ReplayOutcome.DIFFERENT, ReplayOutcome.FAILED}]
     for each in found:
         say(each.sentence, "red" if each in wrong else "")
-    same = sum(each.outcome is Outcome.SAME for each in found)
+    same = sum(each.outcome is ReplayOutcome.SAME for each in found)
     say(f"{same} of {len(found)} results are the same to the byte.")
     answer({"same": same, "results": [vars(each) for each in found]})
     if wrong:

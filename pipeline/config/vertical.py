@@ -38,30 +38,18 @@ _ORIENTATIONS = Rotation.create_group("O").as_matrix()
 
 @dataclass(frozen=True)
 class VerticalResidual:
-    """The error of a compensated wrench that comes from taking gravity as vertical.
+    """The error of a compensated wrench that comes from taking gravity as vertical."""
 
-    Attributes
-    ----------
-    tilt : float
-        Angle between the model's gravity and the consumer's vertical, degrees.
-    weight : float
-        What the consumer takes off along its vertical, N: that part of gravity.
-    force, torque : float
-        Largest error over all orientations of the sensor, N and N·m about the sensor origin.
-    force_sigma, torque_sigma : float
-        1 sigma of a compensated wrench that the calibration itself leaves, root mean square over all
-        orientations, N and N·m. Zero when the model carries no covariance.
-    warnings : tuple of str
-        For the reader, when the error exceeds that sigma; empty otherwise.
-    """
-
-    tilt: float
-    weight: float
+    tilt: float  # Angle between the model's gravity and the consumer's vertical, degrees
+    weight: float  # What the consumer takes off along its vertical, N: that part of gravity
+    # Largest error over all orientations of the sensor, N and N·m about the sensor origin
     force: float
     torque: float
+    # 1 sigma of a compensated wrench that the calibration itself leaves, root mean square over all
+    # orientations, N and N·m. Zero when the model carries no covariance.
     force_sigma: float
     torque_sigma: float
-    warnings: tuple[str, ...]
+    warnings: tuple[str, ...]  # For the reader, when the error exceeds that sigma; empty otherwise
 
 
 def points_away(model: GravityModel, down_W: ArrayLike, cosine: float = 0.0) -> bool:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from contactbench.pipeline.contact.facet_marks import MARKS
-from contactbench.pipeline.contact.shortest import WIDTH, shortest
+from contactbench.pipeline.contact.shortest import csv_rows
 from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:
@@ -57,11 +57,7 @@ class Answers(Protocol):
 
 
 class ContactRows:
-    """Turns answers into CSV text.
-
-    Rows are laid side by side in a byte matrix, each column as wide as its longest cell, with NUL bytes in
-    the gaps; taking these out leaves the text. No Python object is made per row.
-    """
+    """Turns answers into CSV text."""
 
     def __init__(self) -> None:
         self._integers = np.array([b""], dtype=np.bytes_)  # the texts of -1, 0, 1, ...
@@ -87,7 +83,7 @@ class ContactRows:
         marks : (n,) uint8
             What each lies on, a place in `MARKS`; beyond them: nothing is known.
         """
-        columns = [
+        columns = (
             times,
             *answers.points.T,
             answers.torques,
@@ -98,19 +94,8 @@ class ContactRows:
             answers.misfits,
             answers.confidences,
             _MARK_TEXTS.take(marks),
-        ]
-        widths = [WIDTH if column.dtype.kind == "f" else column.itemsize for column in columns]
-        rows = np.empty((len(times), sum(widths) + len(widths)), dtype=np.uint8)
-        end = -1
-        for column, width in zip(columns, widths, strict=True):
-            start, end = end + 1, end + 1 + width
-            if column.dtype.kind == "f":
-                rows[:, start:end] = shortest(column)
-            else:
-                rows[:, start:end] = column.view(np.uint8).reshape(-1, width)
-            rows[:, end] = ord(",")
-        rows[:, end] = ord("\n")
-        return rows.tobytes().translate(None, b"\0")
+        )
+        return csv_rows(*columns)
 
     def _integer_texts(self, values: npt.NDArray[np.int32]) -> npt.NDArray[np.bytes_]:
         """Decimal text of integers from -1, which is written as nothing: looked up, as facets recur."""

@@ -1,6 +1,6 @@
 """The methods that every speed-against-error report compares, behind one signature.
 
-Each takes a probe, the noise, the gates and the touch model, and gives a :class:`Method`. Rivals answer with one
+Each takes a probe, the noise, the gates and the touch model, and gives a :class:`ContactMethod`. Rivals answer with one
 contact or none and no doubt: only contactbench weighs touches against each other, says ``ambiguous``, ``by_region`` and
 ``implausible``, and uses regions, noise and model for more than the uncertainty of the point.
 
@@ -36,29 +36,18 @@ Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Method:
-    """One way to locate contacts.
+class ContactMethod:
+    """One way to locate contacts."""
 
-    Attributes
-    ----------
-    name : str
-        As in :data:`METHODS`.
-    locate : callable
-        (6,) wrench in S, N and N·m -> Contact.
-    locate_batch : callable
-        (n, 6) wrenches -> Batch, each row on its own.
-    engine : object
-        What does the work; compiled ones have ``time_each(wrenches)`` -> nanoseconds of each solve.
-    """
-
-    name: str
-    locate: Callable[[ArrayLike], Contact]
-    locate_batch: Callable[[ArrayLike], Batch]
+    name: str  # As in :data:`METHODS`
+    locate: Callable[[ArrayLike], Contact]  # (6,) wrench in S, N and N·m -> Contact
+    locate_batch: Callable[[ArrayLike], Batch]  # (n, 6) wrenches -> Batch, each row on its own
+    # What does the work; compiled ones have ``time_each(wrenches)`` -> nanoseconds of each solve
     engine: Any = field(repr=False, compare=False, default=None)
 
 
-def _compiled(name: str, engine: Any) -> Method:
-    return Method(name, engine.locate, engine.locate_batch, engine)
+def _compiled(name: str, engine: Any) -> ContactMethod:
+    return ContactMethod(name, engine.locate, engine.locate_batch, engine)
 
 
 def contactbench(
@@ -66,7 +55,7 @@ def contactbench(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-) -> Method:
+) -> ContactMethod:
     """Return the solver: the likeliest touch and its rivals, with reason, confidence and uncertainty."""
     return _compiled("contactbench", ContactSolver(probe, noise, gates, model))
 
@@ -76,7 +65,7 @@ def scan(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-) -> Method:
+) -> ContactMethod:
     """Return the closed form over every facet: the limit of an infinite torsion arm and no noise."""
     return _compiled("scan", kernel.Scan(ContactSolver(probe, noise, gates, model)))
 
@@ -86,7 +75,7 @@ def algorithm1(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-) -> Method:
+) -> ContactMethod:
     """Return Algorithm 1 of Cao et al. (2023), literally."""
     return _compiled("algorithm1", kernel.Algorithm1(ContactSolver(probe, noise, gates, model)))
 
@@ -96,7 +85,7 @@ def wrench_axis(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-) -> Method:
+) -> ContactMethod:
     """Return the wrench-axis method: no local torque, the first facet that the axis enters.
 
     Raises
@@ -105,7 +94,7 @@ def wrench_axis(
         Embree's bindings are not installed.
     """
     axis = EmbreeAxis(ContactSolver(probe, noise, gates, model))
-    return Method("wrench_axis", axis.locate, axis.locate_batch, axis)
+    return ContactMethod("wrench_axis", axis.locate, axis.locate_batch, axis)
 
 
 def iterative(
@@ -115,7 +104,7 @@ def iterative(
     model: TouchModel | None = None,
     *,
     library: Literal["compiled", "scipy"] = "compiled",
-) -> Method:
+) -> ContactMethod:
     """Return Levenberg-Marquardt on a paraboloid fitted to the contact face.
 
     Parameters
@@ -133,12 +122,12 @@ def iterative(
     surface = fit_contact_face(probe)
     if library == "scipy":
         by_scipy = locate_with_scipy(solver, surface)
-        return Method("iterative", lambda w: by_scipy(np.reshape(w, (1, 6)))[0], by_scipy, by_scipy)
+        return ContactMethod("iterative", lambda w: by_scipy(np.reshape(w, (1, 6)))[0], by_scipy, by_scipy)
     engine = kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
     return _compiled("iterative", engine)
 
 
-METHODS: dict[str, Callable[..., Method]] = {
+METHODS: dict[str, Callable[..., ContactMethod]] = {
     "contactbench": contactbench,
     "scan": scan,
     "algorithm1": algorithm1,
@@ -153,7 +142,7 @@ def make(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-) -> Method:
+) -> ContactMethod:
     """Build a method by name.
 
     Raises

@@ -34,24 +34,13 @@ _HEAVY_N = 1.0  # a sensor at rest, compensated, shows far less
 
 
 @dataclass(frozen=True)
-class Trial:
-    """One mistake, undone.
+class MistakeTrial:
+    """One mistake, undone."""
 
-    Attributes
-    ----------
-    name : str
-        ``torques_in_Nmm``, ``reversed``, ``turned`` or ``not_compensated``.
-    cause : str
-        A clause that says what would be wrong.
-    remedy : str
-        A sentence.
-    rows, plausible : int
-        How many wrenches were tried, and how many a touch of the probe then explains.
-    """
-
-    name: str
-    cause: str
-    remedy: str
+    name: str  # ``torques_in_Nmm``, ``reversed``, ``turned`` or ``not_compensated``
+    cause: str  # A clause that says what would be wrong
+    remedy: str  # A sentence
+    # How many wrenches were tried, and how many a touch of the probe then explains
     rows: int
     plausible: int
 
@@ -63,34 +52,19 @@ class Trial:
 
 @dataclass(frozen=True)
 class Plausibility:
-    """Figures of a file that no touch explains, and what the usual mistakes would make of it.
+    """Figures of a file that no touch explains, and what the usual mistakes would make of it."""
 
-    Attributes
-    ----------
-    rows, plausible : int
-        Wrenches with force that were looked at, and how many a touch explains as they are.
-    arm_m : float
-        Median of the torque over the force, m.
-    reach_m : float
-        From the sensor origin to the farthest point of the probe, m.
-    miss_m : float
-        Median distance at which the line of force passes the probe, m; 0 where it meets it.
-    smallest_force_N : float
-        In the whole file.
-    trials : tuple of Trial
-        The mistakes, those that explain most first.
-    """
-
+    # Wrenches with force that were looked at, and how many a touch explains as they are
     rows: int
     plausible: int
-    arm_m: float
-    reach_m: float
-    miss_m: float
-    smallest_force_N: float
-    trials: tuple[Trial, ...]
+    arm_m: float  # Median of the torque over the force, m
+    reach_m: float  # From the sensor origin to the farthest point of the probe, m
+    miss_m: float  # Median distance at which the line of force passes the probe, m; 0 where it meets it
+    smallest_force_N: float  # In the whole file
+    trials: tuple[MistakeTrial, ...]  # The mistakes, those that explain most first
 
     @property
-    def likely(self) -> tuple[Trial, ...]:
+    def likely(self) -> tuple[MistakeTrial, ...]:
         """The mistake that makes most wrenches plausible, and those that cannot be told from it; none: empty."""
         good = [trial for trial in self.trials if trial.plausible >= _FEWEST and trial.share > _MOST]
         return tuple(trial for trial in good if trial.share >= good[0].share - _CLOSE)
@@ -156,7 +130,7 @@ class Sample:
         arm = float(np.median(np.linalg.norm(wrenches[:, 3:], axis=1) / force))
         _, plausible = _count(locator, wrenches)
         trials = [
-            Trial(name, cause, remedy, *_count(locator, undone))
+            MistakeTrial(name, cause, remedy, *_count(locator, undone))
             for name, cause, remedy, undone in _mistakes(wrenches, arm / reach)
         ]
         trials.sort(key=lambda trial: -trial.share)  # of equals the simpler one stays first

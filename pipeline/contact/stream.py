@@ -9,28 +9,30 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar
 
 import numpy as np
 
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
 from contactbench.pipeline.contact.plausibility import Plausibility, Sample, unexplained
-from contactbench.pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
+from contactbench.pipeline.contact.wrench_csv import WrenchBlock, WrenchFileError, WrenchReader
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh import Probe
 
-__all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting", "whole_output"]
+__all__ = ["LocateSummary", "WrenchFileError", "ahead", "locate_file", "refuse_overwriting", "whole_output"]
 
 Progress = Callable[[int, int], None]
+_Block = TypeVar("_Block")
+_Done = TypeVar("_Done")
 
 
 class Locator(Protocol):
@@ -42,37 +44,19 @@ class Locator(Protocol):
 
 @dataclass(frozen=True)
 class LocateSummary:
-    """
-    What came of a file.
+    """What came of a file."""
 
-    Attributes
-    ----------
-    rows : int
-        Wrenches read and answered.
-    reasons : dict of str to int
-        Answers per reason, every reason named, in lower case.
-    method : str
-        Who answered.
-    median_sigma_max_mm : float or None
-        Median of the largest standard deviation of the points, mm, to four digits; None without points.
-    on_invented, on_untouchable : int
-        Contacts on facets that were made up, and on those of regions that nothing can touch.
-    seconds : float
-        From the first byte read to the last one written.
-    warnings : tuple of str
-        What should make one doubt the answers: sentences with a remedy.
-    plausibility : Plausibility or None
-        What may be wrong, where no touch explains more than half of the rows with force.
-    """
-
-    rows: int
-    reasons: dict[str, int]
-    method: str
+    rows: int  # Wrenches read and answered
+    reasons: dict[str, int]  # Answers per reason, every reason named, in lower case
+    method: str  # Who answered
+    # Median of the largest standard deviation of the points, mm, to four digits; None without points
     median_sigma_max_mm: float | None
+    # Contacts on facets that were made up, and on those of regions that nothing can touch
     on_invented: int
     on_untouchable: int
-    seconds: float
-    warnings: tuple[str, ...] = ()
+    seconds: float  # From the first byte read to the last one written
+    warnings: tuple[str, ...] = ()  # What should make one doubt the answers: sentences with a remedy
+    # What may be wrong, where no touch explains more than half of the rows with force
     plausibility: Plausibility | None = None
 
     @property
@@ -110,7 +94,7 @@ def locate_file(
 
     Parameters
     ----------
-    solver_or_method : ContactSolver or Method
+    solver_or_method : ContactSolver or ContactMethod
         Whose ``locate_batch`` answers.
     source : path or binary file
         Columns t, fx, fy, fz, mx, my, mz in any order, others are ignored; s, N and N·m about the sensor
@@ -158,7 +142,7 @@ def locate_file(
             reader.refuse_raw()
         write(HEADER)
         text = ContactRows()
-        for rows, answers in _ahead(reader, answer):
+        for rows, answers in ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             marks = mark(answers.faces)
             write(text.encode(rows.times, answers, sigma_mm, marks))
@@ -189,7 +173,7 @@ class _Untracked:
     def __init__(self, locator: Locator) -> None:
         self._locator = locator
 
-    def __call__(self, rows: WrenchRows) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Answers:
         return self._locator.locate_batch(rows.wrenches)
 
     def warnings(self) -> tuple[str, ...]:
@@ -206,7 +190,7 @@ class _Tracked(_Untracked):
         self._first_stale = 0
         solver.reset()
 
-    def __call__(self, rows: WrenchRows) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Answers:
         assert rows.t is not None  # noqa: S101  (the reader was asked for it)
         # fmax: a NaN, where they are allowed, is not a time, but does not hide the times after it.
         newest = np.fmax.accumulate(np.concatenate(([self._latest], rows.t)))
@@ -236,21 +220,24 @@ def _tracked(locator: Locator) -> _Tracked:
     return _Tracked(locator)
 
 
-def _ahead(
-    blocks: WrenchReader, answer: Callable[[WrenchRows], Answers]
-) -> Iterator[tuple[WrenchRows, Answers]]:
-    """Answer each block in a second thread while the next is read and the one before is written.
+def ahead(blocks: Iterable[_Block], work: Callable[[_Block], _Done]) -> Iterator[tuple[_Block, _Done]]:
+    """Do the work on each block in a second thread while the next is read and the one before is written.
 
-    The solver releases the interpreter's lock, so this saves up to a quarter of the time where a second
+    Solver and NumPy release the interpreter's lock, so this saves up to a quarter of the time where a second
     core is free. One thread, because a stream has an order.
     """
-    with ThreadPoolExecutor(1, "locate") as pool:
-        waiting: tuple[WrenchRows, Future[Answers]] | None = None
-        for rows in blocks:
-            ahead = pool.submit(answer, rows)
+    with ThreadPoolExecutor(1, "ahead") as pool:
+        waiting: tuple[_Block, Future[_Done]] | None = None
+        try:
+            for rows in blocks:
+                following = pool.submit(work, rows)
+                if waiting is not None:
+                    yield waiting[0], waiting[1].result()
+                waiting = rows, following
+        except InputError:
             if waiting is not None:
-                yield waiting[0], waiting[1].result()
-            waiting = rows, ahead
+                waiting[1].result()  # what is wrong further up in the file comes first
+            raise
         if waiting is not None:
             yield waiting[0], waiting[1].result()
 

@@ -41,26 +41,13 @@ _WORDING = Wording(
 
 
 @dataclass(frozen=True)
-class WrenchRows:
-    """
-    Consecutive rows of a file.
+class WrenchBlock:
+    """Consecutive rows of a file."""
 
-    Attributes
-    ----------
-    times : (n,) bytes
-        The cells of column t as they stand in the file, UTF-8.
-    t : (n,) float64 or None
-        The same as numbers, s; None when nobody asked for them.
-    wrenches : (n, 6) float64
-        Fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin.
-    lines : (n,) int64
-        The line of each row in the file; the header is line 1.
-    """
-
-    times: npt.NDArray[np.bytes_]
-    t: npt.NDArray[np.float64] | None
-    wrenches: npt.NDArray[np.float64]
-    lines: npt.NDArray[np.int64]
+    times: npt.NDArray[np.bytes_]  # (n,) the cells of column t as they stand in the file, UTF-8
+    t: npt.NDArray[np.float64] | None  # (n,) the same as numbers, s; None when nobody asked for them
+    wrenches: npt.NDArray[np.float64]  # (n, 6) fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin
+    lines: npt.NDArray[np.int64]  # (n,) the line of each row in the file; the header is line 1
 
 
 class WrenchReader:
@@ -123,10 +110,10 @@ class WrenchReader:
         """Bytes read from the stream so far."""
         return self._table.bytes_read
 
-    def __iter__(self) -> Iterator[WrenchRows]:
+    def __iter__(self) -> Iterator[WrenchBlock]:
         """Yield blocks of at least one row."""
         for rows in self._table:
             assert rows.text is not None  # noqa: S101  (the table was asked for it)
             t = rows.numbers[:, 0] if self._timed else None
             wrenches = np.ascontiguousarray(rows.numbers[:, -len(CHANNELS) :])
-            yield WrenchRows(rows.text, t, wrenches, rows.lines)
+            yield WrenchBlock(rows.text, t, wrenches, rows.lines)

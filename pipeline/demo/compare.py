@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.mesh import Probe
 
 ALL = "all"
@@ -149,7 +149,7 @@ def _statistics(
     )
 
 
-def _median_us(method: Method, wrenches: NDArray[np.float64]) -> float | None:
+def _median_us(method: ContactMethod, wrenches: NDArray[np.float64]) -> float | None:
     engine: Any = method.engine
     if not hasattr(engine, "time_each"):
         return None

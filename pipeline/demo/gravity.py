@@ -11,8 +11,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, calibrate
-from contactbench.pipeline.calibration.files.calibration_file import Source, save_calibration
-from contactbench.pipeline.calibration.files.capture_file import capture_recording
+from contactbench.pipeline.calibration.files.calibration_file import SourceFile, save_calibration
+from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.report.page import write_report
@@ -75,7 +75,7 @@ def weigh_on_bench(
         spans.append((begin, tape.end))
     tape.write(folder / "gravity.mcap", tool, rng)
     # From here on only the files count: what works here works for files from elsewhere.
-    found = capture_recording(folder / "gravity.mcap")
+    found = capture_poses(folder / "gravity.mcap")
     write_poses(folder / "poses.csv", found.poses)
     starts = [capture.start for capture in found.captures]
     begin, end = spans[pushed]
@@ -161,7 +161,7 @@ def calibrate_folder(
     """
     poses = read_poses(folder / "poses.csv").poses
     calibration = calibrate(poses)
-    source = Source.of(folder / "poses.csv")
+    source = SourceFile.of(folder / "poses.csv")
     save_calibration(calibration, folder / "calibration.json", source=source)
     write_report(calibration, folder / "calibration.html", source=source)
     off = calibration.model.vector - truth.vector

@@ -166,12 +166,27 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
         One of the files cannot be written, or there is a JSON file that holds no object.
     """
     mesh = Path(path)
-    file = sidecar_of(mesh)
-    document = check_target(mesh)
+    files = encode_probe_file(content, mesh.name, check_target(mesh))
+    for target, bytes_ in ((mesh.with_name(name), data) for name, data in files.items()):
+        try:
+            write_durably(target, bytes_)
+        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+            raise MeshError(
+                f"{target}: the probe cannot be written ({error}): choose a folder that exists, is writable and"
+                " has space."
+            ) from error
+
+
+def encode_probe_file(
+    content: ProbeFile, name: str, document: Mapping[str, Any] | None = None
+) -> dict[str, bytes]:
+    """Return the files of a probe: its PLY file `name` and, what else `document` has kept, the JSON beside it."""
+    file = sidecar_of(Path(name)).name
     regions = content.regions
     colours = [region.colour for region in regions.regions]
     surface = encode_probe(content.probe.with_region(regions.labels, regions.untouchable), colours)
-    document |= {
+    whole = {
+        **(document or {}),
         "schema": SCHEMA,
         "version": VERSION,
         "mesh": {
@@ -183,17 +198,10 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
         "regions": [write_region(region) for region in regions.regions],
         "history": [dict(step) for step in content.history],
     }
-    data = (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode()
+    data = (json.dumps(whole, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode()
     if len(data) > SIZE_LIMIT:
         raise RegionError(f"{file}: the file is larger than {SIZE_LIMIT // 2**20} MiB: move it away.")
-    for target, bytes_ in ((mesh, surface), (file, data)):
-        try:
-            write_durably(target, bytes_)
-        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-            raise MeshError(
-                f"{target}: the probe cannot be written ({error}): choose a folder that exists, is writable and"
-                " has space."
-            ) from error
+    return {name: surface, file: data}
 
 
 def check_target(path: str | os.PathLike[str]) -> dict[str, Any]:

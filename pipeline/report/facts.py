@@ -9,9 +9,9 @@ import scipy
 
 from contactbench import __version__
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
-from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
+from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.page import moment
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -25,7 +25,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from contactbench.pipeline.report.touches import MarkerView
-    from contactbench.pipeline.verification.figures import Diagnosis, Limits, Summary, TouchFigure
+    from contactbench.pipeline.verification.figures import (
+        ErrorDiagnosis,
+        Summary,
+        TouchFigure,
+        VerificationLimits,
+    )
 
 BLUE, ORANGE, GREEN, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9"
 _SERIES = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "^"), (PURPLE, "D"), (SKY, "v"))
@@ -72,8 +77,8 @@ def draw(
     touches: Sequence[TouchFigure],
     per_marker: Sequence[Summary],
     views: Sequence[MarkerView],
-    limits: Limits,
-    diagnosis: Diagnosis | None,
+    limits: VerificationLimits,
+    diagnosis: ErrorDiagnosis | None,
 ) -> VerificationFigures:
     """Draw all pictures of a report.
 
@@ -102,7 +107,7 @@ def draw(
         )
 
 
-def _markers(per_marker: Sequence[Summary], limits: Limits) -> Figure:
+def _markers(per_marker: Sequence[Summary], limits: VerificationLimits) -> Figure:
     figure = Figure(figsize=(_WIDTH, 2.5))
     axes = figure.add_axes((0.08, 0.24, 0.9, 0.62))
     x = np.arange(len(per_marker))
@@ -124,7 +129,7 @@ def _markers(per_marker: Sequence[Summary], limits: Limits) -> Figure:
     return figure
 
 
-def _force(touches: Sequence[TouchFigure], limits: Limits) -> Figure:
+def _force(touches: Sequence[TouchFigure], limits: VerificationLimits) -> Figure:
     figure = Figure(figsize=(_WIDTH, 2.7))
     axes = figure.add_axes((0.08, 0.17, 0.9, 0.68))
     windows = sorted({touch.window_N or (0.0, 0.0) for touch in touches})
@@ -148,7 +153,7 @@ def _force(touches: Sequence[TouchFigure], limits: Limits) -> Figure:
     return figure
 
 
-def _scatter(views: Sequence[MarkerView], reach: float, limits: Limits) -> Figure:
+def _scatter(views: Sequence[MarkerView], reach: float, limits: VerificationLimits) -> Figure:
     side = _WIDTH / COLUMNS
     figure = Figure(figsize=(_WIDTH, side + 0.2))
     high = figure.get_size_inches()[1]
@@ -193,7 +198,7 @@ def _parts(per_marker: Sequence[Summary]) -> Figure:
     return figure
 
 
-def _causes(diagnosis: Diagnosis) -> Figure:
+def _causes(diagnosis: ErrorDiagnosis) -> Figure:
     figure = Figure(figsize=(3.35, 2.9))
     axes = figure.add_axes((0.25, 0.16, 0.64, 0.79))
     shares = diagnosis.shares[::-1]
@@ -209,7 +214,7 @@ def _causes(diagnosis: Diagnosis) -> Figure:
     return figure
 
 
-def _limits(axes: Any, limits: Limits) -> None:
+def _limits(axes: Any, limits: VerificationLimits) -> None:
     for value, style, words in (
         (limits.mean_m, "-", "limit of the mean"),
         (limits.max_m, (0, (5, 3)), "of the largest"),

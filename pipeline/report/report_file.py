@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, read_check
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_check
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

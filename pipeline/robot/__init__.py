@@ -2,7 +2,7 @@
 
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
 from contactbench.pipeline.robot.description import Capsule, Joint, RobotDescription
-from contactbench.pipeline.robot.known import ELFIN3, ROBOTS
 from contactbench.pipeline.robot.robot import Robot
+from contactbench.pipeline.robot.robots import ELFIN3, ROBOTS
 
 __all__ = ["ELFIN3", "ROBOTS", "Capsule", "Clearance", "ClearanceCheck", "Joint", "Robot", "RobotDescription"]

@@ -10,8 +10,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
 from contactbench.pipeline.robot.description import RobotDescription, joint_angles
-from contactbench.pipeline.robot.known import ROBOTS
 from contactbench.pipeline.robot.model import Kinematics
+from contactbench.pipeline.robot.robots import ROBOTS
 
 
 class Robot:

@@ -1,6 +1,6 @@
 """The runtime in Python: raw samples of a sensor and of a robot in, contacts out, sample by sample."""
 
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.runtime.engine import Engine
 from contactbench.pipeline.runtime.errors import OutputError, RunError
 from contactbench.pipeline.runtime.lines import Answer

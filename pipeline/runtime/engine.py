@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
 from contactbench.pipeline.runtime.lines import Answer
 

@@ -21,7 +21,7 @@ _LOOK_S = 0.002
 _IDLE_S = 0.2
 
 
-class Target(Protocol):
+class OutletTarget(Protocol):
     """Where contacts go."""
 
     name: str
@@ -54,7 +54,7 @@ class Outlet:
 
     Parameters
     ----------
-    target : Target
+    target : OutletTarget
         Closed at the end.
     patient : bool
         The source can wait, as a recording can: nothing is dropped.
@@ -71,7 +71,9 @@ class Outlet:
         Why.
     """
 
-    def __init__(self, target: Target, *, patient: bool = False, most_waiting: int = _MOST_WAITING) -> None:
+    def __init__(
+        self, target: OutletTarget, *, patient: bool = False, most_waiting: int = _MOST_WAITING
+    ) -> None:
         self._target, self._patient, self._most_waiting = target, patient, most_waiting
         self._queue: queue.SimpleQueue[Answer | None] = queue.SimpleQueue()
         self._closing = threading.Event()

@@ -22,7 +22,7 @@ from pydantic import (
 
 from contactbench import __version__
 from contactbench.pipeline.session.errors import JournalError, SessionError
-from contactbench.pipeline.session.frames import Frame, canonical
+from contactbench.pipeline.session.frames import JournalFrame, canonical
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -170,7 +170,7 @@ Action = (
 )
 
 
-class Entry(_Part):
+class JournalEntry(_Part):
     """An action with who, when (UTC, ISO 8601), with which tool and which sensor."""
 
     at: str
@@ -190,21 +190,11 @@ class Entry(_Part):
 
 @dataclass(frozen=True)
 class Record:
-    """
-    An entry in its place.
+    """An entry in its place."""
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    hash : str
-        Of the chain up to here, 64 hexadecimal digits.
-    entry : Entry
-    """
-
-    number: int
-    hash: str
-    entry: Entry
+    number: int  # From 1
+    hash: str  # Of the chain up to here, 64 hexadecimal digits
+    entry: JournalEntry
 
     @property
     def action(self) -> Action:
@@ -219,7 +209,7 @@ def files_of(action: Action) -> tuple[FileRef, ...]:
     return tuple(action.files.values()) if isinstance(action, ResultAdded) else ()
 
 
-def payload_of(entry: Entry) -> bytes:
+def payload_of(entry: JournalEntry) -> bytes:
     """Return an entry as canonical JSON."""
     return canonical(entry.model_dump(mode="json"))
 
@@ -237,10 +227,10 @@ def parse_payload(payload: bytes, number: int) -> dict[str, Any]:
     return value
 
 
-def read_entry(value: dict[str, Any], number: int) -> Entry:
+def read_entry(value: dict[str, Any], number: int) -> JournalEntry:
     """Return the entry that a JSON object is; JournalError, with the field, if it is none."""
     try:
-        entry = Entry.model_validate(value)
+        entry = JournalEntry.model_validate(value)
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(map(str, first["loc"]))
@@ -253,7 +243,7 @@ def read_entry(value: dict[str, Any], number: int) -> Entry:
     return entry
 
 
-def records_of(found: tuple[Frame, ...]) -> tuple[Record, ...]:
+def records_of(found: tuple[JournalFrame, ...]) -> tuple[Record, ...]:
     """Return the records of frames; JournalError if one is none."""
     return tuple(
         Record(number, frame.chain.hex(), read_entry(parse_payload(frame.payload, number), number))
@@ -300,10 +290,10 @@ def checked(action: type[_A], /, **fields: Any) -> _A:
         raise SessionError(f"{where}: {first['input']!r:.100}: {rule}: correct it.") from error
 
 
-def entry(action: Action, by: str, sensor: str | None) -> Entry:
+def entry(action: Action, by: str, sensor: str | None) -> JournalEntry:
     """Return an action with who, when and with what."""
     at = datetime.now(UTC).isoformat(timespec="microseconds")
-    return checked(Entry, at=at, by=by, tool=TOOL, sensor=sensor, action=action)
+    return checked(JournalEntry, at=at, by=by, tool=TOOL, sensor=sensor, action=action)
 
 
 def user() -> str:

@@ -49,7 +49,7 @@ class ArchiveLimits:
 
 
 @dataclass(frozen=True)
-class Exported:
+class ArchiveSummary:
     """What was packed."""
 
     files: int
@@ -57,7 +57,7 @@ class Exported:
     left_out: tuple[str, ...]  # Places of recordings that are being made: they are not in the archive
 
 
-def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None) -> Exported:
+def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None) -> ArchiveSummary:
     """
     Pack a session into a zip file that `import_archive` takes.
 
@@ -105,7 +105,7 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
         ) from error
     finally:
         scratch.unlink(missing_ok=True)
-    return Exported(1 + len(kept) + len(names), found.notes, left_out)
+    return ArchiveSummary(1 + len(kept) + len(names), found.notes, left_out)
 
 
 def _refuse_place(folder: Path, out: Path) -> None:

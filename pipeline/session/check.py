@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
+from contactbench.pipeline.session.adoption import adopt_unfinished
+from contactbench.pipeline.session.content import content_of
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
@@ -21,17 +23,15 @@ from contactbench.pipeline.session.files import (
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
 from contactbench.pipeline.session.lock import Lock
 from contactbench.pipeline.session.migrate import origin_problems
-from contactbench.pipeline.session.reading import content_of
 from contactbench.pipeline.session.sources import sources_of
 from contactbench.pipeline.session.state import fold
 from contactbench.pipeline.session.store import Session
-from contactbench.pipeline.session.unfinished import adopt_unfinished
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from contactbench.pipeline.session.reading import Content
+    from contactbench.pipeline.session.content import Content
 
 
 @dataclass(frozen=True)

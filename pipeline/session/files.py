@@ -34,6 +34,15 @@ def chunks_of(file: Path) -> Iterator[bytes]:
             yield chunk
 
 
+def digest_of(file: Path) -> tuple[str, int]:
+    """Return the SHA-256 of a file, 64 hexadecimal digits, and its size. OSError if it cannot be read."""
+    digest, size = hashlib.sha256(), 0
+    for chunk in chunks_of(file):
+        digest.update(chunk)
+        size += len(chunk)
+    return digest.hexdigest(), size
+
+
 def store(session: Path, folder: str, name: str, chunks: Iterable[bytes]) -> FileRef:
     """
     Put content into a session's folder, durably, under its hash and its name.
@@ -70,17 +79,14 @@ def take_in(session: Path, folder: str, file: Path, name: str) -> FileRef:
     """
     with file.open("rb+") as stream:
         os.fsync(stream.fileno())
-    digest, size = hashlib.sha256(), 0
-    for chunk in chunks_of(file):
-        digest.update(chunk)
-        size += len(chunk)
-    place = f"{folder}/{digest.hexdigest()[:12]}-{_plain(name)}"
+    sha256, size = digest_of(file)
+    place = f"{folder}/{sha256[:12]}-{_plain(name)}"
     try:
         os.link(file, session / place)
     except OSError:  # it is there already, or the file system knows no links
         return store(session, folder, name, chunks_of(file))
     sync_folder(session / folder)
-    return FileRef(path=place, sha256=digest.hexdigest(), size=size)
+    return FileRef(path=place, sha256=sha256, size=size)
 
 
 def try_room(session: Path) -> None:
@@ -166,17 +172,14 @@ def wrong_with(session: Path, ref: FileRef) -> str:
     try:
         if file.is_symlink() or not stat.S_ISREG(file.stat().st_mode):
             return f"{ref.path} is no regular file"
-        digest, size = hashlib.sha256(), 0
-        for chunk in chunks_of(file):
-            digest.update(chunk)
-            size += len(chunk)
+        sha256, size = digest_of(file)
     except FileNotFoundError:
         return f"{ref.path} is missing"
     except OSError as error:
         return f"{ref.path} cannot be read ({error})"
     if size != ref.size:
         return f"{ref.path} has {size} bytes, not {ref.size}"
-    return "" if digest.hexdigest() == ref.sha256 else f"{ref.path} has another content than the journal says"
+    return "" if sha256 == ref.sha256 else f"{ref.path} has another content than the journal says"
 
 
 def unfinished(session: Path) -> list[str]:

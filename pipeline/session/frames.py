@@ -42,7 +42,7 @@ _UNSIGNED_HEADER = struct.Struct("<4sII32s")
 
 
 @dataclass(frozen=True)
-class Frame:
+class JournalFrame:
     """One record as it lies in the file."""
 
     offset: int  # Where it begins, bytes
@@ -59,7 +59,7 @@ class Frame:
 class Scan:
     """What a journal holds."""
 
-    frames: tuple[Frame, ...]  # The whole and correctly chained records from the start
+    frames: tuple[JournalFrame, ...]  # The whole and correctly chained records from the start
     end: int  # Where the last of them ends, bytes
     torn: str = ""  # What is said of a record at the end that was never finished; empty if there is none
     damage: str = ""  # What is said of damage that no crash explains; empty if there is none
@@ -121,7 +121,7 @@ def chained(before: bytes, payload: bytes) -> bytes:
 
 def scan(data: bytes) -> Scan:
     """Read all records; stops at the first that is unfinished, damaged or out of the chain."""
-    frames: list[Frame] = []
+    frames: list[JournalFrame] = []
     before, at = GENESIS, 0
     while at < len(data):
         frame = whole(data, at)
@@ -138,7 +138,7 @@ def scan(data: bytes) -> Scan:
     return Scan(tuple(frames), at)
 
 
-def whole(data: bytes, at: int) -> Frame | None:
+def whole(data: bytes, at: int) -> JournalFrame | None:
     """Return the record that begins here, if it is whole and both checksums hold."""
     length = _length(data, at)
     if length is None:
@@ -148,7 +148,7 @@ def whole(data: bytes, at: int) -> Frame | None:
     _, _, checksum, chain, _ = HEADER.unpack_from(data, at)
     if len(payload) != length or zlib.crc32(payload) != checksum:
         return None
-    return Frame(at, payload, chain)
+    return JournalFrame(at, payload, chain)
 
 
 def _length(data: bytes, at: int) -> int | None:
@@ -160,7 +160,7 @@ def _length(data: bytes, at: int) -> int | None:
     return length if sound and 0 < length <= LONGEST_PAYLOAD else None
 
 
-def _stopped(data: bytes, at: int, frames: list[Frame]) -> Scan:
+def _stopped(data: bytes, at: int, frames: list[JournalFrame]) -> Scan:
     where = f"record {len(frames) + 1} at byte {at}"
     follows = next_whole(data, at + 1)
     if follows is None and unfinished(data, at):

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.making import Parameters, check_roles, folder_for, read_parameters
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings
 
 if TYPE_CHECKING:
@@ -28,9 +28,10 @@ Moment = Annotated[float, Field(ge=-1e15, le=1e15, allow_inf_nan=False)]
 class CapturesParameters(CapturesSettings, Parameters):
     """As the options of ``contactbench calibrate captures``."""
 
-    # s, on the recording's clock: a capture in which such a moment lies is left out
-    leave_out: tuple[Moment, ...] = ()
-    partial: bool = False  # more poses will follow in another recording: fewer than three do
+    endings = (".csv",)
+
+    leave_out: tuple[Moment, ...] = ()  # s, on the recording's clock: captures in which one lies are left out
+    partial: bool = False  # More poses will follow in another recording: fewer than three do
 
 
 def captures(
@@ -47,14 +48,15 @@ def captures(
     same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_file import capture_any
-    from contactbench.pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.files.capture_file import capture_poses
+    from contactbench.pipeline.calibration.files.pose_csv import encode_poses
     from contactbench.pipeline.calibration.orientation import convention_of
 
-    given = read_parameters(CapturesParameters, parameters)
-    recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
+    given = CapturesParameters.checked(parameters)
+    check_roles(inputs, ("recording",), ("calibration", "earlier", "robot_poses"))
+    recording = inputs["recording"]
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
-    found = capture_any(
+    found = capture_poses(
         recording,
         convention_of(given),
         robot_poses=inputs.get("robot_poses"),
@@ -77,9 +79,7 @@ def captures(
         raise SessionError(
             f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more of them still for some seconds.{why}"
         )
-    with folder_for(given.name, ".csv") as out:
-        write_poses(out, poses)
-        return {given.name: out.read_bytes()}
+    return {given.name: encode_poses(poses, given.name)}
 
 
 def _earlier(file: Path) -> tuple[PoseSample, ...]:
@@ -116,14 +116,15 @@ def calibration(
     from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
+    from contactbench.pipeline.calibration.files.calibration_file import Mount, encode_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
     from contactbench.pipeline.calibration.mount import estimate_mount
     from contactbench.pipeline.calibration.orientation import convention_of
 
-    given = read_parameters(CalibrationParameters, parameters)
-    poses = check_roles(inputs, "poses")
+    given = CalibrationParameters.checked(parameters)
+    check_roles(inputs, ("poses",))
+    poses = inputs["poses"]
     if is_recording(poses) or is_recorded_table(poses):
         raise SessionError(
             f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
@@ -138,6 +139,4 @@ def calibration(
     else:
         found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     time = None if created is None else datetime.fromisoformat(created)
-    with folder_for(given.name, ".json") as out:
-        save_calibration(found, out, source=poses, created=time, mount=mount)
-        return {given.name: out.read_bytes()}
+    return {given.name: encode_calibration(found, given.name, source=poses, created=time, mount=mount)}

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.session.making import Parameters, check_roles, folder_for, read_parameters
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.settings import ProbeSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
-
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
@@ -19,6 +17,8 @@ if TYPE_CHECKING:
 
 class ProbeParameters(ProbeSettings, Parameters):
     """As the options of ``contactbench probe prepare``."""
+
+    endings = (".ply",)
 
 
 def probe(
@@ -35,18 +35,10 @@ def probe(
 
     ``alignment`` and ``regions`` may be left out. See `contactbench.pipeline.preparation.prepare.prepared`.
     """
+    from contactbench.pipeline.mesh.sidecar import encode_probe_file
     from contactbench.pipeline.preparation.prepare import prepared
 
-    check_roles(inputs, "mesh", "alignment", "regions")
-    given = read_parameters(ProbeParameters, parameters)
+    check_roles(inputs, ("mesh",), ("alignment", "regions"))
+    given = ProbeParameters.checked(parameters)
     done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
-    return probe_files(done.content, given.name)
-
-
-def probe_files(content: ProbeFile, name: str) -> dict[str, bytes]:
-    """Return the files that a probe is kept in, under a name that ends in ``.ply``."""
-    from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
-
-    with folder_for(name, ".ply") as out:
-        save_probe_file(content, out)
-        return {file.name: file.read_bytes() for file in (out, sidecar_of(out))}
+    return encode_probe_file(done.content, given.name)

@@ -17,7 +17,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.report.report_file import ReportParameters, report
@@ -30,8 +30,8 @@ from contactbench.pipeline.session.make_calibration import (
     captures,
 )
 from contactbench.pipeline.session.make_probe import ProbeParameters, probe
-from contactbench.pipeline.session.making import PREFIX
-from contactbench.pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
+from contactbench.pipeline.settings import Three
+from contactbench.pipeline.verification.known_check import TOUCH_ROLES, WEIGHT_ROLES
 from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch
 from contactbench.pipeline.verification.known_weight import WeightParameters, known_weight
 from contactbench.pipeline.verification.result import REFERENCE, VerificationParameters, verification
@@ -44,30 +44,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.state import State
     from contactbench.pipeline.session.store import Session
 
-# Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and
-# `remember`, those in _TELLING `tell`.
-Recompute = Callable[..., dict[str, bytes]]
-RECOMPUTE: dict[str, Recompute] = {
-    "captures": captures,
-    "calibration": calibration,
-    "probe": probe,
-    "known_weight": known_weight,
-    "known_touch": known_touch,
-    "verification": verification,
-    "report": report,
-}
-# These take long: they tell how far they are, can be stopped, and may go on from what was computed before.
-_FOLLOWED = frozenset({"probe"})
-_TELLING = frozenset({"captures"})
-PARAMETERS: dict[str, type[BaseModel]] = {
-    "captures": CapturesParameters,
-    "calibration": CalibrationParameters,
-    "probe": ProbeParameters,
-    "known_weight": WeightParameters,
-    "known_touch": TouchParameters,
-    "verification": VerificationParameters,
-    "report": ReportParameters,
-}
+PREFIX = "contactbench-"  # of temporary folders
 
 
 @dataclass(frozen=True)
@@ -79,18 +56,44 @@ class Roles:
     on_request: tuple[str, ...] = ()  # Taken only where somebody names them
 
 
-ROLES: dict[str, Roles] = {
-    # Poses of an interrupted run, which come first.
-    "captures": Roles(("recording",), on_request=("earlier", "robot_poses")),
-    "calibration": Roles(("poses",)),
-    "probe": Roles(("mesh",), ("alignment", "regions")),
-    "known_weight": Roles(WEIGHT_ROLES),
-    "known_touch": Roles(TOUCH_ROLES),
-    "verification": Roles(VERIFICATION_ROLES, (REFERENCE,)),
-    "report": Roles(("verification", "probe"), ("calibration", "known_weight", "known_touch")),
+@dataclass(frozen=True)
+class Computation:
+    """How results of a kind are computed."""
+
+    make: Callable[..., dict[str, bytes]]  # Of inputs by role, parameters, and the time to write
+    parameters: type[BaseModel]
+    roles: Roles
+    takes: tuple[str, ...] = ()  # Which of `progress`, `cancelled`, `remember` and `tell` it also takes
+
+
+_CHECKS = ("known_weight", "known_touch")
+RECOMPUTE: dict[str, Computation] = {
+    "captures": Computation(
+        captures,
+        CapturesParameters,
+        # Poses of an interrupted run, which come first.
+        Roles(("recording",), on_request=("earlier", "robot_poses")),
+        ("tell",),
+    ),
+    "calibration": Computation(calibration, CalibrationParameters, Roles(("poses",))),
+    # Takes long: it tells how far it is, can be stopped, and may go on from what was computed before.
+    "probe": Computation(
+        probe,
+        ProbeParameters,
+        Roles(("mesh",), ("alignment", "regions")),
+        ("progress", "cancelled", "remember"),
+    ),
+    "known_weight": Computation(known_weight, WeightParameters, Roles(WEIGHT_ROLES)),
+    "known_touch": Computation(known_touch, TouchParameters, Roles(TOUCH_ROLES)),
+    "verification": Computation(
+        verification, VerificationParameters, Roles(VERIFICATION_ROLES, (REFERENCE,))
+    ),
+    "report": Computation(
+        report, ReportParameters, Roles(("verification", "probe"), ("calibration", *_CHECKS))
+    ),
 }
 # Nothing keeps a heatmap as a result; what one is made from is chosen in the same way.
-_CHOSEN = {**ROLES, "heatmap": Roles(("recording", "probe", "calibration"))}
+_HEATMAP = Roles(("recording", "probe", "calibration"))
 _READINGS = frozenset({"unloaded", "loaded", "touch"})
 # What of a role a result of another kind can be.
 _COMPUTED = {
@@ -183,12 +186,12 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     SessionError
         Nothing here computes that kind, or there is nothing to compute it from.
     """
-    if kind not in _CHOSEN:
+    if kind not in RECOMPUTE and kind != "heatmap":
         raise SessionError(
             f"{kind}: nothing here computes this kind of result: give one of {', '.join(RECOMPUTE)}."
         )
     chosen = chosen or {}
-    roles = _CHOSEN[kind]
+    roles = RECOMPUTE[kind].roles if kind in RECOMPUTE else _HEATMAP
     asked = tuple(role for role in roles.on_request if chosen.get(role))
     known = (*roles.needed, *roles.optional, *asked)
     if strangers := sorted(set(chosen) - {*known, *roles.on_request}):
@@ -244,19 +247,15 @@ def recomputed(
         )
     with laid_out(folder, state, inputs, before) as files:
         try:
-            if kind in _FOLLOWED:
-                # Whoever looks at the past checks results, and has everything computed anew.
-                return RECOMPUTE[kind](
-                    files,
-                    parameters,
-                    created,
-                    progress=progress,
-                    cancelled=cancelled,
-                    remember=before is None,
-                )
-            if kind in _TELLING:
-                return RECOMPUTE[kind](files, parameters, created, tell=tell)
-            return RECOMPUTE[kind](files, parameters, created)
+            # Whoever looks at the past checks results, and has everything computed anew.
+            offered = {
+                "progress": progress,
+                "cancelled": cancelled,
+                "remember": before is None,
+                "tell": tell,
+            }
+            done = RECOMPUTE[kind]
+            return done.make(files, parameters, created, **{name: offered[name] for name in done.takes})
         except InputError as error:
             raise SessionError(_without_places(str(error))) from error
 
@@ -269,9 +268,9 @@ def _without_places(text: str) -> str:
 
 def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
     """Return a parameter as a computation gets it, also when it is left out; as it is where nobody knows it."""
-    known = PARAMETERS.get(kind)
-    if known is None or parameter not in known.model_fields:
+    if kind not in RECOMPUTE or parameter not in RECOMPUTE[kind].parameters.model_fields:
         return given.get(parameter)
+    known = RECOMPUTE[kind].parameters
     chosen = {parameter: given[parameter]} if parameter in given else {}
     try:
         return getattr(known.model_validate({"name": "-", **chosen}), parameter)
@@ -281,11 +280,32 @@ def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
 
 def settings_of(state: State, kind: str) -> dict[str, Any]:
     """Return the parameters that the session's settings give a computation; those set to null are left out."""
-    known = PARAMETERS[kind].model_fields if kind in PARAMETERS else {}
+    known = RECOMPUTE[kind].parameters.model_fields if kind in RECOMPUTE else {}
     named = {
         key.partition(".")[2]: each for key, each in state.settings.items() if key.startswith(f"{kind}.")
     }
     return {name: each.value for name, each in named.items() if name in known and each.value is not None}
+
+
+def mount_of(state: State) -> Three | None:
+    """
+    Return how a session says that its sensor is mounted, degrees about the fixed axes x, y, z; None: it does not.
+
+    Raises
+    ------
+    SessionError
+        What it says is not three angles.
+    """
+    given = state.setting("devices.mount")
+    if given is None:
+        return None
+    try:
+        angles: Three = TypeAdapter(Three).validate_python(given)
+    except ValidationError:
+        raise SessionError(
+            "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."
+        ) from None
+    return angles
 
 
 @contextmanager

@@ -27,10 +27,10 @@ from contactbench.pipeline.session.actions import (
     read_entry,
     user,
 )
+from contactbench.pipeline.session.content import content_of
 from contactbench.pipeline.session.errors import JournalError
 from contactbench.pipeline.session.journal import read_journal, refuse_damage
 from contactbench.pipeline.session.migrate import version_of
-from contactbench.pipeline.session.reading import content_of
 from contactbench.pipeline.session.sources import sources_of
 from contactbench.pipeline.session.state import MESH, fold
 
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.session.frames import Frame
-    from contactbench.pipeline.session.reading import Content
-    from contactbench.pipeline.session.sources import Source
+    from contactbench.pipeline.session.content import Content
+    from contactbench.pipeline.session.frames import JournalFrame
+    from contactbench.pipeline.session.sources import InputSource
     from contactbench.pipeline.session.state import Result, State
 
 # A hostile journal must not keep anybody waiting: more is not tried.
@@ -86,9 +86,9 @@ def remains_of(folder: Path, data: bytes) -> Remains:
     return Remains(frames.encode_all(payloads), frozenset(losses), tuple(sentences))
 
 
-def _found(data: bytes) -> tuple[list[Frame], list[str], bool]:
+def _found(data: bytes) -> tuple[list[JournalFrame], list[str], bool]:
     """Return the whole and mended records as they lie in the file, what to say, and whether the end is lost."""
-    found: list[Frame] = []
+    found: list[JournalFrame] = []
     sentences: list[str] = []
     at = gaps = 0
     while at < len(data):
@@ -115,7 +115,9 @@ def _found(data: bytes) -> tuple[list[Frame], list[str], bool]:
     return found, sentences, False
 
 
-def _mended(data: bytes, at: int, end: int, before: bytes, following: Frame | None) -> Frame | None:
+def _mended(
+    data: bytes, at: int, end: int, before: bytes, following: JournalFrame | None
+) -> JournalFrame | None:
     """Return the one damaged record between two places, if a hash proves what it was."""
     payload = data[at + frames.HEADER.size : end]
     if not 0 < len(payload) <= frames.LONGEST_PAYLOAD:
@@ -123,23 +125,23 @@ def _mended(data: bytes, at: int, end: int, before: bytes, following: Frame | No
     _, _, checksum, chain, _ = frames.HEADER.unpack_from(data, at)
     digest = frames.chained(before, payload)
     if digest == chain or (following is not None and _follows(digest, [following])):
-        return frames.Frame(at, payload, digest)
+        return frames.JournalFrame(at, payload, digest)
     changed = bytearray(payload if len(payload) <= _MENDED_BYTES else b"")
     for bit in range(8 * len(changed)):
         changed[bit // 8] ^= 1 << bit % 8
         if zlib.crc32(changed) == checksum and frames.chained(before, bytes(changed)) == chain:
-            return frames.Frame(at, bytes(changed), chain)
+            return frames.JournalFrame(at, bytes(changed), chain)
         changed[bit // 8] ^= 1 << bit % 8
     return None
 
 
-def _follows(chain: bytes, run: list[Frame]) -> bool:
+def _follows(chain: bytes, run: list[JournalFrame]) -> bool:
     return frames.chained(chain, run[0].payload) == run[0].chain
 
 
-def _lines(found: list[Frame], sentences: list[str]) -> list[list[Frame]]:
+def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[JournalFrame]]:
     """Return the records once each, in the order in which they were written; between two lines, some are missing."""
-    runs: list[list[Frame]] = []
+    runs: list[list[JournalFrame]] = []
     seen: set[bytes] = set()
     for frame in found:
         if frame.chain in seen:
@@ -167,7 +169,7 @@ def _lines(found: list[Frame], sentences: list[str]) -> list[list[Frame]]:
     return lines
 
 
-def _links(runs: list[list[Frame]]) -> dict[int, int]:
+def _links(runs: list[list[JournalFrame]]) -> dict[int, int]:
     """Return which run follows which, where one does."""
     following: dict[int, int] = {}
     for index, run in enumerate(runs[:_SORTED_RUNS]):
@@ -223,7 +225,7 @@ def doubts(state: State, losses: Collection[int], wrong: Mapping[str, str]) -> I
             yield ResultMarked(kind=result.action.kind, name=result.action.name, mark="stale", reason=reason)
 
 
-def _doubt(result: Result, sources: tuple[Source, ...], last: int, wrong: Mapping[str, str]) -> str:
+def _doubt(result: Result, sources: tuple[InputSource, ...], last: int, wrong: Mapping[str, str]) -> str:
     for ref in files_of(result.action):
         if ref.path in wrong:
             return f"its file {wrong[ref.path]}; compute it again"

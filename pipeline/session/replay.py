@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.store import Session
 
 
-class Outcome(StrEnum):
+class ReplayOutcome(StrEnum):
     """What computing a result again gave."""
 
     SAME = "same"
@@ -34,7 +34,7 @@ class Replayed:
     kind: str
     name: str
     number: int  # Of its record
-    outcome: Outcome
+    outcome: ReplayOutcome
     sentence: str  # What came of it
 
 
@@ -64,10 +64,10 @@ def replay(session: Session, progress: Callable[[int, int], None] | None = None)
     return tuple(found)
 
 
-def _again(session: Session, result: Result) -> tuple[Outcome, str]:
+def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
     action = result.action
     if action.kind not in RECOMPUTE:
-        return Outcome.UNKNOWN, "nothing here computes this kind of result; it was not compared."
+        return ReplayOutcome.UNKNOWN, "nothing here computes this kind of result; it was not compared."
     parameters = {**action.parameters, "name": action.name}
     try:
         files = recomputed(
@@ -80,7 +80,7 @@ def _again(session: Session, result: Result) -> tuple[Outcome, str]:
             before=result.number,
         )
     except InputError as error:
-        return Outcome.FAILED, f"it cannot be computed again: {error}"
+        return ReplayOutcome.FAILED, f"it cannot be computed again: {error}"
     differing = sorted(
         name
         for name in files.keys() | action.files.keys()
@@ -89,6 +89,6 @@ def _again(session: Session, result: Result) -> tuple[Outcome, str]:
         or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
     )
     if not differing:
-        return Outcome.SAME, "the same bytes."
+        return ReplayOutcome.SAME, "the same bytes."
     older = "" if result.tool == TOOL else f" It was made by {result.tool}, this is {TOOL}."
-    return Outcome.DIFFERENT, f"other bytes in {', '.join(differing)}.{older}"
+    return ReplayOutcome.DIFFERENT, f"other bytes in {', '.join(differing)}.{older}"

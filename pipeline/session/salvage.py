@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import secrets
 import shutil
 from dataclasses import dataclass
@@ -10,11 +9,13 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.session.actions import files_of
+from contactbench.pipeline.session.content import content_of
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
     UNFINISHED,
     chunks_of,
+    digest_of,
     own_file,
     refuse_links,
     unclaimed,
@@ -23,7 +24,6 @@ from contactbench.pipeline.session.files import (
 )
 from contactbench.pipeline.session.journal import JOURNAL, read_journal
 from contactbench.pipeline.session.migrate import original_of
-from contactbench.pipeline.session.reading import content_of
 from contactbench.pipeline.session.remains import doubts, note_of, remains_of
 from contactbench.pipeline.session.store import Session
 
@@ -143,12 +143,10 @@ def _is_whole(folder: Path, place: str) -> bool:
     """Tell whether a file that no record speaks of is as it was stored, under its hash; unfinished recordings count."""
     name = place.partition("/")[2]
     try:
-        digest = hashlib.sha256()
-        for chunk in chunks_of(own_file(folder / place)):
-            digest.update(chunk)
+        sha256, _ = digest_of(own_file(folder / place))
     except (OSError, SessionError):
         return False
-    return name.startswith((UNFINISHED, f"{digest.hexdigest()[:12]}-"))
+    return name.startswith((UNFINISHED, f"{sha256[:12]}-"))
 
 
 def _settle(

@@ -11,13 +11,13 @@ from contactbench.pipeline.session.state import Input, Result
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from contactbench.pipeline.session.state import Rezero, State
+    from contactbench.pipeline.session.state import RezeroRecord, State
 
 _T = TypeVar("_T", Input, Result)
 
 
 @dataclass(frozen=True)
-class Source:
+class InputSource:
     """What an input of a result may have been; more than one, if the same content was there under several names."""
 
     inputs: tuple[Input, ...]
@@ -29,11 +29,11 @@ class Source:
         return not self.inputs and not self.results
 
 
-def sources_of(state: State) -> dict[int, tuple[Source, ...]]:
+def sources_of(state: State) -> dict[int, tuple[InputSource, ...]]:
     """Return what each result was computed from: number of its record -> its inputs. What came later is none."""
     inputs: _Shelf[Input] = _Shelf()
     results: _Shelf[Result] = _Shelf()
-    found: dict[int, tuple[Source, ...]] = {}
+    found: dict[int, tuple[InputSource, ...]] = {}
     added = iter(state.inputs)
     following = next(added, None)
     for result in state.results:
@@ -41,7 +41,7 @@ def sources_of(state: State) -> dict[int, tuple[Source, ...]]:
             inputs.put(following, {following.content})
             following = next(added, None)
         found[result.number] = tuple(
-            Source(_of_kind(role, inputs.get(sha256)), results.get(sha256))
+            InputSource(_of_kind(role, inputs.get(sha256)), results.get(sha256))
             for role, sha256 in result.action.inputs.items()
         )
         results.put(result, result.known_as)
@@ -96,7 +96,7 @@ class Recorded:
         """Return the serial numbers that were ever said of it."""
         return tuple(self._sensors.get(used.file.sha256, ()))
 
-    def is_before(self, used: Input, rezero: Rezero) -> bool:
+    def is_before(self, used: Input, rezero: RezeroRecord) -> bool:
         """Tell whether it was recorded before a sensor was re-zeroed, by the journal or by its own clock."""
         key = used.file.sha256
         if self._first[key] < rezero.number:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactbench.pipeline.session.actions import (
@@ -29,33 +29,17 @@ MESH = "mesh"
 
 @dataclass(frozen=True)
 class Input:
-    """
-    A raw input or a mesh.
+    """A raw input or a mesh."""
 
-    Attributes
-    ----------
-    kind, name : str
-        A mesh is of the kind ``mesh``; the session has one at a time, whatever its name.
-    file : FileRef
-    sensor : str or None
-        Serial number of the sensor that it was recorded with; None if nobody said.
-    number : int
-        Of its record.
-    at : str
-        When, UTC.
-    companions : mapping
-        Name -> file that lay beside it.
-    about : mapping
-        What is known about it: JSON values, such as the counters of a recording.
-    """
-
+    # A mesh is of the kind ``mesh``; the session has one at a time, whatever its name
     kind: str
     name: str
     file: FileRef
-    sensor: str | None
-    number: int
-    at: str
-    companions: Mapping[str, FileRef] = field(default_factory=dict)
+    sensor: str | None  # Serial number of the sensor that it was recorded with; None if nobody said
+    number: int  # Of its record
+    at: str  # When, UTC
+    companions: Mapping[str, FileRef] = field(default_factory=dict)  # Name -> file that lay beside it
+    # What is known about it: JSON values, such as the counters of a recording
     about: Mapping[str, Any] = field(default_factory=dict)
     # Nobody says anything of what is brought in.
     mark: ClassVar[None] = None
@@ -74,27 +58,13 @@ class Input:
 
 @dataclass(frozen=True)
 class Result:
-    """
-    A result as it was recorded.
-
-    Attributes
-    ----------
-    action : ResultAdded
-    number : int
-        Of its record.
-    at : str
-        When, UTC.
-    tool : str
-        Which version made it.
-    marks : tuple of ResultMarked
-        What people said of it, oldest first.
-    """
+    """A result as it was recorded."""
 
     action: ResultAdded
-    number: int
-    at: str
-    tool: str
-    marks: tuple[ResultMarked, ...] = ()
+    number: int  # Of its record
+    at: str  # When, UTC
+    tool: str  # Which version made it
+    marks: tuple[ResultMarked, ...] = ()  # What people said of it, oldest first
 
     @property
     def slot(self) -> tuple[str, str]:
@@ -152,7 +122,7 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Rezero:
+class RezeroRecord:
     """A sensor's zero was moved."""
 
     sensor: str
@@ -178,7 +148,7 @@ class State:
         The same of results.
     settings : dict
         Key -> Setting.
-    rezeros : tuple of Rezero
+    rezeros : tuple of RezeroRecord
     notes : tuple of Note
     count : int
         Of records.
@@ -189,7 +159,7 @@ class State:
     inputs: tuple[Input, ...] = ()
     results: tuple[Result, ...] = ()
     settings: dict[str, Setting] = field(default_factory=dict)
-    rezeros: tuple[Rezero, ...] = ()
+    rezeros: tuple[RezeroRecord, ...] = ()
     notes: tuple[Note, ...] = ()
     count: int = 0
 
@@ -236,66 +206,40 @@ class State:
 
 def fold(records: Iterable[Record]) -> State:
     """Return what records amount to; the same records always give the same state."""
-    gathered = _Gathered()
+    # Lists that grow, so that long journals take linear time.
+    name, number = "", 0
+    origins: dict[int, str] = {}
+    inputs: list[Input] = []
+    results: list[Result] = []
+    marks: dict[int, list[ResultMarked]] = {}
+    newest: dict[tuple[str, str], int] = {}
+    settings: dict[str, Setting] = {}
+    rezeros: list[RezeroRecord] = []
+    notes: list[Note] = []
     for record in records:
-        gathered.add(record)
-    return gathered.state()
-
-
-class _Gathered:
-    """The fold's accumulator: lists that grow, so that long journals take linear time."""
-
-    def __init__(self) -> None:
-        self._id, self._count = "", 0
-        self._origins: dict[int, str] = {}
-        self._inputs: list[Input] = []
-        self._results: list[Result] = []
-        self._marks: dict[int, list[ResultMarked]] = {}
-        self._newest: dict[tuple[str, str], int] = {}
-        self._settings: dict[str, Setting] = {}
-        self._rezeros: list[Rezero] = []
-        self._notes: list[Note] = []
-
-    def add(self, record: Record) -> None:
         number, at = record.number, record.entry.at
-        self._count = number
         match record.action:
             case SessionCreated() as action:
-                self._id = action.id
-                if action.migrated_from is not None:
-                    self._origins = {action.migrated_from.version: action.migrated_from.sha256}
+                name, origin = action.id, action.migrated_from
+                origins = {} if origin is None else {origin.version: origin.sha256}
             case InputAdded() as new:
-                self._inputs.append(
+                inputs.append(
                     Input(new.kind, new.name, new.file, new.sensor, number, at, new.companions, new.about)
                 )
             case MeshChanged() as mesh:
-                self._inputs.append(Input(MESH, mesh.name, mesh.file, None, number, at, mesh.companions))
+                inputs.append(Input(MESH, mesh.name, mesh.file, None, number, at, mesh.companions))
             case ResultAdded() as action:
-                self._newest[action.kind, action.name] = len(self._results)
-                self._results.append(Result(action, number, at, record.entry.tool))
+                newest[action.kind, action.name] = len(results)
+                results.append(Result(action, number, at, record.entry.tool))
             case ResultMarked() as action:
-                newest = self._newest.get((action.kind, action.name))
-                if newest is not None:
-                    self._marks.setdefault(newest, []).append(action)
+                if (action.kind, action.name) in newest:
+                    marks.setdefault(newest[action.kind, action.name], []).append(action)
             case ParameterSet(key=key, value=value):
-                self._settings[key] = Setting(value, number, at)
+                settings[key] = Setting(value, number, at)
             case DeviceRezeroed(sensor=sensor, reason=reason):
-                self._rezeros.append(Rezero(sensor, reason, number, at))
+                rezeros.append(RezeroRecord(sensor, reason, number, at))
             case Note() as note:
-                self._notes.append(note)
-
-    def state(self) -> State:
-        results = tuple(
-            Result(each.action, each.number, each.at, each.tool, tuple(self._marks.get(index, ())))
-            for index, each in enumerate(self._results)
-        )
-        return State(
-            self._id,
-            self._origins,
-            tuple(self._inputs),
-            results,
-            self._settings,
-            tuple(self._rezeros),
-            tuple(self._notes),
-            self._count,
-        )
+                notes.append(note)
+    for index, said in marks.items():
+        results[index] = replace(results[index], marks=tuple(said))
+    return State(name, origins, tuple(inputs), tuple(results), settings, tuple(rezeros), tuple(notes), number)

@@ -24,6 +24,7 @@ from contactbench.pipeline.session.actions import (
     payload_of,
     user,
 )
+from contactbench.pipeline.session.content import Content, read_content
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
@@ -39,7 +40,6 @@ from contactbench.pipeline.session.files import (
 )
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
 from contactbench.pipeline.session.lock import LOCK, Lock
-from contactbench.pipeline.session.reading import Content, read_content
 from contactbench.pipeline.session.remains import read_damaged
 from contactbench.pipeline.session.stale import stale_results
 from contactbench.pipeline.session.state import MESH, State, fold

@@ -96,7 +96,7 @@ EXACT = TouchModel(torsion_arm=1000.0, model_error=_NO_ERROR, mesh_curved=False)
 # The same, but the mesh stands for a curved body: facets then answer for the gaps between their normals, too.
 CURVED = replace(EXACT, mesh_curved=True)
 
-Check = Callable[[methods.Method, Batch], Bools]
+Check = Callable[[methods.ContactMethod, Batch], Bools]
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,12 +128,12 @@ class HardTrial:
             self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults
         )
 
-    def method(self) -> methods.Method:
+    def method(self) -> methods.ContactMethod:
         """Return the solver that is tried."""
         solver = ContactSolver(self.probe, self.noise, self.gates, self.model)
-        return methods.Method("contactbench", solver.locate, solver.locate_batch, solver)
+        return methods.ContactMethod("contactbench", solver.locate, solver.locate_batch, solver)
 
-    def _outcome(self, method: methods.Method) -> HardOutcome:
+    def _outcome(self, method: methods.ContactMethod) -> HardOutcome:
         batch = method.locate_batch(self.drawn.wrenches)
         error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
         far = error > self.tolerance_mm
@@ -171,7 +171,7 @@ def refused(*reasons: Reason) -> Rule:
 def certified(body: SolidBody, wrenches: Float) -> Check:
     """Refuse points that are not the exact solution where they say (a convex body has only one)."""
 
-    def check(_: methods.Method, batch: Batch) -> Bools:
+    def check(_: methods.ContactMethod, batch: Batch) -> Bools:
         off, false = hm.certify(body, wrenches, batch)
         return np.asarray(false | (off > 1e-9 * body.size))
 
@@ -181,7 +181,7 @@ def certified(body: SolidBody, wrenches: Float) -> Check:
 def judged(drawn: Drawn) -> Check:
     """Refuse answers that are not those of every facet one by one, judged by d2 as it is defined."""
 
-    def check(method: methods.Method, batch: Batch) -> Bools:
+    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
         if not isinstance(method.engine, ContactSolver):
             return np.zeros(len(drawn), dtype=bool)
         judge = Judge(method.engine)
@@ -194,7 +194,7 @@ def judged(drawn: Drawn) -> Check:
 def complete(drawn: Drawn) -> Check:
     """Refuse what `judged` does, and answers that have the truth neither as point nor as candidate."""
 
-    def check(method: methods.Method, batch: Batch) -> Bools:
+    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
         broken = judged(drawn)(method, batch)
         solver = method.engine
         if not isinstance(solver, ContactSolver):
@@ -213,7 +213,7 @@ def complete(drawn: Drawn) -> Check:
 def within(drawn: Drawn) -> Check:
     """Refuse points that are further from the truth than they say: 4.5 standard deviations."""
 
-    def check(method: methods.Method, batch: Batch) -> Bools:
+    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
         if not isinstance(method.engine, ContactSolver):
             return np.zeros(len(drawn), dtype=bool)
         off = np.linalg.norm(batch.points - drawn.points, axis=1)
@@ -225,7 +225,7 @@ def within(drawn: Drawn) -> Check:
 def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
     """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
 
-    def check(method: methods.Method, batch: Batch) -> Bools:
+    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
         if not isinstance(method.engine, ContactSolver):
             return np.zeros(len(batch), dtype=bool)
         before = base.method().locate_batch(base.drawn.wrenches)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rich.table import Table
 
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.simulation import Touches
 
@@ -248,7 +248,7 @@ def _compiled_rows(
 
 
 def _scored(
-    method: Method,
+    method: ContactMethod,
     language: str,
     probe: Probe,
     timing: Timing,

@@ -1,6 +1,6 @@
 """Is the contact point right? Markers, touches on them, and what the errors say."""
 
-from contactbench.pipeline.verification.figures import Cause, Limits, Times, Verification
+from contactbench.pipeline.verification.figures import ErrorCause, Times, Verification, VerificationLimits
 from contactbench.pipeline.verification.markers import (
     Marker,
     MarkerError,
@@ -11,7 +11,7 @@ from contactbench.pipeline.verification.markers import (
 )
 from contactbench.pipeline.verification.protocol import (
     ProtocolSettings,
-    State,
+    ProtocolState,
     Touch,
     TouchEvent,
     TouchProtocol,
@@ -21,18 +21,18 @@ from contactbench.pipeline.verification.spread import grid_markers, spread_marke
 from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 __all__ = [
-    "Cause",
-    "Limits",
+    "ErrorCause",
     "Marker",
     "MarkerError",
     "MarkerSet",
     "ProtocolSettings",
-    "State",
+    "ProtocolState",
     "Times",
     "Touch",
     "TouchEvent",
     "TouchProtocol",
     "Verification",
+    "VerificationLimits",
     "VerifySettings",
     "Why",
     "grid_markers",

@@ -9,7 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.calibration.model import cross_matrix, prediction_jacobian
-from contactbench.pipeline.verification.figures import Cause
+from contactbench.pipeline.verification.figures import ErrorCause
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,43 +31,22 @@ _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, 
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
-    """
-    Accepted touches, n of them.
+class TouchEvidence:
+    """Accepted touches, n of them."""
 
-    Attributes
-    ----------
-    errors : (n, 3)
-        Located minus marker, S, m.
-    markers : (n,)
-        Which marker.
-    points, normals : (n, 3)
-        Of these markers, S.
-    heights : (n,)
-        Of these markers over the mesh, m.
-    wrenches : (n, 6)
-        Compensated means, S.
-    R_WS : (n, 3, 3)
-    torques : (n,)
-        Located local torques, N·m.
-    noise : (6, 6)
-        Covariance of such a mean by the sensor's noise alone.
-    theta : (12,)
-        Parameters of the calibration.
-    """
-
-    errors: Array
-    markers: NDArray[np.intp]
+    errors: Array  # (n, 3) located minus marker, S, m
+    markers: NDArray[np.intp]  # (n,) which marker
+    # (n, 3) of these markers, S
     points: Array
     normals: Array
-    heights: Array
-    wrenches: Array
-    R_WS: Array
-    torques: Array
-    noise: Array
-    theta: Array
+    heights: Array  # (n,) of these markers over the mesh, m
+    wrenches: Array  # (n, 6) compensated means, S
+    R_WS: Array  # (n, 3, 3)
+    torques: Array  # (n,) located local torques, N·m
+    noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
+    theta: Array  # (12,) parameters of the calibration
 
-    def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> Evidence:
+    def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
         fields = ("errors", "markers", "points", "normals", "heights", "wrenches", "R_WS", "torques")
         rows: dict[str, Any] = {name: getattr(self, name)[kept] for name in fields}
@@ -81,39 +60,31 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Explained:
-    """
-    What the errors bear the marks of.
+    """What the errors bear the marks of."""
 
-    Attributes
-    ----------
-    shares : dict of Cause to float
-        Of the squared error; 1 together.
-    gains : dict of Cause to float
-        Of log likelihood, by allowing for this cause alone.
-    scale : float
-        Of the noise.
-    rivals : tuple of Cause
-        What explains the errors about as well as the cause with the largest share.
-    moved : (n,)
-        How far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause.
-    """
-
-    shares: dict[Cause, float]
-    gains: dict[Cause, float]
-    scale: float
-    rivals: tuple[Cause, ...]
+    shares: dict[ErrorCause, float]  # Of the squared error; 1 together
+    gains: dict[ErrorCause, float]  # Of log likelihood, by allowing for this cause alone
+    scale: float  # Of the noise
+    rivals: tuple[
+        ErrorCause, ...
+    ]  # What explains the errors about as well as the cause with the largest share
+    # (n,) how far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause
     moved: Array
 
     @property
-    def first(self) -> Cause:
+    def first(self) -> ErrorCause:
         """The cause with the largest share."""
         return max(self.shares, key=lambda cause: self.shares[cause])
 
     @property
     def aligned(self) -> bool:
         """Whether correcting the alignment would not cure what another cause did."""
-        told = self.first is not Cause.ALIGNMENT or not self.rivals
-        return self.shares[Cause.ALIGNMENT] >= CONFIRMED and told and Cause.ALIGNMENT not in self.rivals
+        told = self.first is not ErrorCause.ALIGNMENT or not self.rivals
+        return (
+            self.shares[ErrorCause.ALIGNMENT] >= CONFIRMED
+            and told
+            and ErrorCause.ALIGNMENT not in self.rivals
+        )
 
 
 def sensitivities(points: Array, normals: Array, forces: Array) -> Array:
@@ -142,7 +113,7 @@ def alignment_columns(J: Array, wrenches: Array) -> Array:
     return J @ A
 
 
-def explain(evidence: Evidence) -> Explained:
+def explain(evidence: TouchEvidence) -> Explained:
     """
     Ask which causes the errors bear the marks of, and how much of their squares each explains.
 
@@ -154,12 +125,12 @@ def explain(evidence: Evidence) -> Explained:
     whiten = _whitening(J @ evidence.noise @ J.transpose(0, 2, 1))
     columns = {cause: make(evidence, J) for cause, make in _COLUMNS.items()}
     if _repeated(evidence.markers):
-        columns[Cause.MARKERS] = _places(evidence)
+        columns[ErrorCause.MARKERS] = _places(evidence)
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
     Z = {cause: (whiten @ X).reshape(len(y), -1) for cause, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
     alone = {cause: max(_likelihood(y, size * Z[cause])[0] for size in _SIZES) - base for cause in Z}
-    chosen: dict[Cause, float] = {}
+    chosen: dict[ErrorCause, float] = {}
     best = base
     while len(chosen) < len(Z):
         tries = [
@@ -174,31 +145,37 @@ def explain(evidence: Evidence) -> Explained:
         best, scale, chosen[cause] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
     shares = _shares(evidence.errors, parts)
-    gains = {**dict.fromkeys(Cause, 0.0), **{cause: max(float(gain), 0.0) for cause, gain in alone.items()}}
+    gains = {
+        **dict.fromkeys(ErrorCause, 0.0),
+        **{cause: max(float(gain), 0.0) for cause, gain in alone.items()},
+    }
     first = max(shares, key=lambda cause: shares[cause])
     moved = np.zeros(len(J))
-    if Cause.MARKERS in parts:
-        moved = np.linalg.norm(parts[Cause.MARKERS], axis=1)
+    if ErrorCause.MARKERS in parts:
+        moved = np.linalg.norm(parts[ErrorCause.MARKERS], axis=1)
     return Explained(shares, gains, scale, _rivals(first, gains, chosen, evidence), moved)
 
 
 def _rivals(
-    first: Cause, gains: dict[Cause, float], chosen: dict[Cause, float], evidence: Evidence
-) -> tuple[Cause, ...]:
+    first: ErrorCause,
+    gains: dict[ErrorCause, float],
+    chosen: dict[ErrorCause, float],
+    evidence: TouchEvidence,
+) -> tuple[ErrorCause, ...]:
     """Return the causes that might as well be the first one; one that adds to it is none."""
-    if first is Cause.NOISE:
+    if first is ErrorCause.NOISE:
         return ()
     able = [cause for cause in gains if cause is not first and gains[cause] >= _EVIDENCE]
     close = [c for c in able if c not in chosen and gains[c] > gains[first] - _EVIDENCE]
     # Pressed one way in one orientation, a wrench that is turned and one that is shifted differ by next to nothing:
     # what the likelihood makes of the little is not to be relied on.
-    pair = {Cause.ALIGNMENT, Cause.GRAVITY}
+    pair = {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}
     if first in pair and _one_way(evidence):
         close += [cause for cause in able if cause in pair and cause not in close]
     return tuple(close)
 
 
-def _one_way(evidence: Evidence) -> bool:
+def _one_way(evidence: TouchEvidence) -> bool:
     """Tell whether all touches were made in one orientation, and pressed one way."""
     F = evidence.wrenches[:, :3] / np.linalg.norm(evidence.wrenches[:, :3], axis=1, keepdims=True)
     cosines = 0.5 * (np.einsum("nij,ij->n", evidence.R_WS, evidence.R_WS[0]) - 1)
@@ -215,16 +192,16 @@ def _repeated(markers: NDArray[np.intp]) -> bool:
 # ---- what each cause does ----------------------------------------------------------------------
 
 
-def _alignment(evidence: Evidence, J: Array) -> Array:
+def _alignment(evidence: TouchEvidence, J: Array) -> Array:
     return np.asarray(alignment_columns(J, evidence.wrenches) * np.repeat([_TURN, _SHIFT], 3))
 
 
-def _gravity(evidence: Evidence, J: Array) -> Array:
+def _gravity(evidence: TouchEvidence, J: Array) -> Array:
     sizes = np.repeat([_WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS], 3)
     return np.asarray(J @ prediction_jacobian(evidence.R_WS.transpose(0, 2, 1), evidence.theta) * sizes)
 
 
-def _mesh(evidence: Evidence, _J: Array) -> Array:
+def _mesh(evidence: TouchEvidence, _J: Array) -> Array:
     """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
     F = evidence.wrenches[:, :3]
     along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
@@ -235,14 +212,14 @@ def _mesh(evidence: Evidence, _J: Array) -> Array:
     return columns
 
 
-def _torsion(evidence: Evidence, _J: Array) -> Array:
+def _torsion(evidence: TouchEvidence, _J: Array) -> Array:
     """Return what a torque that is not about the normal does: the point moves along F x n, by k over |F|²."""
     F = evidence.wrenches[:, :3]
     side = np.cross(F, evidence.normals) / (F**2).sum(axis=1)[:, None]
     return np.asarray((evidence.torques[:, None] * side)[:, :, None])
 
 
-def _places(evidence: Evidence) -> Array:
+def _places(evidence: TouchEvidence) -> Array:
     """Where a marker is not where it is said to be, all its touches are off alike, along the surface."""
     sides = across(evidence.normals)
     names, place = np.unique(evidence.markers, return_inverse=True)
@@ -253,10 +230,10 @@ def _places(evidence: Evidence) -> Array:
 
 
 _COLUMNS = {
-    Cause.ALIGNMENT: _alignment,
-    Cause.GRAVITY: _gravity,
-    Cause.MESH: _mesh,
-    Cause.TORSION: _torsion,
+    ErrorCause.ALIGNMENT: _alignment,
+    ErrorCause.GRAVITY: _gravity,
+    ErrorCause.MESH: _mesh,
+    ErrorCause.TORSION: _torsion,
 }
 
 
@@ -269,7 +246,7 @@ def _whitening(covariances: Array) -> Array:
     return np.asarray((vectors / np.sqrt(values)[:, None, :]).transpose(0, 2, 1))
 
 
-def _stack(Z: dict[Cause, Array], sizes: dict[Cause, float]) -> Array:
+def _stack(Z: dict[ErrorCause, Array], sizes: dict[ErrorCause, float]) -> Array:
     return np.concatenate([size * Z[cause] for cause, size in sizes.items()], axis=1)
 
 
@@ -290,8 +267,12 @@ def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
 
 
 def _parts(
-    y: Array, Z: dict[Cause, Array], columns: dict[Cause, Array], chosen: dict[Cause, float], scale: float
-) -> dict[Cause, Array]:
+    y: Array,
+    Z: dict[ErrorCause, Array],
+    columns: dict[ErrorCause, Array],
+    chosen: dict[ErrorCause, float],
+    scale: float,
+) -> dict[ErrorCause, Array]:
     """Return (n, 3) what each chosen cause most likely did to the contacts, m."""
     if not chosen:
         return {}
@@ -302,12 +283,12 @@ def _parts(
     return {cause: size * columns[cause] @ part for (cause, size), part in sizes}
 
 
-def _shares(errors: Array, parts: dict[Cause, Array]) -> dict[Cause, float]:
+def _shares(errors: Array, parts: dict[ErrorCause, Array]) -> dict[ErrorCause, float]:
     """Return the shares: the projection of the errors on what each cause most likely did."""
-    shares = dict.fromkeys(Cause, 0.0)
+    shares = dict.fromkeys(ErrorCause, 0.0)
     total = float((errors**2).sum())
     if total > 0:
         shares |= {cause: max(float((done * errors).sum()) / total, 0.0) for cause, done in parts.items()}
-    shares[Cause.NOISE] = max(1.0 - sum(shares.values()), 0.0)
+    shares[ErrorCause.NOISE] = max(1.0 - sum(shares.values()), 0.0)
     whole = sum(shares.values())
     return {cause: share / whole for cause, share in shares.items()}

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
-from contactbench.pipeline.verification.figures import Cause, Diagnosis, Refined, Share
+from contactbench.pipeline.verification.figures import ErrorCause, ErrorDiagnosis, Refined, Share
 from contactbench.pipeline.verification.statistics import vector
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import ContactSolver
-    from contactbench.pipeline.verification.causes import Evidence, Explained
+    from contactbench.pipeline.verification.causes import Explained, TouchEvidence
     from contactbench.pipeline.verification.markers import MarkerSet
 
 FEWEST_TOUCHES = 6
@@ -29,25 +29,33 @@ _BETTER = 0.9
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
-    Cause.ALIGNMENT: "Align the probe again, with touches on all sides of it; where the refined alignment helps, that"
-    " will do.",
-    Cause.GRAVITY: "Calibrate bias and weight again, warm and with the cable as in use, with poses that tilt about two"
-    " axes.",
-    Cause.NOISE: "Take more samples or a stronger filter, press harder, and look for what shakes the sensor or for"
-    " markers that were not hit exactly.",
-    Cause.MESH: "Use a finer mesh, or scan the probe again where the markers are off it.",
-    Cause.TORSION: "Press with a tip that can turn freely and does not grip, or keep to smaller angles: the torque at"
-    " the contact is not about the surface's normal.",
+    ErrorCause.ALIGNMENT: (
+        "Align the probe again, with touches on all sides of it; where the refined alignment helps, that "
+        "will do."
+    ),
+    ErrorCause.GRAVITY: (
+        "Calibrate bias and weight again, warm and with the cable as in use, with poses that tilt about two "
+        "axes."
+    ),
+    ErrorCause.NOISE: (
+        "Take more samples or a stronger filter, press harder, and look for what shakes the sensor or for "
+        "markers that were not hit exactly."
+    ),
+    ErrorCause.MESH: "Use a finer mesh, or scan the probe again where the markers are off it.",
+    ErrorCause.TORSION: (
+        "Press with a tip that can turn freely and does not grip, or keep to smaller angles: the torque at "
+        "the contact is not about the surface's normal."
+    ),
 }
 
 
-def diagnose(evidence: Evidence, within: bool, names: Sequence[str] = ()) -> Diagnosis:
+def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -> ErrorDiagnosis:
     """
     Rank the causes of the errors of accepted touches.
 
     Parameters
     ----------
-    evidence : Evidence
+    evidence : TouchEvidence
     within : bool
         Whether the errors keep the limits.
     names : sequence of str
@@ -59,7 +67,7 @@ def diagnose(evidence: Evidence, within: bool, names: Sequence[str] = ()) -> Dia
         for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
     )
     remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
-    return Diagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
+    return ErrorDiagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
 
 
 def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str:
@@ -81,14 +89,14 @@ def _undecided(found: Explained) -> str:
     """Return what would tell the first cause from those that might as well be it; empty: there are none."""
     if not found.rivals:
         return ""
-    if {found.first, *found.rivals} == {Cause.ALIGNMENT, Cause.GRAVITY}:
+    if {found.first, *found.rivals} == {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}:
         more = "touch in a second orientation, or on other sides."
     else:
         more = "touch more markers, from other angles and in other orientations."
     return f"Which of them it is, these touches cannot tell; {more}"
 
 
-def _places(evidence: Evidence, found: Explained, names: Sequence[str]) -> str:
+def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:
     """Return which markers to look at: those that stand out, or all."""
     markers, rows = np.unique(evidence.markers, return_index=True)
     moved = found.moved[rows]
@@ -101,7 +109,7 @@ def _places(evidence: Evidence, found: Explained, names: Sequence[str]) -> str:
     )
 
 
-def refine(evidence: Evidence, solver: ContactSolver, markers: MarkerSet) -> Refined | None:
+def refine(evidence: TouchEvidence, solver: ContactSolver, markers: MarkerSet) -> Refined | None:
     """
     Correct the alignment on every second marker, and judge it on the others; None: too few markers.
 
@@ -135,7 +143,7 @@ def refine(evidence: Evidence, solver: ContactSolver, markers: MarkerSet) -> Ref
     )
 
 
-def _fitted(fit: Evidence, solver: ContactSolver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _fitted(fit: TouchEvidence, solver: ContactSolver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return R and t of p_new = R p + t."""
     x, prior = np.zeros(6), np.diag((_TRUST / _USUAL) ** 2)
     for _ in range(_ROUNDS):
@@ -153,7 +161,7 @@ def _fitted(fit: Evidence, solver: ContactSolver) -> tuple[NDArray[np.float64], 
 
 
 def _errors(
-    evidence: Evidence, solver: ContactSolver, R: NDArray[np.float64], t: NDArray[np.float64]
+    evidence: TouchEvidence, solver: ContactSolver, R: NDArray[np.float64], t: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the errors (n, 3) with a corrected alignment; where nothing is located any more, the old ones."""
     found = _located(_moved(evidence.wrenches, R, t), solver, evidence.points) - evidence.points

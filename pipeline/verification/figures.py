@@ -13,7 +13,7 @@ Vector = tuple[float, float, float]
 Interval = tuple[float, float]
 
 
-class Cause(StrEnum):
+class ErrorCause(StrEnum):
     """What can make a contact point wrong."""
 
     ALIGNMENT = "alignment"
@@ -26,96 +26,47 @@ class Cause(StrEnum):
 
 @dataclass(frozen=True)
 class TouchFigure:
-    """
-    One touch, accepted or not.
+    """One touch, accepted or not."""
 
-    Attributes
-    ----------
-    number : int
-        Of the touch, from 1, in the order of time.
-    start_s, time_s : float
-        When the probe was touched, and when the protocol decided; the recording's clock.
-    accepted : bool
-    reason : str
-        Why it was rejected; empty if it was not.
-    marker : str or None
-        The marker that was touched; None: unknown.
-    repeat : int or None
-        Which touch of that marker it is, from 1; only accepted ones are counted.
-    force_N : float
-        |F|, mean over the samples, or the largest that was reached if no samples were taken.
-    window_N : (low, high) or None
-        The force window that it was in.
-    angle_deg : float or None
-        Between -F and the outward normal at the marker.
-    point_mm, error_mm : (3,) or None
-        Where it was located, and that minus the marker, S.
-    distance_mm : float or None
-        Length of `error_mm`.
-    predicted_mm : float or None
-        √trace of the point's covariance: what noise and calibration explain.
-    torque_arm_mm : float or None
-        Local torque over force, k / |F|.
-    """
-
-    number: int
+    number: int  # Of the touch, from 1, in the order of time
+    # When the probe was touched, and when the protocol decided; the recording's clock
     start_s: float
     time_s: float
     accepted: bool
-    reason: str
-    marker: str | None
-    repeat: int | None
-    force_N: float
-    window_N: Interval | None = None
-    angle_deg: float | None = None
+    reason: str  # Why it was rejected; empty if it was not
+    marker: str | None  # The marker that was touched; None: unknown
+    repeat: int | None  # Which touch of that marker it is, from 1; only accepted ones are counted
+    force_N: float  # |F|, mean over the samples, or the largest that was reached if no samples were taken
+    window_N: Interval | None = None  # (low, high) the force window that it was in
+    angle_deg: float | None = None  # Between -F and the outward normal at the marker
+    # (3,) where it was located, and that minus the marker, S
     point_mm: Vector | None = None
     error_mm: Vector | None = None
-    distance_mm: float | None = None
-    predicted_mm: float | None = None
-    torque_arm_mm: float | None = None
+    distance_mm: float | None = None  # Length of `error_mm`
+    predicted_mm: float | None = None  # √trace of the point's covariance: what noise and calibration explain
+    torque_arm_mm: float | None = None  # Local torque over force, k / |F|
 
 
 @dataclass(frozen=True)
 class Summary:
-    """
-    The errors of some touches, mm.
+    """The errors of some touches, mm."""
 
-    Attributes
-    ----------
-    name : str
-        Which touches: a marker, a repeat, a force window, a range of angles.
-    touches : int
-    mean_mm, sd_mm, max_mm, p95_mm, rms_mm : float; the SD may be None
-        Of |e|; there is no SD of one touch.
-    bias_mm : (3,)
-        Mean error vector, S.
-    scatter_mm : float
-        Root of the mean squared distance from that mean, n - 1 in the denominator; None: one touch.
-    """
-
-    name: str
+    name: str  # Which touches: a marker, a repeat, a force window, a range of angles
     touches: int
+    # Of |e|; there is no SD of one touch
     mean_mm: float
     sd_mm: float | None
     max_mm: float
     p95_mm: float
     rms_mm: float
-    bias_mm: Vector
+    bias_mm: Vector  # (3,) mean error vector, S
+    # Root of the mean squared distance from that mean, n - 1 in the denominator; None: one touch
     scatter_mm: float | None
 
 
 @dataclass(frozen=True)
 class Intervals:
-    """
-    Bootstrap confidence intervals, mm; those of the bias hold all three at once.
-
-    Attributes
-    ----------
-    level : float
-    resamples, seed : int
-    mean_mm, scatter_mm : (low, high)
-    bias_mm : three of (low, high)
-    """
+    """Bootstrap confidence intervals, mm; those of the bias hold all three at once."""
 
     level: float
     resamples: int
@@ -136,126 +87,73 @@ class Times:
 
 @dataclass(frozen=True)
 class ForceAccuracy:
-    """
-    |F| minus a reference sensor's force over the accepted touches.
+    """|F| minus a reference sensor's force over the accepted touches."""
 
-    Attributes
-    ----------
-    touches : int
-        That have a reference.
-    mean_N, sd_N, max_N : float
-        Of the difference; the largest is of its size. An SD of one touch is 0.
-    rms_percent : float
-        Rms of the difference over the larger of the two forces, %.
-    of : int
-        Accepted touches.
-    """
-
-    touches: int
+    touches: int  # That have a reference
+    # Of the difference; the largest is of its size. An SD of one touch is 0.
     mean_N: float
     sd_N: float
     max_N: float
-    rms_percent: float
-    of: int = 0
+    rms_percent: float  # Rms of the difference over the larger of the two forces, %
+    of: int = 0  # Accepted touches
 
 
 @dataclass(frozen=True)
 class Share:
-    """
-    How much of the squared error a cause explains.
+    """How much of the squared error a cause explains."""
 
-    Attributes
-    ----------
-    cause : Cause
-    share : float
-        From 0 to 1; all together are 1.
-    evidence : float
-        Gain of log likelihood by allowing for the cause; that of noise is 0, it is always allowed for.
-    """
-
-    cause: Cause
-    share: float
+    cause: ErrorCause
+    share: float  # From 0 to 1; all together are 1
+    # Gain of log likelihood by allowing for the cause; that of noise is 0, it is always allowed for
     evidence: float
 
 
 @dataclass(frozen=True)
-class Diagnosis:
-    """
-    What to fix first.
+class ErrorDiagnosis:
+    """What to fix first."""
 
-    Attributes
-    ----------
-    first : Cause
-    text : str
-        One paragraph.
-    shares : tuple of Share
-        Largest first.
-    noise_scale : float
-        Scatter that is left over what was predicted.
-    """
-
-    first: Cause
-    text: str
-    shares: tuple[Share, ...]
-    noise_scale: float
+    first: ErrorCause
+    text: str  # One paragraph
+    shares: tuple[Share, ...]  # Largest first
+    noise_scale: float  # Scatter that is left over what was predicted
 
 
 @dataclass(frozen=True)
 class Refined:
-    """
-    Alignment corrected on half of the markers, judged on the others.
+    """Alignment corrected on half of the markers, judged on the others."""
 
-    Attributes
-    ----------
-    fitted, judged : tuple of str
-        Markers.
-    turn_deg, shift_mm : (3,)
-        The correction p_new = R p_old + shift of the probe in S; a rotation vector.
-    fitted_before_mm, fitted_after_mm, judged_before_mm, judged_after_mm : float
-        Mean |e|.
-    helps : bool
-        The other half is better by a tenth at least.
-    """
-
+    # Markers
     fitted: tuple[str, ...]
     judged: tuple[str, ...]
+    # (3,) the correction p_new = R p_old + shift of the probe in S; a rotation vector
     turn_deg: Vector
     shift_mm: Vector
+    # Mean |e|
     fitted_before_mm: float
     fitted_after_mm: float
     judged_before_mm: float
     judged_after_mm: float
-    helps: bool
+    helps: bool  # The other half is better by a tenth at least
 
 
 @dataclass(frozen=True)
 class ModelError:
-    """
-    What the wrench's model leaves out, as found: drift, cable, hysteresis, mount; standard deviations of a component.
+    """What the wrench's model leaves out, as found: drift, cable, hysteresis, mount; standard deviations."""
 
-    Attributes
-    ----------
-    force_N, torque_Nm : float
-        To be told to the solver: larger than the true one in four cases of five, and never under a least value.
-    likely_force_N, likely_torque_Nm : float
-        As likely too large as too small.
-    most_force_N, most_torque_Nm : float
-        Upper 95 % bound.
-    draws : float
-        As how many touches that know nothing of each other the accepted ones count.
-    """
-
+    # To be told to the solver: larger than the true one in four cases of five, and never under a least value
     force_N: float
     torque_Nm: float
+    # As likely too large as too small
     likely_force_N: float
     likely_torque_Nm: float
+    # Upper 95 % bound
     most_force_N: float
     most_torque_Nm: float
-    draws: float
+    draws: float  # As how many touches that know nothing of each other the accepted ones count
 
 
 @dataclass(frozen=True)
-class Verdict:
+class VerificationVerdict:
     """
     Whether the limits are kept.
 
@@ -275,25 +173,15 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Unresolved:
-    """
-    Settled touches without a marker: ambiguous, implausible, far from every marker, or nowhere on the probe.
-
-    Attributes
-    ----------
-    touches : int
-    settled : int
-        These, and the accepted ones.
-    share : float
-        From 0 to 1.
-    """
+    """Settled touches without a marker: ambiguous, implausible, far from every marker, or nowhere on the probe."""
 
     touches: int
-    settled: int
-    share: float
+    settled: int  # These, and the accepted ones
+    share: float  # From 0 to 1
 
 
 @dataclass(frozen=True)
-class Limits:
+class VerificationLimits:
     """What a verification must keep: mean and largest |e|, m, and the p99 of the time of a solve, s."""
 
     mean_m: float = 0.001
@@ -324,14 +212,14 @@ class Verification:
         None: not measured.
     force : ForceAccuracy or None
         None: there was no reference.
-    verdict : Verdict
-    diagnosis : Diagnosis or None
+    verdict : VerificationVerdict
+    diagnosis : ErrorDiagnosis or None
         None: too few touches.
     alignment_refined : Refined or None
         None: too few markers.
     missing : tuple of str
         Markers with fewer accepted touches than wanted; of several force windows, with the window.
-    limits : Limits
+    limits : VerificationLimits
     settings : dict
         All that the figures depend on beside the data.
     sources : dict of str to str
@@ -354,11 +242,11 @@ class Verification:
     ratio: float | None
     times: Times | None
     force: ForceAccuracy | None
-    verdict: Verdict
-    diagnosis: Diagnosis | None
+    verdict: VerificationVerdict
+    diagnosis: ErrorDiagnosis | None
     alignment_refined: Refined | None
     missing: tuple[str, ...]
-    limits: Limits
+    limits: VerificationLimits
     settings: dict[str, Any]
     sources: dict[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()

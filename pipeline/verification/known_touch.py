@@ -14,27 +14,26 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import convention_of
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import Three, TouchSettings
-from contactbench.pipeline.verification.known import (
+from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
     TOUCH,
     TOUCH_ROLES,
     VERSION,
-    CheckParameters,
-    Outcome,
+    CheckOutcome,
+    KnownCheck,
     likely,
     load_calibrated,
     or_none,
-    roles_of,
-    sha256_of,
     to_bytes,
     words_of,
 )
-from contactbench.pipeline.verification.locating import Placing
 from contactbench.pipeline.verification.markers import make_markers, with_normals
 from contactbench.pipeline.verification.noise import measured_noise
 from contactbench.pipeline.verification.protocol import ProtocolSettings
+from contactbench.pipeline.verification.touch_location import TouchLocator
 from contactbench.pipeline.verification.verify import find_touches
 
 if TYPE_CHECKING:
@@ -120,55 +119,26 @@ MISTAKES = tuple(_mistakes())
 _MUST_SHOW = MISTAKES[:4]
 
 
-class TouchParameters(TouchSettings, CheckParameters):
+class TouchParameters(TouchSettings, Parameters):
     """As the options of ``contactbench calibrate check touch``."""
 
-    point: Three  # that was pressed, mm, S: the coordinates of the prepared probe
+    point: Three  # That was pressed, mm, S: the coordinates of the prepared probe
 
 
 @dataclass(frozen=True, eq=False)
-class TouchCheck:
-    """
-    What a press on a known point shows; lengths in m.
+class TouchCheck(KnownCheck):
+    """What a press on a known point shows; lengths in m."""
 
-    Attributes
-    ----------
-    outcome : Outcome
-    reasons : tuple of str
-        What is wrong or missing, in sentences.
-    sentence : str
-        All in a paragraph.
-    point : (3,)
-        That was pressed, S.
-    located : (3,) or None
-        Where the contact was found, S, mean over the presses; None: nowhere on the probe.
-    error, sigma : float or None, float
-        Distance of the two; its 1 sigma by noise, calibration and how well the point is hit.
-    missed_by : float
-        Distance of the point from the line of force.
-    lever : float
-        Of that line from the sensor's origin: how much the touch says of the torques.
-    force : float
-        Mean |F|, N.
-    presses : int
-    """
-
-    outcome: Outcome
-    reasons: tuple[str, ...]
-    sentence: str
-    point: Floats
+    point: Floats  # (3,) that was pressed, S
+    # (3,) where the contact was found, S, mean over the presses; None: nowhere on the probe
     located: Floats | None
+    # Distance of the two; its 1 sigma by noise, calibration and how well the point is hit
     error: float | None
     sigma: float
-    missed_by: float
-    lever: float
-    force: float
+    missed_by: float  # Distance of the point from the line of force
+    lever: float  # Of that line from the sensor's origin: how much the touch says of the torques
+    force: float  # Mean |F|, N
     presses: int
-
-    @property
-    def passed(self) -> bool:
-        """Whether the contact is where it should be."""
-        return self.outcome is Outcome.PASSED
 
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
@@ -181,10 +151,7 @@ class TouchCheck:
             "lever_m": self.lever,
             "force_N": self.force,
             "presses": self.presses,
-            "outcome": self.outcome.value,
-            "passed": self.passed,
-            "reasons": list(self.reasons),
-            "sentence": self.sentence,
+            **self.said(),
         }
 
 
@@ -229,7 +196,7 @@ def check_touch(
     marker, _ = with_normals(make_markers(np.asarray(point, dtype=np.float64)[None], [_POINT]), probe)
     compensated = recording.compensated(model)
     noise, correlation, _ = measured_noise(compensated, PROTOCOL, None)
-    placing = Placing(probe, marker, model, noise, PROTOCOL.samples, correlation)
+    placing = TouchLocator(probe, marker, model, noise, PROTOCOL.samples, correlation)
     touches = [touch for touch in find_touches(compensated, placing, PROTOCOL) if touch.span is not None]
     if not touches:
         most = (
@@ -245,7 +212,7 @@ def check_touch(
 def _judged(
     touches: list[Touch],
     compensated: TouchRecording,
-    placing: Placing,
+    placing: TouchLocator,
     point_sigma: float,
     limit: float,
     faults: tuple[str, ...],
@@ -263,16 +230,16 @@ def _judged(
     spread = [np.trace(touch.located.covariance) for touch in touches if touch.located is not None]
     sigma = float(np.sqrt((np.mean(spread) if spread else 0.0) + point_sigma**2))
     allowed = limit + _EXCLUDED * sigma
-    reasons, outcome = [], Outcome.PASSED
+    reasons, outcome = [], CheckOutcome.PASSED
     if error is None or error > allowed:
-        outcome = Outcome.FAILED
+        outcome = CheckOutcome.FAILED
         reasons = [_where(error, sigma), presses.cause(allowed)]
     elif error > limit or sigma > limit / _EXCLUDED:
-        outcome = Outcome.UNDECIDED
+        outcome = CheckOutcome.UNDECIDED
         what = f"Press harder and with something thin, and hit the point within {500 * limit:.1f} mm."
         reasons = [_where(error, sigma), what]
     elif any(presses.would_hide(each, allowed) for each in _MUST_SHOW):
-        outcome = Outcome.UNDECIDED
+        outcome = CheckOutcome.UNDECIDED
         reasons = [
             (
                 f"The line of force passes {1e3 * presses.lever:.0f} mm from the sensor's origin: a wrong sign or unit"
@@ -281,7 +248,7 @@ def _judged(
             f"Press a point on the side of the probe, {3e3 * limit:.0f} mm or more off the sensor's axis.",
         ]
     if faults:
-        outcome, reasons = Outcome.FAILED, [*faults, *reasons]
+        outcome, reasons = CheckOutcome.FAILED, [*faults, *reasons]
     passed = (
         f"The press was located {1e3 * (error or 0.0):.1f} ± {1e3 * sigma:.1f} mm from the known point: signs and units"
         " are right."
@@ -365,7 +332,7 @@ def _mean(touch: Touch, recording: TouchRecording) -> Floats:
     return mean
 
 
-def _located(touch: Touch, wrench: Floats, placing: Placing) -> Floats | None:
+def _located(touch: Touch, wrench: Floats, placing: TouchLocator) -> Floats | None:
     """Return where a press was found; where its line meets the probe twice, the place near the point."""
     contact = placing.solver.locate(wrench, placing.markers.points[0])
     if contact.point is not None and contact.accepted:
@@ -402,8 +369,8 @@ def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: s
     from contactbench.pipeline.verification.result import load_surface
     from contactbench.pipeline.verification.source import read_touch_recording
 
-    roles_of(inputs, TOUCH_ROLES)
-    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
+    check_roles(inputs, TOUCH_ROLES)
+    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.R_ES)
     probe = load_surface(inputs["probe"])
     recording = read_touch_recording(inputs["touch"], convention_of(given), R_ES)
     found = check_touch(

@@ -15,20 +15,19 @@ from scipy.special import chdtrc
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.orientation import convention_of
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG, WeightSettings
-from contactbench.pipeline.verification.known import (
+from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
     VERSION,
     WEIGHT,
     WEIGHT_ROLES,
-    CheckParameters,
-    Outcome,
+    CheckOutcome,
+    KnownCheck,
     likely,
     load_calibrated,
     or_none,
-    roles_of,
-    sha256_of,
     to_bytes,
     words_of,
 )
@@ -77,53 +76,27 @@ _AXES = "xyz"
 _ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 
 
-class WeightParameters(WeightSettings, CheckParameters):
+class WeightParameters(WeightSettings, Parameters):
     """As the options of ``contactbench calibrate check weight``."""
 
 
 @dataclass(frozen=True, eq=False)
-class WeightCheck:
-    """
-    What a known weight shows.
+class WeightCheck(KnownCheck):
+    """What a known weight shows."""
 
-    Attributes
-    ----------
-    outcome : Outcome
-    reasons : tuple of str
-        What is wrong or missing, and what else to know; sentences.
-    sentence : str
-        All in a paragraph.
-    measured, measured_sigma : float
-        The weight as the sensor reads it, along gravity, kg; minus: upwards.
-    scale, scale_sigma : float
-        Measured over true force. Its uncertainty has the weight's own and that of gravity in it.
-    direction, direction_sigma : float
-        Angle between the change of force and gravity, rad.
-    lever : float
-        Distance of the weight's line from the sensor's origin as the torques say, m.
-    axes : tuple of str
-        Force channels that read at least half of the weight somewhere; of the others the check says nothing.
-    offset : float
-        |F| without the weight after compensation, N.
-    """
-
-    outcome: Outcome
-    reasons: tuple[str, ...]
-    sentence: str
+    # The weight as the sensor reads it, along gravity, kg; minus: upwards
     measured: float
     measured_sigma: float
+    # Measured over true force. Its uncertainty has the weight's own and that of gravity in it.
     scale: float
     scale_sigma: float
+    # Angle between the change of force and gravity, rad
     direction: float
     direction_sigma: float
-    lever: float
+    lever: float  # Distance of the weight's line from the sensor's origin as the torques say, m
+    # Force channels that read at least half of the weight somewhere; of the others the check says nothing
     axes: tuple[str, ...]
-    offset: float
-
-    @property
-    def passed(self) -> bool:
-        """Whether the weight is what it should be."""
-        return self.outcome is Outcome.PASSED
+    offset: float  # |F| without the weight after compensation, N
 
     def to_json(self) -> dict[str, Any]:
         """Return the figures."""
@@ -137,10 +110,7 @@ class WeightCheck:
             "lever_mm": 1e3 * self.lever,
             "axes": list(self.axes),
             "offset_N": self.offset,
-            "outcome": self.outcome.value,
-            "passed": self.passed,
-            "reasons": list(self.reasons),
-            "sentence": self.sentence,
+            **self.said(),
         }
 
 
@@ -212,9 +182,9 @@ def check_weight(
             unsure = _too_unsure(mass, mass_sigma, noise_share, of_weight, limit, len(loaded))
     wrong += _wrong_torque(lever, twist, reach)
     if wrong:
-        outcome, reasons = Outcome.FAILED, wrong
+        outcome, reasons = CheckOutcome.FAILED, wrong
     else:
-        outcome = Outcome.UNDECIDED if unsure else Outcome.PASSED
+        outcome = CheckOutcome.UNDECIDED if unsure else CheckOutcome.PASSED
         reasons = [*([unsure] if unsure else []), *weighed.notes()]
     return WeightCheck(
         outcome,
@@ -492,8 +462,8 @@ def weight_content(
     """Return all that the file of a check says; arguments and errors as for `known_weight`."""
     from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
-    roles_of(inputs, WEIGHT_ROLES)
-    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)
+    check_roles(inputs, WEIGHT_ROLES)
+    calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.R_ES)
     tables = [read_any_poses(inputs[role], convention_of(given), R_ES=R_ES) for role in WEIGHT_ROLES[1:]]
     unloaded, loaded = (table.poses for table in tables)
     found = check_weight(

@@ -138,19 +138,10 @@ class MarkerSet:
 
 @dataclass(frozen=True, eq=False)
 class Snapped:
-    """
-    Markers on a probe's surface.
+    """Markers on a probe's surface."""
 
-    Attributes
-    ----------
-    markers : MarkerSet
-        Moved to the nearest point of the surface, with the normals there.
-    distances : (n,)
-        How far each was from it, m.
-    """
-
-    markers: MarkerSet
-    distances: NDArray[np.float64]
+    markers: MarkerSet  # Moved to the nearest point of the surface, with the normals there
+    distances: NDArray[np.float64]  # (n,) how far each was from it, m
 
 
 def check_name(name: str) -> None:

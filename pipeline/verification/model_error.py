@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.verification.causes import Evidence
+    from contactbench.pipeline.verification.causes import TouchEvidence
 
     Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ _SMALLEST, _LARGEST = 0.02, 8.0  # times the default; times what the errors seem
 _STEP, _FINE = 0.5, 33  # of the logarithm of the size; ratios that are interpolated
 
 
-def measure_model_error(evidence: Evidence, model: GravityModel) -> ModelError | None:
+def measure_model_error(evidence: TouchEvidence, model: GravityModel) -> ModelError | None:
     """
     Estimate how far wrenches are off beyond what is known: the covariance diag(F² I, M² I) that the errors show.
 
@@ -52,7 +52,7 @@ def measure_model_error(evidence: Evidence, model: GravityModel) -> ModelError |
 
     Parameters
     ----------
-    evidence : Evidence
+    evidence : TouchEvidence
         Accepted touches.
     model : GravityModel
         With the covariance of its parameters.
@@ -139,28 +139,16 @@ _MIXTURES = _Mixture.all()
 
 @dataclass(frozen=True, eq=False)
 class _Touched:
-    """
-    Touches, those of a marker together.
+    """Touches, those of a marker together."""
 
-    Attributes
-    ----------
-    J : (n, 2, 6)
-        How the contact moves along the surface with its wrench, in units of the default error.
-    known : (n, 2, 2)
-        Covariance by noise and placement.
-    columns : (n, 2, 19)
-        J, effects of what the calibration leaves, of unit variance, and the errors.
-    starts : (g,)
-        First touch of each marker.
-    """
-
+    # (n, 2, 6) how the contact moves along the surface with its wrench, in units of the default error
     J: Array
-    known: Array
-    columns: Array
-    starts: NDArray[np.intp]
+    known: Array  # (n, 2, 2) covariance by noise and placement
+    columns: Array  # (n, 2, 19) J, effects of what the calibration leaves, of unit variance, and the errors
+    starts: NDArray[np.intp]  # (g,) first touch of each marker
 
     @classmethod
-    def of(cls, evidence: Evidence, model: GravityModel) -> _Touched:
+    def of(cls, evidence: TouchEvidence, model: GravityModel) -> _Touched:
         rows = evidence.only(np.argsort(evidence.markers, kind="stable"))
         J = across(rows.normals) @ rows.sensitivities
         F = rows.wrenches[:, :3]

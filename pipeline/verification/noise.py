@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.verification.locating import memory, sample_noise
+from contactbench.pipeline.verification.touch_location import memory, sample_noise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,10 +13,10 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.verification.locating import Located, Placed
+    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation
 
 
-class State(StrEnum):
+class ProtocolState(StrEnum):
     """Where a touch is."""
 
     ARMED = "armed"
@@ -134,9 +134,9 @@ class Touch:
     force : float
         |F|, N: mean over the samples, or the largest if none were taken.
     window : (low, high) or None
-    placed : Placed or None
+    placed : MarkerMatch or None
         Which marker; None: unknown.
-    located : Located or None
+    located : TouchLocation or None
         Where; None: nowhere.
     span : (begin, end) or None
         Times of the first and the last of its samples, s; None: none were taken.
@@ -147,8 +147,8 @@ class Touch:
     why: Why | None
     force: float
     window: tuple[float, float] | None = None
-    placed: Placed | None = None
-    located: Located | None = None
+    placed: MarkerMatch | None = None
+    located: TouchLocation | None = None
     span: tuple[float, float] | None = None
 
 
@@ -162,12 +162,12 @@ class TouchEvent:
     """
 
     time: float
-    state: State
+    state: ProtocolState
     touch: Touch | None = None
 
 
 @dataclass
-class Press:
+class OngoingPress:
     """What is known of the press that goes on."""
 
     start: float

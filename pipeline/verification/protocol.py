@@ -11,9 +11,9 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.verification.press import (
     UNRESOLVED,
-    Press,
+    OngoingPress,
     ProtocolSettings,
-    State,
+    ProtocolState,
     Touch,
     TouchEvent,
     Why,
@@ -22,9 +22,9 @@ from contactbench.pipeline.verification.press import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.verification.locating import Located, Placed, Placing
+    from contactbench.pipeline.verification.touch_location import MarkerMatch, TouchLocation, TouchLocator
 
-__all__ = ["UNRESOLVED", "ProtocolSettings", "State", "Touch", "TouchEvent", "TouchProtocol", "Why"]
+__all__ = ["UNRESOLVED", "ProtocolSettings", "ProtocolState", "Touch", "TouchEvent", "TouchProtocol", "Why"]
 
 _FORGOTTEN = 1000  # samples
 _NOWHERE = {Reason.LOW_FORCE: Why.TOO_LIGHT, Reason.TANGENTIAL: Why.TANGENTIAL}
@@ -39,31 +39,31 @@ class TouchProtocol:
 
     Parameters
     ----------
-    placing : Placing
+    placing : TouchLocator
         Locates, and says which marker that is.
     settings : ProtocolSettings
     """
 
-    def __init__(self, placing: Placing, settings: ProtocolSettings | None = None) -> None:
+    def __init__(self, placing: TouchLocator, settings: ProtocolSettings | None = None) -> None:
         self.settings = settings or ProtocolSettings()
         unknown = set(self.settings.order) - set(placing.markers.names)
         if unknown:
             raise InputError(f"order: there are no markers {', '.join(sorted(unknown))}: correct the names.")
         self._placing = placing
-        self._press: Press | None = None
+        self._press: OngoingPress | None = None
         self._latest = -np.inf
         self._accepted = 0
-        self._last = State.ARMED
+        self._last = ProtocolState.ARMED
 
     @property
-    def state(self) -> State:
+    def state(self) -> ProtocolState:
         """Where the stream is now; after a decision: until the probe is released."""
         press = self._press
         if press is None:
-            return State.ARMED
+            return ProtocolState.ARMED
         if press.decided:
             return self._last
-        return State.SETTLED if press.settled_at >= 0 else State.TOUCHING
+        return ProtocolState.SETTLED if press.settled_at >= 0 else ProtocolState.TOUCHING
 
     def feed(
         self,
@@ -133,8 +133,8 @@ class TouchProtocol:
         if self._press is None:
             if force < self.settings.touch_N and not saturated:
                 return
-            self._press = Press(time)
-            events.append(TouchEvent(time, State.TOUCHING))
+            self._press = OngoingPress(time)
+            events.append(TouchEvent(time, ProtocolState.TOUCHING))
         press = self._press
         press.add(time, force, sample)
         press.saturated |= saturated
@@ -144,9 +144,9 @@ class TouchProtocol:
             self._sampled(press, events)
         elif self._steady(press):
             press.settled_at = len(press.times)
-            events.append(TouchEvent(time, State.SETTLED))
+            events.append(TouchEvent(time, ProtocolState.SETTLED))
 
-    def _steady(self, press: Press) -> bool:
+    def _steady(self, press: OngoingPress) -> bool:
         """Tell whether the force has been steady, in a window, for the time that is wanted."""
         settings = self.settings
         begin = int(np.searchsorted(press.times, press.times[-1] - settings.settle_s - 1e-9))
@@ -177,7 +177,7 @@ class TouchProtocol:
             n >= self.settings.samples and (times[-1] - times[0]) * n / (n - 1) >= self.settings.take_s - 1e-9
         )
 
-    def _sampled(self, press: Press, events: list[TouchEvent]) -> None:
+    def _sampled(self, press: OngoingPress, events: list[TouchEvent]) -> None:
         begin = press.settled_at
         if not self._taken(press.times[begin:]):
             return
@@ -188,7 +188,7 @@ class TouchProtocol:
             press.settled_at = -1
             press.left_window |= window is None
             press.retried = True
-            events.append(TouchEvent(press.latest, State.TOUCHING))
+            events.append(TouchEvent(press.latest, ProtocolState.TOUCHING))
             return
         wrenches, R_WS = (np.array(each) for each in zip(*press.rows[begin:], strict=True))
         why, where, placed = self._judge(self._placing.locate(wrenches, R_WS))
@@ -198,7 +198,9 @@ class TouchProtocol:
         touch = Touch(press.start, span[1], why, float(forces.mean()), window, placed, where, span)
         self._decide(press, touch, events)
 
-    def _judge(self, located: Located | Reason) -> tuple[Why | None, Located | None, Placed | None]:
+    def _judge(
+        self, located: TouchLocation | Reason
+    ) -> tuple[Why | None, TouchLocation | None, MarkerMatch | None]:
         if isinstance(located, Reason):
             return _NOWHERE.get(located, Why.MISSED), None, None
         expected = self._expected()
@@ -221,7 +223,7 @@ class TouchProtocol:
         order = self.settings.order
         return self._placing.markers.names.index(order[self._accepted % len(order)]) if order else None
 
-    def _held(self, press: Press, touch: Touch, events: list[TouchEvent]) -> None:
+    def _held(self, press: OngoingPress, touch: Touch, events: list[TouchEvent]) -> None:
         """Withdraw a touch that was accepted if the probe goes on to another place before it is released."""
         if touch.why is not None or touch.located is None:
             press.forget(len(press.times))
@@ -243,10 +245,10 @@ class TouchProtocol:
 
     # ---- its end -----------------------------------------------------------------------------
 
-    def _decide(self, press: Press, touch: Touch, events: list[TouchEvent]) -> None:
+    def _decide(self, press: OngoingPress, touch: Touch, events: list[TouchEvent]) -> None:
         press.decided = touch
         press.forget(len(press.times))
-        self._last = State.REJECTED if touch.why else State.ACCEPTED
+        self._last = ProtocolState.REJECTED if touch.why else ProtocolState.ACCEPTED
         self._accepted += touch.why is None
         events.append(TouchEvent(touch.time, self._last, touch))
 
@@ -258,9 +260,9 @@ class TouchProtocol:
             touch = Touch(press.start, time, self._ended_early(press), press.peak)
             self._decide(press, touch, events)
         self._press = None
-        events.append(TouchEvent(time, State.ARMED))
+        events.append(TouchEvent(time, ProtocolState.ARMED))
 
-    def _ended_early(self, press: Press) -> Why:
+    def _ended_early(self, press: OngoingPress) -> Why:
         if press.saturated:
             return Why.SATURATED
         if press.settled_at >= 0:

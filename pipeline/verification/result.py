@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
 from contactbench.pipeline.calibration.orientation import convention_of
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.settings import Positive, VerificationSettings
-from contactbench.pipeline.verification.figures import Limits, Times
+from contactbench.pipeline.verification.figures import Times, VerificationLimits
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings
 from contactbench.pipeline.verification.source import read_reference, read_touch_recording
@@ -20,19 +18,19 @@ from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.figures import Verification
 
 ROLES = ("probe", "calibration", "markers", "recording")
 REFERENCE = "reference"
-_BLOCK = 1 << 20
 _TOUCH_N, _RELEASE_N = 2.0, 1.0
 
 _Words = Annotated[str, Field(min_length=1, max_length=200)]
 
 
-class VerificationParameters(VerificationSettings):
+class VerificationParameters(VerificationSettings, Parameters):
     """
     As the options of ``contactbench verify touches``; lengths in mm, angles in degrees, times in s.
 
@@ -41,7 +39,6 @@ class VerificationParameters(VerificationSettings):
     for windows below. ``left_out`` has markers that need not be touched, each with why.
     """
 
-    name: str
     windows: Annotated[tuple[tuple[Positive, Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
     order: Annotated[tuple[str, ...], Field(max_length=10_000)] = ()
     p99_limit_s: Positive = 0.001
@@ -58,7 +55,7 @@ class VerificationParameters(VerificationSettings):
         protocol = ProtocolSettings(
             self.windows, self.samples, self.repeats, touch, release, order=self.order
         )
-        limits = Limits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
+        limits = VerificationLimits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
         return VerifySettings(
             protocol,
             limits,
@@ -88,8 +85,6 @@ def verification(
         An input or a parameter cannot be used.
     """
     given = VerificationParameters.checked(parameters)
-    if Path(given.name).name != given.name or not given.name.endswith(".json"):
-        raise InputError(f"{given.name}: a verification is a file whose name ends in .json.")
     return {given.name: verify_files(inputs, given).to_bytes()}
 
 
@@ -114,13 +109,7 @@ def verify_files(
     from contactbench.pipeline.calibration import Level
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 
-    missing = [role for role in ROLES if role not in inputs]
-    strangers = sorted(set(inputs) - {*ROLES, REFERENCE})
-    if missing or strangers:
-        raise InputError(
-            f"inputs: {', '.join(ROLES)} are needed, and perhaps {REFERENCE}; missing: {', '.join(missing) or 'none'},"
-            f" unknown: {', '.join(strangers) or 'none'}."
-        )
+    check_roles(inputs, ROLES, (REFERENCE,))
     settings, R_ES = given.settings(), given.R_ES
     markers = load_markers(inputs["markers"])
     calibration = load_calibration(inputs["calibration"])
@@ -140,7 +129,7 @@ def verify_files(
         reference=read_reference(inputs[REFERENCE]) if REFERENCE in inputs else None,
         times=None if given.times is None else Times(*given.times),
         timed=timed,
-        sources={role: _sha256(path) for role, path in inputs.items()},
+        sources={role: sha256_of(path) for role, path in inputs.items()},
         faults=tuple(faults),
     )
 
@@ -175,11 +164,3 @@ def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
         said += known.notes
         aligned = not known.history or known.frame == "S"
     return probe, said, aligned
-
-
-def _sha256(file: Path) -> str:
-    digest = hashlib.sha256()
-    with file.open("rb") as stream:
-        while block := stream.read(_BLOCK):
-            digest.update(block)
-    return digest.hexdigest()

@@ -27,24 +27,12 @@ _REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, force 
 
 @dataclass(frozen=True, eq=False)
 class TouchRecording:
-    """
-    What a recording holds; n samples.
+    """What a recording holds; n samples."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s.
-    wrenches : (n, 6)
-        S, N and N·m; as read, or compensated.
-    R_WS : (n, 3, 3)
-    saturated : (n,) bool
-    warnings : tuple of str
-    """
-
-    times: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    saturated: NDArray[np.bool_]
+    times: NDArray[np.float64]  # (n,) s
+    wrenches: NDArray[np.float64]  # (n, 6) S, N and N·m; as read, or compensated
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    saturated: NDArray[np.bool_]  # (n,)
     warnings: tuple[str, ...] = ()
 
     def compensated(self, model: GravityModel) -> TouchRecording:

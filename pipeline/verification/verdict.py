@@ -8,13 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.verification.figures import Unresolved, Verdict
+from contactbench.pipeline.verification.figures import Unresolved, VerificationVerdict
 from contactbench.pipeline.verification.press import UNRESOLVED, Why
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from contactbench.pipeline.verification.figures import Interval, Limits, Summary, Times, TouchFigure
+    from contactbench.pipeline.verification.figures import (
+        Interval,
+        Summary,
+        Times,
+        TouchFigure,
+        VerificationLimits,
+    )
     from contactbench.pipeline.verification.markers import MarkerSet
 
 MOST_UNRESOLVED = 0.05
@@ -24,35 +30,19 @@ _LISTED = 10
 
 
 @dataclass(frozen=True)
-class Case:
-    """
-    What a verdict is about.
-
-    Attributes
-    ----------
-    overall : Summary or None
-    unresolved : Unresolved or None
-    missing : tuple of str
-    markers : int
-        With an accepted touch.
-    limits : Limits
-    faults : tuple of str
-        What is wrong with the inputs, in sentences.
-    rejected : dict of str to int
-    left_out : mapping of str to str
-        Marker -> why nobody need touch it.
-    """
+class VerdictCase:
+    """What a verdict is about."""
 
     overall: Summary | None
     unresolved: Unresolved | None
     missing: tuple[str, ...]
-    markers: int
-    limits: Limits
-    faults: tuple[str, ...]
+    markers: int  # With an accepted touch
+    limits: VerificationLimits
+    faults: tuple[str, ...]  # What is wrong with the inputs, in sentences
     rejected: dict[str, int]
-    left_out: Mapping[str, str] = field(default_factory=dict)
+    left_out: Mapping[str, str] = field(default_factory=dict)  # Marker -> why nobody need touch it
 
-    def judged(self, times: Times | None) -> Verdict:
+    def judged(self, times: Times | None) -> VerificationVerdict:
         """Return the verdict; times that were not measured are a note."""
         reasons = [*self._errors(), *self._unclear(), *_times(times, self.limits)]
         if self.missing:
@@ -68,7 +58,7 @@ class Case:
             notes.append(
                 f"too few to tell of the whole probe: {many} touched, {FEWEST_MARKERS} are the fewest"
             )
-        return Verdict(not reasons, tuple(reasons), tuple(notes))
+        return VerificationVerdict(not reasons, tuple(reasons), tuple(notes))
 
     def _errors(self) -> list[str]:
         if self.overall is None:
@@ -93,7 +83,7 @@ class Case:
         ]
 
 
-def unresolved(figures: Sequence[TouchFigure], limits: Limits) -> Unresolved | None:
+def unresolved(figures: Sequence[TouchFigure], limits: VerificationLimits) -> Unresolved | None:
     """
     Count settled touches that no marker could be given to; None: nothing settled.
 
@@ -123,7 +113,7 @@ def missing(
     return tuple(f"{name} ({low:g} to {high:g} N)" if several else name for name, (low, high) in short)
 
 
-def crowded(markers: MarkerSet, limits: Limits) -> tuple[str | None, bool]:
+def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None, bool]:
     """
     Tell whether markers are so close that a wrong contact may be taken for the neighbour's.
 
@@ -171,7 +161,7 @@ def checks(figures: Sequence[TouchFigure]) -> list[str]:
     ]
 
 
-def _times(times: Times | None, limits: Limits) -> list[str]:
+def _times(times: Times | None, limits: VerificationLimits) -> list[str]:
     if times is None or times.p99_s <= limits.p99_s:
         return []
     return [f"99 % of solves take up to {1e3 * times.p99_s:.3g} ms, over {1e3 * limits.p99_s:g} ms"]

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.causes import Evidence
+from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
-from contactbench.pipeline.verification.figures import Limits, Times, TouchFigure, Verification
-from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.figures import Times, TouchFigure, Verification, VerificationLimits
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.model_error import measure_model_error
 from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
 from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
 from contactbench.pipeline.verification.reference import force_accuracy
 from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
-from contactbench.pipeline.verification.verdict import Case, checks, crowded, missing, unresolved
+from contactbench.pipeline.verification.touch_location import TouchLocator
+from contactbench.pipeline.verification.verdict import VerdictCase, checks, crowded, missing, unresolved
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,7 +46,7 @@ class VerifySettings:
     Attributes
     ----------
     protocol : ProtocolSettings
-    limits : Limits
+    limits : VerificationLimits
     noise_force, noise_torque : float or None
         Standard deviation of a sample, N and N·m; None: measured within the touches.
     resamples, seed : int
@@ -58,7 +58,7 @@ class VerifySettings:
     """
 
     protocol: ProtocolSettings = field(default_factory=ProtocolSettings)
-    limits: Limits = field(default_factory=Limits)
+    limits: VerificationLimits = field(default_factory=VerificationLimits)
     noise_force: float | None = None
     noise_torque: float | None = None
     resamples: int = 2000
@@ -79,7 +79,7 @@ class VerifySettings:
 
 
 def find_touches(
-    recording: TouchRecording, placing: Placing, settings: ProtocolSettings | None = None
+    recording: TouchRecording, placing: TouchLocator, settings: ProtocolSettings | None = None
 ) -> list[Touch]:
     """Return every touch of a compensated recording, accepted or rejected."""
     protocol = TouchProtocol(placing, settings)
@@ -144,7 +144,7 @@ def verify(
         else (settings.noise_force, settings.noise_torque)
     )
     noise, correlation, said = measured_noise(compensated, settings.protocol, stated)
-    placing = Placing(probe, placed, model, noise, settings.protocol.samples, correlation)
+    placing = TouchLocator(probe, placed, model, noise, settings.protocol.samples, correlation)
     touches = find_touches(compensated, placing, settings.protocol)
     if not touches:
         raise InputError(
@@ -176,8 +176,8 @@ def verify(
 
 def judge(
     figures: tuple[TouchFigure, ...],
-    evidence: Evidence,
-    placing: Placing,
+    evidence: TouchEvidence,
+    placing: TouchLocator,
     settings: VerifySettings,
     *,
     times: Times | None = None,
@@ -208,7 +208,7 @@ def judge(
         Counter(figure.reason for figure in figures if not figure.accepted),
     )
     said, hopeless = (None, False) if protocol.order else crowded(placing.markers, settings.limits)
-    case = Case(
+    case = VerdictCase(
         overall,
         unresolved(figures, settings.limits),
         missing(
@@ -254,16 +254,11 @@ def judge(
     )
 
 
-def time_solves(placing: Placing, wrenches: NDArray[np.float64]) -> Times:
+def time_solves(placing: TouchLocator, wrenches: NDArray[np.float64]) -> Times:
     """Time single solves of wrenches (n, 6), over and over, as a controller would call them."""
     many = np.ascontiguousarray(np.resize(wrenches, (_SOLVES, 6)))
     seconds = 1e-9 * np.asarray(placing.solver.time_each(many))
     return Times(len(seconds), float(np.median(seconds)), float(np.percentile(seconds, 99)))
-
-
-def without_times(found: Verification) -> Verification:
-    """Return a verification without what differs from run to run: what is compared to tell whether two are the same."""
-    return replace(found, times=None, verdict=replace(found.verdict, reasons=(), notes=()))
 
 
 def _sentences(
@@ -286,7 +281,7 @@ def _evidence(
     noise: WrenchNoise,
     model: GravityModel,
     samples: int,
-) -> Evidence:
+) -> TouchEvidence:
     pairs = [
         (t.located, t.placed.marker)
         for t in touches
@@ -294,7 +289,7 @@ def _evidence(
     ]
     places = np.array([marker for _, marker in pairs], dtype=np.intp)
     points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
-    return Evidence(
+    return TouchEvidence(
         errors=points - markers.points[places],
         markers=places,
         points=markers.points[places],
@@ -367,7 +362,7 @@ def _ratio(accepted: list[TouchFigure]) -> float | None:
     return float(np.sqrt(found / predicted)) if predicted > 0 else None
 
 
-def _within(overall: Summary | None, limits: Limits) -> bool:
+def _within(overall: Summary | None, limits: VerificationLimits) -> bool:
     """Tell whether the errors keep their limits, whatever else the verdict is about."""
     return (
         overall is not None
@@ -389,7 +384,7 @@ def _span(window: tuple[float, float]) -> str:
     return f"{window[0]:g} to {window[1]:g} N"
 
 
-def _plain(settings: VerifySettings, placing: Placing, rate: float | None) -> dict[str, Any]:
+def _plain(settings: VerifySettings, placing: TouchLocator, rate: float | None) -> dict[str, Any]:
     """Return the settings without the limits, which stand beside them, and with what was found or is fixed."""
     plain = asdict(settings)
     del plain["limits"]

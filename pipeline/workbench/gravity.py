@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.calibration.suggest import Plan
+    from contactbench.pipeline.calibration.suggest import PosePlan
     from contactbench.pipeline.workbench.gravity_fit import GravitySettings
     from contactbench.pipeline.workbench.live import LiveBlock
 
@@ -99,7 +99,7 @@ class GravityWork:
         self._wanted = self._blind = self._heard = False
         self._tail: list[tuple[NDArray[np.float64], NDArray[np.float64]]] = []
         self._R_WE: NDArray[np.float64] | None = None
-        self._planned: Plan | None = None
+        self._planned: PosePlan | None = None
         self._solved = Solved(None, None, ())
         self._errors: tuple[float, ...] = ()
         self._rows: tuple[PoseRow, ...] = ()

@@ -16,10 +16,9 @@ from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientatio
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
-from contactbench.pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.make_calibration import CalibrationParameters
-from contactbench.pipeline.session.making import read_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -96,7 +95,7 @@ def gravity_settings(state: State) -> GravitySettings:
         given["mount"] = mount.value if mount.value and any(mount.value) else None
     if given.get("estimate_mount"):
         given.pop("mount", None)
-    parameters = read_parameters(CalibrationParameters, {**given, "name": CALIBRATION_FILE})
+    parameters = CalibrationParameters.checked({**given, "name": CALIBRATION_FILE})
     tilt = state.settings.get(TILT)
     degrees = 180.0 if tilt is None else tilt.value
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
@@ -140,7 +139,7 @@ class Solved:
         return self.calibration is not None and self.calibration.verdict.level is Level.GOOD
 
 
-def plan(settings: GravitySettings) -> Plan:
+def plan(settings: GravitySettings) -> PosePlan:
     """Return the poses to begin with."""
     reach = _reach(settings, None)
     return plan_poses(PLANNED, reach, task=contact_task(settings.parameters))
@@ -149,7 +148,7 @@ def plan(settings: GravitySettings) -> Plan:
 def solve(
     poses: Sequence[PoseSample],
     settings: GravitySettings,
-    planned: Plan | None,
+    planned: PosePlan | None,
     R_WS_now: NDArray[np.float64] | None,
 ) -> Solved:
     """
@@ -160,7 +159,7 @@ def solve(
     poses : sequence of PoseSample
         Those that count, R_WS of the flange as the source of poses gives it.
     settings : GravitySettings
-    planned : Plan or None
+    planned : PosePlan or None
         For the poses before there is a calibration.
     R_WS_now : (3, 3), optional
         How the sensor stands.
@@ -197,7 +196,9 @@ def _reach(settings: GravitySettings, R_WS_now: NDArray[np.float64] | None) -> R
     )
 
 
-def _planned(read: Sequence[PoseSample], planned: Plan | None, settings: GravitySettings) -> Proposal | None:
+def _planned(
+    read: Sequence[PoseSample], planned: PosePlan | None, settings: GravitySettings
+) -> Proposal | None:
     """Return the first planned pose that nobody has taken."""
     if planned is None:
         return None

@@ -12,7 +12,7 @@ from contactbench.pipeline.calibration.stillness import StillnessDetector, Still
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.verify import REPORT
 
@@ -35,7 +35,7 @@ _PATIENCE_S = 30.0
 class KnownOutcome:
     """A check that the session has."""
 
-    outcome: Outcome
+    outcome: CheckOutcome
     sentence: str
     stale: str = ""  # Why it no longer holds; empty: it does
     parameters: Mapping[str, Any] = field(default_factory=dict)  # That it was computed with
@@ -58,7 +58,10 @@ def known_outcome(
     content = read_check(kind, folder / found.file.path)
     reasons = stale.get(found.slot, ())
     return KnownOutcome(
-        Outcome(content["outcome"]), content["sentence"], " ".join(reasons[:1]), dict(found.action.parameters)
+        CheckOutcome(content["outcome"]),
+        content["sentence"],
+        " ".join(reasons[:1]),
+        dict(found.action.parameters),
     )
 
 

@@ -18,15 +18,15 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, part_of, place, prepared
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
 from contactbench.pipeline.session.files import chunks_of
-from contactbench.pipeline.session.make_probe import ProbeParameters, probe_files
-from contactbench.pipeline.session.making import PREFIX, read_parameters
-from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.session.make_probe import ProbeParameters
+from contactbench.pipeline.session.recompute import PREFIX, lay_out
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ class ProbePlan:
     @property
     def given(self) -> ProbeParameters:
         """The same, checked. SessionError: something is not as it should be."""
-        return read_parameters(ProbeParameters, {**self.parameters, "name": PROBE_FILE})
+        return ProbeParameters.checked({**self.parameters, "name": PROBE_FILE})
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +179,7 @@ class ProbeWork:
             return None
         wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
         files = lay_out(self.desk.folder, state, wanted, self._place())
-        given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
+        given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
         known = {each.name for each in fields(ProbePlan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
         plan = ProbePlan(alignment=alignment, **{name: getattr(given, name) for name in known})
@@ -280,7 +280,7 @@ def commit(session: Session, preview: ProbePreview) -> Record:
     As ``contactbench session add SESSION MESH --kind mesh``, the same of the alignment, and ``contactbench session
     compute SESSION probe probe.ply --set ...`` do, with the same bytes.
     """
-    files = probe_files(preview.done.content, PROBE_FILE)
+    files = encode_probe_file(preview.done.content, PROBE_FILE)
     session.check_writable()
     inputs = {"mesh": _mesh(session, preview.mesh)}
     if preview.plan.alignment is not None:

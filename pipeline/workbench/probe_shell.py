@@ -9,7 +9,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.session.make_probe import ProbeParameters
-from contactbench.pipeline.session.making import read_parameters
 from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 
 if TYPE_CHECKING:
@@ -92,7 +91,7 @@ def shell_file_of(
         )
     wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
     with laid_out(desk.folder, state, wanted) as files:
-        given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
+        given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
         dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
         return place(dense, alignment_of(given, files.get("alignment")))
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
+from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.shell_regions import painted_regions
-from contactbench.pipeline.session.make_probe import probe_files
 from contactbench.pipeline.session.recompute import laid_out, recomputed
 from contactbench.pipeline.workbench.probe_shell import (
     PROBE,
@@ -163,7 +163,9 @@ def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | Non
         and kept.file.sha256 == hashlib.sha256(painted).hexdigest()
     ):
         return None
-    return session.add_input(painted, REGIONS, name=REGIONS_FILE, companions=probe_files(shell, _PAINTED))
+    return session.add_input(
+        painted, REGIONS, name=REGIONS_FILE, companions=encode_probe_file(shell, _PAINTED)
+    )
 
 
 def apply(

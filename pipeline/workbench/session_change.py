@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic_core import PydanticUndefined, to_jsonable_python
 
-from contactbench.pipeline.session.recompute import PARAMETERS
+from contactbench.pipeline.session.recompute import RECOMPUTE
 from contactbench.pipeline.session.state import MESH
 
 if TYPE_CHECKING:
@@ -103,10 +103,9 @@ def value_in(state: State, key: str) -> Any:
     if found is not None:
         return found.value
     kind, _, parameter = key.partition(".")
-    known = PARAMETERS.get(kind)
-    if known is None or parameter not in known.model_fields:
+    if kind not in RECOMPUTE or parameter not in RECOMPUTE[kind].parameters.model_fields:
         return None
-    default = known.model_fields[parameter].get_default(call_default_factory=True)
+    default = RECOMPUTE[kind].parameters.model_fields[parameter].get_default(call_default_factory=True)
     return None if default is PydanticUndefined else to_jsonable_python(default)
 
 

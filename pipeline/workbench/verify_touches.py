@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.verification.locating import Placing, memory, sample_noise
-from contactbench.pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
+from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
+from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,7 +98,7 @@ class MarkerRow:
 class TouchView:
     """All that there is to see now."""
 
-    state: State
+    state: ProtocolState
     force: float  # |F|, N, compensated; NaN: not known
     rows: tuple[MarkerRow, ...]
     next_one: int | None  # Place of the marker that should be touched next; None: all are done
@@ -171,7 +171,7 @@ class LiveTouches:
         if protocol.order:
             self._turns = TouchOrder.of(protocol.order, protocol.repeats, len(protocol.windows))
             protocol = replace(protocol, order=tuple(self._turns.names))
-        placing = Placing(probe, markers, model, noise[0], protocol.samples, noise[1])
+        placing = TouchLocator(probe, markers, model, noise[0], protocol.samples, noise[1])
         self._protocol = TouchProtocol(placing, protocol)
         self._lock = threading.Lock()
         self._touches: dict[float, Touch] = {}

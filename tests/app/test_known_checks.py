@@ -11,7 +11,7 @@ from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.verify_point import PointPanel
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.known_checks import FILES
 from contactbench.pipeline.workbench.verify import tool_of
 
@@ -79,7 +79,7 @@ def test_three_clicks_weigh_a_kilogram(gravity):
     assert "hang the weight on the tool" in panel.hint.text()
     w.click(panel.second)
     w.until(lambda: panel.outcome is not None and not panel.busy)
-    assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
+    assert panel.outcome.outcome is CheckOutcome.PASSED, panel.outcome.sentence
     assert panel.verdict.isVisible()
     assert panel.verdict.text.startswith("Passed: The sensor reads")
     assert page.primary.isEnabled()
@@ -97,7 +97,7 @@ def test_a_wrong_mass_fails_and_what_was_typed_stays(gravity):
     w.click(panel.second)
     w.bench.live.pair.bench.bump((w.bench.live.reading().R_WS.T @ [0, 0, -9.80665]).tolist(), 60.0)
     w.until(lambda: panel.outcome is not None and not panel.busy)
-    assert panel.outcome.outcome is Outcome.FAILED
+    assert panel.outcome.outcome is CheckOutcome.FAILED
     assert panel.verdict.text.startswith("Failed: ")
     assert panel.mass.value() == 0.8
     assert w.told[-1].weight is Weight.ERROR
@@ -148,7 +148,7 @@ def test_a_press_on_a_marker_is_located(point):
     w.open()
     w.click(panel.start)
     w.until(lambda: panel.outcome is not None and not panel.busy, poll=panel.poll)
-    assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
+    assert panel.outcome.outcome is CheckOutcome.PASSED, panel.outcome.sentence
     assert w.results()[TOUCH, FILES[TOUCH]].action.parameters["point"] == pytest.approx(
         [1e3 * v for v in side()]
     )

@@ -2,12 +2,12 @@ import pytest
 from benchmarks.verification import clustered, coverage, run
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.verification.figures import Cause
+from contactbench.pipeline.verification.figures import ErrorCause
 
 
 def test_every_figure_is_measured_and_none_is_far_from_its_target():
     report = run(trials=20, seed=1)
-    assert len(report.figures) == 4 + len(Cause)
+    assert len(report.figures) == 4 + len(ErrorCause)
     assert report.passed, report.markdown()
 
 

@@ -20,7 +20,7 @@ from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers as bundled_markers
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.verification.figures import Cause
+from contactbench.pipeline.verification.figures import ErrorCause
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.source import TouchRecording
 from contactbench.pipeline.verification.statistics import intervals
@@ -86,9 +86,9 @@ def run(
     figures = list(coverage(trials, seed))
     progress("intervals where the touches of a marker are alike")
     figures += clustered(trials, seed)
-    for cause in Cause:
+    for cause in ErrorCause:
         progress(f"diagnosis: {cause}")
-        figures.append(naming(cause, -(-trials // len(Cause)), seed))
+        figures.append(naming(cause, -(-trials // len(ErrorCause)), seed))
     return StudyReport("Verification", {"trials": trials, "seed": seed}, tuple(figures))
 
 
@@ -120,22 +120,22 @@ def clustered(trials: int, seed: int) -> tuple[Figure, ...]:
     return _coverage(what, held)
 
 
-def naming(cause: Cause, trials: int, seed: int) -> Figure:
+def naming(cause: ErrorCause, trials: int, seed: int) -> Figure:
     """Put one cause in, verify, and count how often it is named first."""
     named = sum(
-        named_first(cause, np.random.default_rng([seed, 2, list(Cause).index(cause), t]))
+        named_first(cause, np.random.default_rng([seed, 2, list(ErrorCause).index(cause), t]))
         for t in range(trials)
     )
     return _figure(f"{cause} is named where it was put in", named, trials)
 
 
-def named_first(cause: Cause, rng: np.random.Generator) -> bool:
+def named_first(cause: ErrorCause, rng: np.random.Generator) -> bool:
     """Tell whether the diagnosis of a drawn bench names what is wrong with it."""
     found = bench(cause, rng).verified(VerifySettings(resamples=100)).diagnosis
     return found is not None and found.first is cause
 
 
-def bench(cause: Cause | None, rng: np.random.Generator) -> Bench:
+def bench(cause: ErrorCause | None, rng: np.random.Generator) -> Bench:
     """
     Draw touches of every marker of the T-shape, read them, and put one thing wrong; None: nothing.
 
@@ -149,15 +149,15 @@ def bench(cause: Cause | None, rng: np.random.Generator) -> Bench:
         rng, poses=(10, 12), mass=(0.3, 0.8), force_noise=(0.01, 0.02), torque_noise=(3e-4, 5e-4)
     )
     told = calibrate(weighing.poses, weighing.noise).model
-    truth = _heavier(weighing.truth, rng) if cause is Cause.GRAVITY else weighing.truth
-    noise = sensor_noise(_LOUDER if cause is Cause.NOISE else 1.0)
+    truth = _heavier(weighing.truth, rng) if cause is ErrorCause.GRAVITY else weighing.truth
+    noise = sensor_noise(_LOUDER if cause is ErrorCause.NOISE else 1.0)
     recording = _read(wrenches, truth, noise, rng)
-    facets = int(rng.integers(*_COARSE)) if cause is Cause.MESH else _FACETS
+    facets = int(rng.integers(*_COARSE)) if cause is ErrorCause.MESH else _FACETS
     vertices, places = np.array(mesh(facets).vertices), true_markers()[0]
-    if cause is Cause.ALIGNMENT:
+    if cause is ErrorCause.ALIGNMENT:
         R, t = _misplaced(rng)
         vertices, places = vertices @ R.T + t, places @ R.T + t
-    if cause is Cause.MARKERS:
+    if cause is ErrorCause.MARKERS:
         places = _moved(places, rng)
     probe = Probe.from_arrays(vertices, mesh(facets).faces)
     return Bench(probe, make_markers(places), told, recording)
@@ -185,7 +185,7 @@ def true_markers() -> tuple[Array, Array]:
 # ---- drawing -----------------------------------------------------------------------------------
 
 
-def draw_presses(points: Array, normals: Array, cause: Cause | None, rng: np.random.Generator) -> Array:
+def draw_presses(points: Array, normals: Array, cause: ErrorCause | None, rng: np.random.Generator) -> Array:
     """Return true wrenches (n, 6) of touches at points."""
     n = len(points)
     helper = np.eye(3)[np.abs(normals).argmin(axis=1)]
@@ -196,7 +196,7 @@ def draw_presses(points: Array, normals: Array, cause: Cause | None, rng: np.ran
     forces = rng.uniform(*_FORCE, n)[:, None] * (np.sin(tilt) * side - np.cos(tilt) * normals)
     size = np.linalg.norm(forces, axis=1)[:, None]
     torques = _TORSION_M * rng.standard_normal(n)[:, None] * size * normals
-    if cause is Cause.TORSION:
+    if cause is ErrorCause.TORSION:
         torques = torques + rng.uniform(*_GRIP_M) * rng.choice([-1.0, 1.0], n)[:, None] * forces
     return np.hstack([forces, np.cross(points, forces) + torques])
 

@@ -24,8 +24,8 @@ from contactbench.pipeline.calibration import (
 )
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 NOISE = PoseNoise(0.05, 0.002)

@@ -16,7 +16,7 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
     Capturing,
-    capture_file,
+    capture_poses,
     in_order,
     read_any_poses,
 )
@@ -50,7 +50,7 @@ def invoke(*arguments: object) -> Any:
 
 
 def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
-    found = capture_file(file)
+    found = capture_poses(file)
     assert len(found.poses) >= 7
     assert found.rows == len(recording.t)
     calibration = calibrate(found.poses)
@@ -63,7 +63,7 @@ def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
 
 
 def test_a_file_gives_what_the_arrays_give(recording: Recording, file: Path) -> None:
-    from_file = capture_file(file)
+    from_file = capture_poses(file)
     from_arrays = find_captures(recording.t, recording.wrenches, R_WS=recording.R_WS)
     assert len(from_file.captures) == len(from_arrays.captures)
     for one, other in zip(from_file.captures, from_arrays.captures, strict=True):
@@ -75,7 +75,7 @@ def test_the_command_writes_poses_that_calibrate_reads(file: Path, tmp_path: Pat
     poses, out = tmp_path / "poses.csv", tmp_path / "c.json"
     result = invoke("calibrate", "captures", file, "--out", poses, "--json")
     assert result.exit_code == 0
-    assert len(json.loads(result.stdout)["poses"]) == len(capture_file(file).poses)
+    assert len(json.loads(result.stdout)["poses"]) == len(capture_poses(file).poses)
     assert invoke("calibrate", "fit", poses, "--out", out).exit_code == 0
     again = invoke("calibrate", "captures", file, "--out", tmp_path / "again.csv", "--calibration", out)
     assert again.exit_code == 0
@@ -91,7 +91,7 @@ def test_a_recording_that_never_stands_still(file: Path, tmp_path: Path) -> None
 
 
 def test_calibrate_captures_by_itself(recording: Recording, file: Path, tmp_path: Path) -> None:
-    found = capture_file(file)
+    found = capture_poses(file)
     result = invoke("calibrate", "fit", file, "--out", tmp_path / "c.json", "--json")
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
@@ -198,8 +198,8 @@ def test_wrong_rows_are_named(file: Path) -> None:
     rows = file.read_text(encoding="utf-8").splitlines()
     rows[7] = rows[7].rsplit(",", 1)[0] + ",7.0"
     with pytest.raises(WrenchFileError, match=r"line 8: the quaternion has length"):
-        capture_file(io.BytesIO("\n".join(rows).encode() + b"\n"))
+        capture_poses(io.BytesIO("\n".join(rows).encode() + b"\n"))
     rows[7] = rows[6]
     rows[8] = rows[8].replace(rows[8].split(",")[0], "-1", 1)
     with pytest.raises(WrenchFileError, match=r"line 9: column t runs backwards, from .* to -1 s"):
-        capture_file(io.BytesIO("\n".join(rows).encode() + b"\n"))
+        capture_poses(io.BytesIO("\n".join(rows).encode() + b"\n"))

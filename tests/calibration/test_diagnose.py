@@ -33,7 +33,7 @@ from contactbench.pipeline.calibration.diagnosis.evidence import weigh as weigh_
 from contactbench.pipeline.calibration.diagnosis.hypotheses import hypotheses
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, angles_of, from_angles
-from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
+from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
 from contactbench.pipeline.calibration.fit import maximise, two_stage
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.calibration.poses import stack
@@ -84,7 +84,7 @@ def test_noise_may_differ_from_axis_to_axis():
 def test_the_fit_is_the_most_likely_one():
     poses = stack(held(turned()))
     candidates, _ = hypotheses(poses, None)
-    declared = weigh_hypotheses(candidates[:1], poses, Noise(NOISE.sigmas, 0.4))[0]
+    declared = weigh_hypotheses(candidates[:1], poses, HypothesisNoise(NOISE.sigmas, 0.4))[0]
     best = maximise(poses, NOISE.sigmas, two_stage(poses))
     assert declared.squares.sum() == pytest.approx(best.cost, rel=1e-3)
     np.testing.assert_allclose(declared.gravity_W, best.theta[:3], atol=0.002)

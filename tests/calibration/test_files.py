@@ -30,7 +30,7 @@ from contactbench.pipeline.calibration.files import calibration_file as files_mo
 from contactbench.pipeline.calibration.files.calibration_file import (
     CalibrationFileError,
     Mount,
-    Source,
+    SourceFile,
     creation_time,
     load_calibration,
     load_record,
@@ -152,7 +152,7 @@ def test_a_file_of_version_1_still_loads(tmp_path):
 
 
 def test_saving_again_gives_the_same_bytes(calibration, tmp_path):
-    file = saved(calibration, tmp_path, created=WHEN, source=Source("poses.csv", "0" * 64))
+    file = saved(calibration, tmp_path, created=WHEN, source=SourceFile("poses.csv", "0" * 64))
     data = file.read_bytes()
     record = load_record(file)
     assert (
@@ -182,7 +182,7 @@ def test_what_the_file_says(good, tmp_path):
     assert str(tmp_path) not in text
     record = load_record(file)
     assert record.created == WHEN.replace(microsecond=0)
-    assert record.source == Source.of(source)
+    assert record.source == SourceFile.of(source)
     assert record.tool == f"contactbench {__version__}"
     assert record.mount is None
 

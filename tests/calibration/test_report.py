@@ -25,7 +25,8 @@ from contactbench.pipeline.calibration import (
     calibrate,
 )
 from contactbench.pipeline.calibration.causes import Cause
-from contactbench.pipeline.calibration.files.calibration_file import Source
+from contactbench.pipeline.calibration.files.calibration_file import SourceFile
+from contactbench.pipeline.calibration.number_text import plain, with_sigma
 from contactbench.pipeline.calibration.report.figures import (
     _signed,
     error_map,
@@ -36,12 +37,11 @@ from contactbench.pipeline.calibration.report.figures import (
     upright,
 )
 from contactbench.pipeline.calibration.report.page import report_html, tilt_of, write_report
-from contactbench.pipeline.calibration.wording import plain, with_sigma
 from contactbench.pipeline.errors import InputError
 
 MODEL = GravityModel([0.05, -0.1, -9.0], [3.0, -4.0, 6.0], [0.004, -0.002, 0.06], [0.1, 0.05, -0.2])
 NOISE = PoseNoise(0.012, 0.0004)
-SOURCE = Source("poses.csv", hashlib.sha256(b"poses").hexdigest())
+SOURCE = SourceFile("poses.csv", hashlib.sha256(b"poses").hexdigest())
 CREATED = datetime(2026, 11, 21, 17, 5, tzinfo=UTC)
 VOID = {"meta", "br", "link", "img", "hr", "input"}
 
@@ -231,7 +231,7 @@ def test_a_pose_that_is_used_beyond_the_limit_is_told():
 
 def test_a_cause_that_only_the_diagnosis_knows_is_no_agreement():
     calibration = calibrate(taken(turned(12)), NOISE)
-    swapped = Cause("fx_fz_swapped", 0.98, "Channels are swapped: fx with fz.")
+    swapped = Cause("fx_fz_swapped", 0.98, "Channels are swapped: fx with fz.", believed=False)
     text = Reader(report_html(replace(calibration, causes=(swapped,)))).text
     assert "agree with one another" not in text
     assert "98 % Channels are swapped: fx with fz." in text
@@ -377,7 +377,7 @@ def test_names_are_escaped_and_what_no_page_can_hold_is_replaced():
     names = [nasty, *(f"p{index}" for index in range(8))]
     calibration = calibrate(taken(turned(9), bumped=(0,), names=names), NOISE)
     assert calibration.rejected[0].name == nasty
-    page = report_html(calibration, title=nasty, source=Source(nasty, "0" * 64))
+    page = report_html(calibration, title=nasty, source=SourceFile(nasty, "0" * 64))
     reader = Reader(page)
     assert "<script" not in page
     assert "script" not in reader.tags

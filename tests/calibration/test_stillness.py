@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.stillness import (
     StillnessSettings,
     StillState,
 )
-from contactbench.pipeline.calibration.stillness.noise import Noise
+from contactbench.pipeline.calibration.stillness.noise import NoiseFloor
 from contactbench.pipeline.errors import InputError
 
 RATE = 200.0
@@ -420,7 +420,7 @@ def test_to_pose():
 )
 def test_averaging_lasts_until_the_target_or_while_it_helps(flicker, walk, target, duration):
     each = np.ones(6)
-    noise = Noise(0.0025 * each, flicker * each, walk * each, 0 * each, 120.0)
+    noise = NoiseFloor(0.0025 * each, flicker * each, walk * each, 0 * each, 120.0)
     assert noise.advise(target * each, 1.0, 10.0) == pytest.approx(duration, rel=0.04)
 
 

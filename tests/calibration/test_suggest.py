@@ -18,9 +18,9 @@ from contactbench.pipeline.calibration import (
 )
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import Reachable, by_hand, by_robot, describe
-from contactbench.pipeline.calibration.suggest import Plan, plan_error, plan_poses, suggest_pose
-from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.calibration.suggest import PosePlan, plan_error, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.loads import weigh
@@ -40,7 +40,7 @@ def hand() -> Reachable:
 
 
 @pytest.fixture(scope="module")
-def plan(hand: Reachable) -> Plan:
+def plan(hand: Reachable) -> PosePlan:
     return plan_poses(6, hand)
 
 

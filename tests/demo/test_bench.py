@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline import demo
-from contactbench.pipeline.calibration.files.capture_file import capture_recording
+from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.demo import report
 from contactbench.pipeline.recording import read_recording
 
@@ -77,7 +77,7 @@ def test_filtering_leaves_a_fifth_of_the_noise(benched: demo.DemoReport) -> None
 
 def test_the_calibration_comes_out_of_the_recording(benched: demo.DemoReport) -> None:
     (result,) = benched.probes
-    found = capture_recording(benched.out / "convex" / "gravity.mcap")
+    found = capture_poses(benched.out / "convex" / "gravity.mcap")
     assert len(found.poses) == result.gravity.poses == 9
     assert [pose.name for pose in found.poses] == columns(benched.out / "convex" / "poses.csv")["name"]
     assert len(result.gravity.bumped) == 1

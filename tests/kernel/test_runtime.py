@@ -10,7 +10,7 @@ from config.runtime.bundles import example
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
 from contactbench.pipeline import kernel
-from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.config.runtime.values import kernel_arguments
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 
 if TYPE_CHECKING:

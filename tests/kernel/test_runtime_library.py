@@ -21,7 +21,7 @@ from native import BUILD, cmake, installed, needs_cmake, run
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.canonical import encode_json
-from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.config.runtime.values import kernel_arguments
 from contactbench.pipeline.contact.facet_marks import facet_marks
 
 pytestmark = needs_cmake

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration.model import GravityModel, prediction_jacobian
-from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.config.runtime.values import kernel_arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,15 +13,15 @@ from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.report import ReportContent
 from contactbench.pipeline.verification.figures import (
-    Cause,
-    Diagnosis,
-    Limits,
+    ErrorCause,
+    ErrorDiagnosis,
     Refined,
     Share,
     Times,
     TouchFigure,
-    Verdict,
     Verification,
+    VerificationLimits,
+    VerificationVerdict,
 )
 from contactbench.pipeline.verification.statistics import intervals, summarise, summarise_by
 
@@ -74,7 +74,7 @@ def verification(probe: Probe, *, passed: bool = True, markers: int = 9) -> Veri
     def by(names: list[str]) -> tuple:
         return summarise_by(names, list(dict.fromkeys(names)), errors)
 
-    shares = zip(Cause, (0.42, 0.06, 0.45, 0.05, 0.02, 0.0), strict=True)
+    shares = zip(ErrorCause, (0.42, 0.06, 0.45, 0.05, 0.02, 0.0), strict=True)
     shares = tuple(sorted((Share(cause, size, 3.0) for cause, size in shares), key=lambda s: -s.share))
     return Verification(
         touches=tuple(all_touches),
@@ -88,9 +88,9 @@ def verification(probe: Probe, *, passed: bool = True, markers: int = 9) -> Veri
         ratio=1.3,
         times=Times(100, 4e-6, 9e-6),
         force=None,
-        verdict=Verdict(passed, () if passed else ("the mean error is 1.20 mm, over 1 mm",)),
-        diagnosis=Diagnosis(
-            Cause.ALIGNMENT,
+        verdict=VerificationVerdict(passed, () if passed else ("the mean error is 1.20 mm, over 1 mm",)),
+        diagnosis=ErrorDiagnosis(
+            ErrorCause.ALIGNMENT,
             "The probe sits 0.4 mm beside where the program believes. Align it again with more points.",
             shares,
             1.1,
@@ -99,7 +99,7 @@ def verification(probe: Probe, *, passed: bool = True, markers: int = 9) -> Veri
             ("M1", "M3"), ("M2", "M4"), (0.1, 0.0, 0.2), (0.3, -0.1, 0.0), 0.6, 0.4, 0.6, 0.45, True
         ),
         missing=(),
-        limits=Limits(),
+        limits=VerificationLimits(),
         settings={"samples": 200},
         sources={"recording": "ab" * 32, "markers": "cd" * 32},
     )

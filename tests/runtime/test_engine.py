@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.config.runtime import RuntimeConfig
-from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments, make_runtime
+from contactbench.pipeline.config.runtime.values import kernel_arguments, make_runtime
 from contactbench.pipeline.devices.sample import FlangeSample, Status
 from contactbench.pipeline.runtime import Engine
 from contactbench.pipeline.runtime.lines import health_names

@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.session.replay import Outcome, replay
+from contactbench.pipeline.session.replay import ReplayOutcome, replay
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe_shell import shell_file_of
 from contactbench.pipeline.workbench.regions_session import keep, regions_on
@@ -137,7 +137,7 @@ def test_what_is_remembered_gives_the_same_bytes_as_what_is_computed_anew(sessio
     made(session)
     painted(session)
     made(session, facets=200, region_ratio=3.0)
-    assert [each.outcome for each in replay(session)] == [Outcome.SAME] * 2
+    assert [each.outcome for each in replay(session)] == [ReplayOutcome.SAME] * 2
 
 
 def test_a_probe_tells_how_far_it_is_and_can_be_stopped(session):

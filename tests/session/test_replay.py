@@ -10,7 +10,7 @@ from weighing_files import weighed, write_euler
 from contactbench.pipeline import cli
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import compute
-from contactbench.pipeline.session.replay import Outcome, replay
+from contactbench.pipeline.session.replay import ReplayOutcome, replay
 
 
 def invoke(*arguments):
@@ -52,7 +52,7 @@ def test_a_calibration_has_the_bytes_of_the_command(session, poses, tmp_path, mo
     assert invoke("calibrate", "fit", poses, *options, "--out", tmp_path / "c.json").exit_code == 0
     stored = session.folder / record.action.files["calibration.json"].path
     assert stored.read_bytes() == (tmp_path / "c.json").read_bytes()
-    assert [each.outcome for each in replay(session)] == [Outcome.SAME]
+    assert [each.outcome for each in replay(session)] == [ReplayOutcome.SAME]
 
 
 def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_path):
@@ -79,7 +79,7 @@ def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_pat
     files = {file.name: file.read_bytes() for file in (out, out.with_suffix(".json"))}
     session.add_result("probe", "probe.ply", files, inputs, parameters)
     assert [(each.outcome, each.sentence) for each in replay(session)] == [
-        (Outcome.SAME, "probe probe.ply: the same bytes.")
+        (ReplayOutcome.SAME, "probe probe.ply: the same bytes.")
     ]
 
 
@@ -96,10 +96,10 @@ def test_what_differs_fails_or_is_unknown_is_said(session, poses):
     session.add_result("photo", "p.png", {"p.png": b""}, {}, {})
     found = replay(session)
     assert [each.outcome for each in found] == [
-        Outcome.SAME,
-        Outcome.DIFFERENT,
-        Outcome.FAILED,
-        Outcome.UNKNOWN,
+        ReplayOutcome.SAME,
+        ReplayOutcome.DIFFERENT,
+        ReplayOutcome.FAILED,
+        ReplayOutcome.UNKNOWN,
     ]
     assert "other bytes in calibration.json" in found[1].sentence
     assert "Euler order" in found[2].sentence
@@ -139,7 +139,7 @@ def test_wrong_kinds_names_and_inputs(session, poses):
 def test_an_input_that_was_added_again_under_another_name_changes_no_replay(session, poses):
     calibrated(session, poses)
     session.add_input(poses, "poses", name="renamed.csv")
-    assert [each.outcome for each in replay(session)] == [Outcome.SAME]
+    assert [each.outcome for each in replay(session)] == [ReplayOutcome.SAME]
 
 
 def test_errors_name_no_temporary_folder(session, tmp_path):

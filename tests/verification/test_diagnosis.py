@@ -6,12 +6,12 @@ from benchmarks.verification import bench
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.verification import diagnosis
-from contactbench.pipeline.verification.causes import Evidence, alignment_columns, explain
+from contactbench.pipeline.verification.causes import TouchEvidence, alignment_columns, explain
 from contactbench.pipeline.verification.diagnosis import diagnose
-from contactbench.pipeline.verification.figures import Cause
+from contactbench.pipeline.verification.figures import ErrorCause
 
 MARKERS = pytest.mark.skipif(
-    "MARKERS" not in Cause.__members__, reason="a verification has no such cause yet"
+    "MARKERS" not in ErrorCause.__members__, reason="a verification has no such cause yet"
 )
 NOISE = np.diag(np.repeat([0.02, 5e-4], 3) ** 2) / 50
 
@@ -34,7 +34,7 @@ def touches(*, repeats=1, sides=False, orientations=False, tilt=0.02, seed=0):
     theta = np.concatenate([[0.0, 0.0, -5.0], np.zeros(9)])
     theta[6:9] = [0.0, 0.0, -0.2]
     wrenches = np.hstack([F, np.cross(points, F)])
-    return Evidence(
+    return TouchEvidence(
         np.zeros((n, 3)), markers, points, normals, np.zeros(n), wrenches, R, np.zeros(n), NOISE, theta
     )
 
@@ -55,7 +55,7 @@ def with_errors(evidence, errors, seed=1):
 def test_a_face_pressed_one_way_in_one_orientation_cannot_tell_alignment_from_gravity(tilt):
     evidence = misaligned(touches(tilt=tilt), turn=(0.0, 0.02, 0.0) if tilt > 0.1 else (0.0, 0.0, 0.0))
     found = explain(evidence)
-    assert {found.first, *found.rivals} == {Cause.ALIGNMENT, Cause.GRAVITY}
+    assert {found.first, *found.rivals} == {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}
     assert not found.aligned
     text = diagnose(evidence, within=False).text
     assert "these touches cannot tell; touch in a second orientation, or on other sides" in text
@@ -67,22 +67,22 @@ def test_a_face_pressed_one_way_in_one_orientation_cannot_tell_alignment_from_gr
 def test_sides_or_orientations_tell_them_apart():
     for evidence in (touches(sides=True), touches(orientations=True)):
         found = explain(misaligned(evidence, turn=(0.03, 0.02, 0.0)))
-        assert found.first is Cause.ALIGNMENT
+        assert found.first is ErrorCause.ALIGNMENT
         assert found.rivals == ()
         assert found.aligned
 
 
 def test_an_alignment_that_would_make_up_for_a_wrong_weight_does_not_help():
-    found = [bench(Cause.GRAVITY, np.random.default_rng([9, t])).verified() for t in range(3)]
-    assert all(each.diagnosis.first is Cause.GRAVITY for each in found)
+    found = [bench(ErrorCause.GRAVITY, np.random.default_rng([9, t])).verified() for t in range(3)]
+    assert all(each.diagnosis.first is ErrorCause.GRAVITY for each in found)
     assert not any(each.alignment_refined.helps for each in found)
 
 
 @pytest.mark.parametrize(("share", "words"), [(0.48, "the largest part of"), (0.7, "most of")])
 def test_less_than_half_is_not_called_most(monkeypatch, share, words):
     evidence = misaligned(touches(sides=True), turn=(0.03, 0.02, 0.0))
-    shares = {Cause.ALIGNMENT: share, Cause.NOISE: 0.9 - share, Cause.MESH: 0.1}
-    mixed = replace(explain(evidence), shares={**dict.fromkeys(Cause, 0.0), **shares})
+    shares = {ErrorCause.ALIGNMENT: share, ErrorCause.NOISE: 0.9 - share, ErrorCause.MESH: 0.1}
+    mixed = replace(explain(evidence), shares={**dict.fromkeys(ErrorCause, 0.0), **shares})
     monkeypatch.setattr(diagnosis, "explain", lambda _: mixed)
     for within in (True, False):
         text = diagnose(evidence, within).text
@@ -97,7 +97,7 @@ def test_markers_that_are_elsewhere_are_named(wrong):
     errors = np.zeros((45, 3))
     errors[np.isin(evidence.markers, wrong)] = [0.0015, 0.0012, 0.0009]
     found = diagnose(with_errors(evidence, errors), within=False)
-    assert found.first is Cause.MARKERS
+    assert found.first is ErrorCause.MARKERS
     assert f"check the places of {'markers 2, 4' if len(wrong) == 2 else 'the marker 8'}." in found.text
     named = diagnose(with_errors(evidence, errors), within=False, names=[f"m{k}" for k in range(15)])
     assert f"m{wrong[0]}" in named.text
@@ -107,11 +107,11 @@ def test_where_all_markers_are_off_all_are_to_be_checked():
     evidence = touches(repeats=3, sides=True)
     places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
     found = diagnose(with_errors(evidence, places[evidence.markers]), within=False)
-    assert found.first is Cause.MARKERS
+    assert found.first is ErrorCause.MARKERS
     assert "check the places of the markers." in found.text
 
 
 def test_single_touches_do_not_tell_markers_from_noise():
     evidence = touches(sides=True)
     places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
-    assert diagnose(with_errors(evidence, places), within=False).first is Cause.NOISE
+    assert diagnose(with_errors(evidence, places), within=False).first is ErrorCause.NOISE

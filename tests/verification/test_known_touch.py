@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.verification.known_touch import MISTAKES, TouchParameters, check_touch
 from contactbench.pipeline.verification.markers import MarkerError
 from contactbench.pipeline.verification.source import TouchRecording
@@ -93,21 +93,21 @@ def test_every_mistake_that_moves_the_line_of_force_is_named_or_undecided(mistak
     if mistake.words in HARDLY_SHOWN:
         return
     assert not found.passed
-    if found.outcome is Outcome.FAILED:
+    if found.outcome is CheckOutcome.FAILED:
         assert mistake.words in found.sentence or "Also possible" in found.sentence
 
 
 @pytest.mark.parametrize("number", range(5), ids=lambda number: MISTAKES[number].words)
 def test_signs_and_usual_units_are_named_first(number):
     found = check(T=MISTAKES[number].T, force=15.0)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert f"Likely cause: {MISTAKES[number].words}." in found.sentence
 
 
 def test_a_press_along_the_axis_cannot_tell_a_sign_and_does_not_pass():
     tip, normal = surface_point([0.0, 0.0, 0.3])
     found = check(point=tip, normal=normal)
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is CheckOutcome.UNDECIDED
     assert "a wrong sign or unit of the torques would not show" in found.sentence
     assert "on the side of the probe" in found.sentence
 
@@ -138,25 +138,25 @@ def test_where_the_line_meets_the_probe_twice_the_known_point_counts():
 def test_what_a_sensor_sends_instead_of_newtons(recorded, words):
     """The factors, written down here once more: what the wrong sensor multiplies right readings by."""
     found = check(T=np.diag(1 / recorded), force=40.0)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert f"Likely cause: {words}" in found.sentence
 
 
 def test_another_place_than_the_point_fails_without_a_wrong_cause():
     there, normal = surface_point([-0.03, -0.008, 0.2])
     found = check_touch(mesh(2_000), MODEL, SIDE, pressed(there, normal))
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
 
 
 def test_an_aim_that_is_hardly_known_decides_nothing():
     found = check(point_sigma=0.02)
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is CheckOutcome.UNDECIDED
     assert "hit the point within 2.5 mm" in found.sentence
 
 
 def test_a_refused_calibration_passes_nothing():
     found = check(faults=("The calibration was refused: too few poses.",))
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "was refused" in found.sentence
 
 

@@ -12,7 +12,7 @@ from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import weigh
-from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.verification.known_weight import WeightParameters, check_weight
 
 G = 9.80665
@@ -86,7 +86,7 @@ def check(T=None, seed=1, mass=1.0, R=TILTS[:1], calibration=None, given=None, *
 def test_a_right_sensor_passes_and_says_how_sure_that_is():
     found = [check(seed=seed) for seed in range(100)]
     assert sum(each.passed for each in found) >= 97
-    assert not any(each.outcome is Outcome.FAILED for each in found)
+    assert not any(each.outcome is CheckOutcome.FAILED for each in found)
     pulls = [(each.measured - 1.0) / each.measured_sigma for each in found]
     assert 0.3 < np.std(pulls) < 1.2  # samples count as correlated: the sigma is rather too large
     assert found[0].axes == ("z",)
@@ -97,7 +97,7 @@ def test_a_right_sensor_passes_and_says_how_sure_that_is():
 @pytest.mark.parametrize("factor", [0.99, 1.01])
 def test_a_scale_error_of_one_percent_is_found_with_a_kilogram(factor):
     found = [check(wrong(factor, factor), seed=seed) for seed in range(60)]
-    assert sum(each.outcome is Outcome.FAILED for each in found) >= 57
+    assert sum(each.outcome is CheckOutcome.FAILED for each in found) >= 57
     assert not any(each.passed for each in found)
     word = "too much" if factor > 1 else "too little"
     assert all(
@@ -118,15 +118,15 @@ def test_it_does_not_pass_when_it_cannot_tell_and_says_what_would():
         readings(TILTS[:1], rng, mass=1.0, scatter=False),
         1.0,
     )
-    assert loud.outcome is Outcome.UNDECIDED
+    assert loud.outcome is CheckOutcome.UNDECIDED
     assert not loud.passed
     assert "cannot tell" in loud.sentence
     assert "or more, hold still for longer" in loud.sentence
     rough = check(mass_sigma=0.02)
-    assert rough.outcome is Outcome.UNDECIDED
+    assert rough.outcome is CheckOutcome.UNDECIDED
     assert "Use a weight that is known better than to 2 %" in rough.sentence
     narrow = check(limit=0.002, mass_sigma=1e-5)
-    assert narrow.outcome is Outcome.UNDECIDED
+    assert narrow.outcome is CheckOutcome.UNDECIDED
     assert "local gravity" in narrow.sentence
 
 
@@ -154,14 +154,14 @@ def test_a_certificate_of_gravity_makes_a_narrow_limit_possible():
 )
 def test_the_usual_units_and_signs_are_named(T, words):
     found = check(T)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert words in found.sentence
 
 
 def test_exchanged_readings_are_told_from_a_wrong_sign():
     rng = np.random.default_rng(0)
     found = check_weight(CALIBRATION, readings(TILTS[:1], rng, mass=1.0), readings(TILTS[:1], rng), 1.0)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "exchanged" in found.sentence
 
 
@@ -173,7 +173,7 @@ def test_mass_in_pounds_and_in_grams():
 def test_no_weight_at_all():
     rng = np.random.default_rng(0)
     found = check_weight(CALIBRATION, readings(TILTS[:1], rng), readings(TILTS[:1], rng), 1.0)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "does not show" in found.sentence
 
 
@@ -193,7 +193,7 @@ def swapped(a, b):
 )
 def test_channels_that_differ_from_those_of_the_calibration_are_named(force, words):
     found = check(wrong(force), R=TILTS, calibration=CALIBRATION)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert words in found.sentence
 
 
@@ -202,7 +202,7 @@ def test_all_channels_are_tested_by_three_tilts():
     assert found.passed
     assert found.axes == ("x", "y", "z")
     one = check(wrong(np.diag([1.0, 1.05, 1.0])), R=TILTS, calibration=CALIBRATION)
-    assert one.outcome is Outcome.FAILED
+    assert one.outcome is CheckOutcome.FAILED
 
 
 def test_readings_that_do_not_agree_are_told():
@@ -214,13 +214,13 @@ def test_readings_that_do_not_agree_are_told():
     ]
     found = check_weight(CALIBRATION, readings(TILTS[:1], rng), loaded, 1.0)
     assert abs(found.scale - 1) < 0.005
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "differ between poses" in found.sentence
 
 
 def test_a_twisted_torque_is_no_hanging_weight():
     found = check(wrong(1.0, np.diag([1.0, -1.0, 1.0])), R=TILTS, calibration=CALIBRATION)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "Torque channels are swapped" in found.sentence
 
 

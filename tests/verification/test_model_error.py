@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.report.verification_file import parse_verification
-from contactbench.pipeline.verification.causes import Evidence, across
+from contactbench.pipeline.verification.causes import TouchEvidence, across
 from contactbench.pipeline.verification.model_error import LEAST, measure_model_error, model_error_words
 
 SETS, REPEATS = 20, 3
@@ -43,7 +43,7 @@ def touches(times, how, seed, *, markers=17, repeats=REPEATS):
     theta = rng.multivariate_normal(MODEL.vector, COVARIANCE)
     wrenches += GravityModel.from_vector(theta, COVARIANCE).predict(R_WS) - MODEL.predict(R_WS)
     zero = np.zeros(len(names))
-    return Evidence(
+    return TouchEvidence(
         zero[:, None] + np.zeros(3), names, points, normals, zero, wrenches, R_WS, zero, noise, MODEL.vector
     )
 

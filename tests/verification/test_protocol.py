@@ -6,9 +6,9 @@ from contactbench import assets
 from contactbench.pipeline.contact import TouchModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.verification.locating import Placing
 from contactbench.pipeline.verification.markers import make_markers, with_normals
-from contactbench.pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, State, Why
+from contactbench.pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, ProtocolState, Why
+from contactbench.pipeline.verification.touch_location import TouchLocator
 
 
 def only(found):
@@ -74,7 +74,7 @@ def test_a_touch_that_only_its_region_makes_sure_is_accepted():
         targets = with_normals(make_markers([foot]), told)[0]
         F = np.array([0.0, 0.0, -9.0])
         wrenches = np.tile(np.hstack([F, np.cross(foot, F)]), (50, 1))
-        located = Placing(told, targets, MODEL, NOISE).locate(wrenches, np.tile(np.eye(3), (50, 1, 1)))
+        located = TouchLocator(told, targets, MODEL, NOISE).locate(wrenches, np.tile(np.eye(3), (50, 1, 1)))
         found.append((located.ambiguous, located.implausible))
     assert found == [(True, False), (False, False)]
 
@@ -83,7 +83,7 @@ def test_the_model_error_that_is_assumed_is_not_averaged_away():
     """What drifts is the same in all samples."""
     floor = TouchModel().model_error.covariance
     for samples in (4, 400):
-        solver = Placing(probe(), markers(), MODEL, NOISE, samples).solver
+        solver = TouchLocator(probe(), markers(), MODEL, NOISE, samples).solver
         np.testing.assert_allclose(solver.covariance, NOISE.covariance / samples + floor, rtol=1e-12)
 
 
@@ -114,8 +114,13 @@ def test_events_do_not_depend_on_the_blocks():
     got += pieces.finish()
     assert [(event.time, event.state) for event in got] == [(event.time, event.state) for event in expected]
     states = [event.state for event in expected]
-    assert states[:4] == [State.TOUCHING, State.SETTLED, State.ACCEPTED, State.ARMED]
-    assert State.REJECTED in states
+    assert states[:4] == [
+        ProtocolState.TOUCHING,
+        ProtocolState.SETTLED,
+        ProtocolState.ACCEPTED,
+        ProtocolState.ARMED,
+    ]
+    assert ProtocolState.REJECTED in states
 
 
 def test_the_state_is_told_while_it_happens():
@@ -126,7 +131,13 @@ def test_the_state_is_told_while_it_happens():
         followed.feed(times[row : row + 1], wrenches[row : row + 1], R_WS[row : row + 1])
         if not seen or seen[-1] is not followed.state:
             seen.append(followed.state)
-    assert seen == [State.ARMED, State.TOUCHING, State.SETTLED, State.ACCEPTED, State.ARMED]
+    assert seen == [
+        ProtocolState.ARMED,
+        ProtocolState.TOUCHING,
+        ProtocolState.SETTLED,
+        ProtocolState.ACCEPTED,
+        ProtocolState.ARMED,
+    ]
 
 
 def test_a_stream_that_ends_or_pauses_while_touching_still_gives_its_touch():

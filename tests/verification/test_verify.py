@@ -17,7 +17,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from contactbench.pipeline.verification.figures import Cause, Limits
+from contactbench.pipeline.verification.figures import ErrorCause, VerificationLimits
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.noise import measured_noise, resting
 from contactbench.pipeline.verification.press import Touch
@@ -123,7 +123,7 @@ def test_noise_is_measured_within_touches_even_where_nothing_is_between_them(goo
     assert 0.5 < found.ratio < 1.6
 
 
-@pytest.mark.parametrize("cause", list(Cause))
+@pytest.mark.parametrize("cause", list(ErrorCause))
 def test_the_cause_that_was_put_in_is_named(cause):
     found = bench(cause, np.random.default_rng(11)).verified()
     assert found.diagnosis.first is cause
@@ -132,7 +132,7 @@ def test_the_cause_that_was_put_in_is_named(cause):
 
 
 def test_touches_with_a_gripping_tip_speak_against_it_and_are_in_no_figure():
-    found = bench(Cause.TORSION, np.random.default_rng(11)).verified()
+    found = bench(ErrorCause.TORSION, np.random.default_rng(11)).verified()
     assert found.rejected == {"no single touch explains it": 34}
     assert found.overall is None
     assert found.model_error is None
@@ -142,7 +142,7 @@ def test_touches_with_a_gripping_tip_speak_against_it_and_are_in_no_figure():
 
 
 def test_a_wrong_alignment_is_refined_and_judged_on_the_other_markers():
-    wrong = bench(Cause.ALIGNMENT, np.random.default_rng(5)).verified()
+    wrong = bench(ErrorCause.ALIGNMENT, np.random.default_rng(5)).verified()
     refined = wrong.alignment_refined
     assert set(refined.fitted).isdisjoint(refined.judged)
     assert refined.helps
@@ -153,7 +153,7 @@ def test_a_wrong_alignment_is_refined_and_judged_on_the_other_markers():
 
 
 def test_limits_decide_the_verdict(good):
-    strict = good.verified(VerifySettings(limits=Limits(mean_m=1e-5, max_m=2e-5)))
+    strict = good.verified(VerifySettings(limits=VerificationLimits(mean_m=1e-5, max_m=2e-5)))
     assert not strict.verdict.passed
     assert "mean error" in strict.verdict.reasons[0]
     more = good.verified(replace(VerifySettings(), protocol=replace(VerifySettings().protocol, repeats=3)))
@@ -393,11 +393,11 @@ def test_close_markers_are_warned_of_and_refused(good):
     points = good.markers.points[:2].copy()
     points[1] = points[0] + [0.0, 0.0, 0.0]
     apart = make_markers(points + [[0, 0, 0], [0.005, 0, 0]], ["a", "b"])
-    said, hopeless = crowded(apart, Limits())
+    said, hopeless = crowded(apart, VerificationLimits())
     assert "5.0 mm apart" in said
     assert not hopeless
-    assert crowded(apart, Limits(max_m=0.003))[1]
-    assert crowded(apart, Limits(max_m=0.001)) == (None, False)
+    assert crowded(apart, VerificationLimits(max_m=0.003))[1]
+    assert crowded(apart, VerificationLimits(max_m=0.001)) == (None, False)
 
 
 def test_a_filtered_sensor_is_as_noisy_as_its_means_are(good):

@@ -10,7 +10,7 @@ from workbench.touch_session import make_session, verify
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
-from contactbench.pipeline.config.runtime.differ import Difference, Differences
+from contactbench.pipeline.config.runtime.differ import ConfigDifference, Differences
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.export import PLACE, SHA256, export, survey, told
 from contactbench.pipeline.workbench.standings import RESULTS, checklist, results_of
@@ -214,10 +214,10 @@ def test_what_stands_at_the_place_stays_when_the_export_cannot_be(verified, tmp_
 
 
 def test_differences_are_told_in_few_words():
-    fields = tuple(Difference(f"limits.f{n}", 0.123456, [1.0, 2.0], "") for n in range(15))
+    fields = tuple(ConfigDifference(f"limits.f{n}", 0.123456, [1.0, 2.0], "") for n in range(15))
     said = told(Differences(fields, (), {"facets": [10, 20], "hausdorff_mm": 0.5, "rms_mm": 0.1}))
     assert said[0] == "limits.f0: 0.1235 → [1, 2]."
     assert "3 more" in said[12]
     assert "0.5 mm apart" in said[-1]
-    only = (Difference("provenance.created", "a", "b", ""),)
+    only = (ConfigDifference("provenance.created", "a", "b", ""),)
     assert "where it comes from" in told(Differences(only, (), None))[0]

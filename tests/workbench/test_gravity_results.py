@@ -2,9 +2,9 @@ import pytest
 from workbench.gravity_bench import batches, block, record
 
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.recompute import compute
-from contactbench.pipeline.session.unfinished import adopt_unfinished
 from contactbench.pipeline.workbench.gravity import GravityWork
 from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState

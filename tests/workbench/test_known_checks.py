@@ -9,7 +9,7 @@ from workbench.touch_session import STEPWISE, make_session, press, surface, veri
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.known_checks import (
     FILES,
@@ -67,7 +67,7 @@ def side():
 
 def test_a_kilogram_on_the_virtual_bench(desk, live):
     found = weigh(KnownChecks(desk, live), live)
-    assert found.outcome is Outcome.PASSED, found.sentence
+    assert found.outcome is CheckOutcome.PASSED, found.sentence
     assert found.parameters == {"mass": 1.0}
     assert found == known_outcome(desk.folder, desk.state, desk.stale, WEIGHT)
     recorded = [each.name for each in desk.state.inputs if each.kind == "recording"]
@@ -84,7 +84,7 @@ def test_a_kilogram_on_the_virtual_bench(desk, live):
 
 def test_a_weight_that_is_another_fails(desk, live):
     found = weigh(KnownChecks(desk, live), live, hung=0.9)
-    assert found.outcome is Outcome.FAILED
+    assert found.outcome is CheckOutcome.FAILED
     assert "too little" in found.sentence
 
 
@@ -98,7 +98,7 @@ def test_a_point_on_the_side(desk, live):
     name = work.keep()
     assert name == "point-1.mcap"
     found = work.compute(TOUCH, {"touch": name}, {"point": (1e3 * side()).tolist()})
-    assert found.outcome is Outcome.PASSED, found.sentence
+    assert found.outcome is CheckOutcome.PASSED, found.sentence
 
 
 def test_a_short_press_does_not_count(desk, live):

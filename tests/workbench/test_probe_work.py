@@ -14,7 +14,7 @@ from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.session.replay import Outcome, replay
+from contactbench.pipeline.session.replay import ReplayOutcome, replay
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.probe_alignment import (
@@ -95,7 +95,7 @@ def test_a_preview_is_what_the_session_computes(work, tmp_path):
     assert set(result.action.inputs) == {"mesh", "alignment"}
     assert result.action.parameters == {"facets": 300, "engine": "fast-simplification"}
     assert desk.stale["probe", "probe.ply"] == ()
-    assert [each.outcome for each in desk.do(replay).result(60)] == [Outcome.SAME]
+    assert [each.outcome for each in desk.do(replay).result(60)] == [ReplayOutcome.SAME]
     again = desk.do(
         lambda session: compute(
             session, "probe", "probe.ply", newest_inputs(session.state, "probe"), preview.plan.parameters

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from verification.touch_cases import MODEL, NOISE, Push, markers, probe, stream
 
-from contactbench.pipeline.verification.protocol import ProtocolSettings, State
+from contactbench.pipeline.verification.protocol import ProtocolSettings, ProtocolState
 from contactbench.pipeline.verification.verify import VerifySettings
 from contactbench.pipeline.workbench.live import LiveBlock
 from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOrder, live_noise
@@ -35,7 +35,12 @@ def test_a_touch_is_heard_from_beginning_to_end():
     touches = following()
     assert touches.view().next_one == 0
     play(touches, Push(1))
-    assert states(touches) == [State.TOUCHING, State.SETTLED, State.ACCEPTED, State.ARMED]
+    assert states(touches) == [
+        ProtocolState.TOUCHING,
+        ProtocolState.SETTLED,
+        ProtocolState.ACCEPTED,
+        ProtocolState.ARMED,
+    ]
     assert states(touches) == []
     view = touches.view()
     assert (view.accepted, view.wanted, view.next_one) == (1, 3, 0)
@@ -139,7 +144,7 @@ def test_a_press_that_goes_on_ends_with_the_stream():
     part = slice(0, 90)
     raw = wrenches[part] - MODEL.compensate(R_WS[part], 0 * wrenches[part])
     touches.feed(LiveBlock(times[part], raw, R_WS[part], np.zeros(90, dtype=bool)))
-    assert touches.view().state is State.SETTLED
+    assert touches.view().state is ProtocolState.SETTLED
     touches.end()
     assert touches.view().last.why
 

@@ -21,8 +21,8 @@ from contactbench.pipeline.calibration.diagnosis.explain import (
     NONE,
     NOTHING,
     TIE,
-    Case,
     Context,
+    HypothesisCase,
     Words,
     decided_by,
     odds,
@@ -31,7 +31,7 @@ from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD,
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
-from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
+from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
 from contactbench.pipeline.errors import InputError
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from contactbench.pipeline.calibration.fit import PoseNoise
 
-__all__ = ["Diagnosis", "Finding", "Prior", "RawOrientations", "diagnose"]
+__all__ = ["ConventionFinding", "Diagnosis", "Prior", "RawOrientations", "diagnose"]
 
 FEWEST_POSES, MOST_POSES = 4, 200
 
@@ -66,7 +66,7 @@ _UNTOLD = float(
 
 
 @dataclass(frozen=True, eq=False)
-class Finding:
+class ConventionFinding:
     """What the poses say of one way to read them."""
 
     hypothesis: str  # Its key
@@ -98,7 +98,7 @@ class Finding:
 class Diagnosis:
     """What explains the poses."""
 
-    ranking: tuple[Finding, ...]  # All readings, the most probable first
+    ranking: tuple[ConventionFinding, ...]  # All readings, the most probable first
     # What sets the best reading apart from all others: "residuals"; "prior: " and which, where some others
     # leave the same residuals; or "nothing": then it stands for all that are `tied`
     decided_by: str
@@ -111,14 +111,14 @@ class Diagnosis:
     sentence: str  # All of that for a technician, with what to do
     not_testable: tuple[str, ...]  # What these data do not tell, and what it would take
     _poses: tuple[PoseSample, ...] = field(repr=False)
-    _cases: Mapping[str, Case] = field(repr=False)
+    _cases: Mapping[str, HypothesisCase] = field(repr=False)
 
     @property
-    def best(self) -> Finding:
+    def best(self) -> ConventionFinding:
         """The most probable reading."""
         return self.ranking[0]
 
-    def finding(self, hypothesis: str) -> Finding:
+    def finding(self, hypothesis: str) -> ConventionFinding:
         """Return what was found of one reading.
 
         Raises
@@ -239,11 +239,11 @@ def _times(poses: Sequence[PoseSample]) -> NDArray[np.float64] | None:
     return np.array(times) if len(times) == len(poses) else None
 
 
-def _noise(context: Context, given: PoseNoise | None) -> Noise:
+def _noise(context: Context, given: PoseNoise | None) -> HypothesisNoise:
     prior = context.prior
     orientation = given.orientation if given is not None else 0.0
     heaviest = prior.mass_range[1] if prior.mass is None else _HEAVIER * prior.mass
-    return Noise(
+    return HypothesisNoise(
         context.sigmas,
         float(np.log(prior.noise_factor)) if context.known else np.inf,
         orientation or float(np.radians(ORIENTATION_NOISE_DEG["robot"])),
@@ -253,7 +253,9 @@ def _noise(context: Context, given: PoseNoise | None) -> Noise:
     )
 
 
-def _cases(candidates: Sequence[Hypothesis], evidence: Sequence[Evidence], context: Context) -> list[Case]:
+def _cases(
+    candidates: Sequence[Hypothesis], evidence: Sequence[Evidence], context: Context
+) -> list[HypothesisCase]:
     """Return the hypotheses, the most probable first."""
     cases = []
     for untold, weight in zip(candidates, evidence, strict=True):
@@ -268,18 +270,18 @@ def _cases(candidates: Sequence[Hypothesis], evidence: Sequence[Evidence], conte
         preference = 0.0
         if hypothesis.key != AS_DECLARED:
             preference = float(np.log(context.prior.mistake * hypothesis.share))
-        cases.append(Case(hypothesis, replace(weight, occam=occam), parts, preference))
+        cases.append(HypothesisCase(hypothesis, replace(weight, occam=occam), parts, preference))
     return sorted(cases, key=lambda case: -case.score)
 
 
-def _shown(cases: Sequence[Case]) -> list[Case]:
+def _shown(cases: Sequence[HypothesisCase]) -> list[HypothesisCase]:
     """Leave out all but the best moments for a re-zero."""
     changes = [case for case in cases if case.hypothesis.change]
     late = [case for case in changes if case.score < changes[0].score - TIE]
     return [case for case in cases if case not in late]
 
 
-def _diagnosis(every: Sequence[Case], context: Context, not_testable: tuple[str, ...]) -> Diagnosis:
+def _diagnosis(every: Sequence[HypothesisCase], context: Context, not_testable: tuple[str, ...]) -> Diagnosis:
     cases, best = _shown(every), every[0]
     explained = _explains(best, context)
     probable = odds(every, context.prior.mistake, explained=explained)
@@ -306,7 +308,12 @@ def _diagnosis(every: Sequence[Case], context: Context, not_testable: tuple[str,
     )
 
 
-def _untold(cases: Sequence[Case], declared: Case, tied: Sequence[Case], context: Context) -> str:
+def _untold(
+    cases: Sequence[HypothesisCase],
+    declared: HypothesisCase,
+    tied: Sequence[HypothesisCase],
+    context: Context,
+) -> str:
     """Return what keeps data that fit as they are from being called consistent."""
     if context.known:
         least = declared.evidence.log_likelihood + _BETTER
@@ -337,9 +344,11 @@ def _untold(cases: Sequence[Case], declared: Case, tied: Sequence[Case], context
     return ""
 
 
-def _finding(case: Case, best: Case, declared: Case, context: Context, words: Words) -> Finding:
+def _finding(
+    case: HypothesisCase, best: HypothesisCase, declared: HypothesisCase, context: Context, words: Words
+) -> ConventionFinding:
     turned = case.key in {YAW, MOUNT} or case.key.startswith("yaw_")
-    return Finding(
+    return ConventionFinding(
         hypothesis=case.key,
         title=case.hypothesis.title,
         log_likelihood=case.evidence.log_likelihood,
@@ -357,7 +366,7 @@ def _finding(case: Case, best: Case, declared: Case, context: Context, words: Wo
     )
 
 
-def _explains(case: Case, context: Context) -> bool:
+def _explains(case: HypothesisCase, context: Context) -> bool:
     """Tell whether chance explains the residuals of a case."""
     evidence = case.evidence
     if context.known:

@@ -14,7 +14,13 @@ import numpy as np
 
 from contactbench.pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
+from contactbench.pipeline.calibration.diagnosis.side_by_side import (
+    Fits,
+    HypothesisNoise,
+    begin,
+    fit,
+    joint_doubts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -64,7 +70,7 @@ class Evidence:
 def weigh(
     hypotheses: Sequence[Hypothesis],
     poses: Stack,
-    noise: Noise,
+    noise: HypothesisNoise,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Evidence]:
     """Fit every hypothesis.
@@ -74,7 +80,7 @@ def weigh(
     hypotheses : sequence of Hypothesis
     poses : Stack
         As declared, four or more.
-    noise : Noise
+    noise : HypothesisNoise
     progress : callable, optional
         Called with steps done and steps in all.
     """
@@ -90,7 +96,7 @@ def weigh(
 def _weigh(
     hypotheses: Sequence[Hypothesis],
     poses: Stack,
-    noise: Noise,
+    noise: HypothesisNoise,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Evidence]:
     if not hypotheses:

@@ -47,7 +47,7 @@ _BOTH = np.arange(2)
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class HypothesisCase:
     """One hypothesis and all that speaks for it."""
 
     hypothesis: Hypothesis
@@ -86,7 +86,7 @@ class Case:
         g, C = self.evidence.gravity_W, self.evidence.covariance[:3, :3]
         return bool(g @ np.linalg.solve(C, g) > FELT**2)
 
-    def same(self, other: Case) -> bool:
+    def same(self, other: HypothesisCase) -> bool:
         """Tell whether the data do not differ, read one way or the other; a turn that was found is no twin of none."""
         if self is other:
             return True
@@ -100,7 +100,7 @@ class Case:
         )
 
 
-def decisive(best: Case, rival: Case) -> str:
+def decisive(best: HypothesisCase, rival: HypothesisCase) -> str:
     """Return what sets `best` apart from `rival`: RESIDUALS, NOTHING, or one of the priors."""
     if best.value - rival.value < TIE:
         return NOTHING
@@ -109,7 +109,7 @@ def decisive(best: Case, rival: Case) -> str:
     return max(best.priors, key=lambda part: best.priors[part] - rival.priors[part])
 
 
-def decided_by(best: Case, rivals: Sequence[Case]) -> str:
+def decided_by(best: HypothesisCase, rivals: Sequence[HypothesisCase]) -> str:
     """Return what sets `best` apart from rivals that are not as good: priors where residuals would not do."""
     reasons = {decisive(best, rival) for rival in rivals}
     priors = [part for part in best.priors if part in reasons]
@@ -126,12 +126,12 @@ class Context:
     known: bool
     prior: Prior
 
-    def residual(self, case: Case, best: Case, halves: NDArray[np.intp] = _BOTH) -> float:
+    def residual(self, case: HypothesisCase, best: HypothesisCase, halves: NDArray[np.intp] = _BOTH) -> float:
         """Return the rms residual in standard deviations: of the noise given, or that which `best` leaves.
 
         Parameters
         ----------
-        case, best : Case
+        case, best : HypothesisCase
         halves : array of int
             Of forces (0), torques (1) or both.
         """
@@ -148,8 +148,8 @@ class Words:
     Parameters
     ----------
     context : Context
-    best, declared : Case
-    tied : sequence of Case
+    best, declared : HypothesisCase
+    tied : sequence of HypothesisCase
         Those that explain the data as well as the best.
     odds : mapping of str to float
         Probability of each case, and of none.
@@ -158,9 +158,9 @@ class Words:
     def __init__(
         self,
         context: Context,
-        best: Case,
-        declared: Case,
-        tied: Sequence[Case],
+        best: HypothesisCase,
+        declared: HypothesisCase,
+        tied: Sequence[HypothesisCase],
         odds: Mapping[str, float],
     ) -> None:
         self._context, self._best, self._declared, self._tied = context, best, declared, tied
@@ -215,7 +215,7 @@ class Words:
         R_SW = self._best.hypothesis.R_WS.transpose(0, 2, 1)
         return observe(R_SW, self._best.evidence.gravity_W, weighs=self._best.weighs).null_directions
 
-    def of(self, case: Case) -> str:
+    def of(self, case: HypothesisCase) -> str:
         """Return a sentence about one case."""
         residual = self._size(case)
         if case is self._declared:
@@ -223,7 +223,7 @@ class Words:
         margin = case.score - self._declared.score
         return f"{_capital(case.hypothesis.title)}: residuals {residual}, log odds {margin:+,.1f} against as declared."
 
-    def not_testable(self, cases: Sequence[Case]) -> tuple[str, ...]:
+    def not_testable(self, cases: Sequence[HypothesisCase]) -> tuple[str, ...]:
         """Return what these data do not tell."""
         words = []
         same = [
@@ -293,7 +293,7 @@ class Words:
             return "Press the tool with a finger, and see which way the forces and torques point."
         return "Take more poses, tilted about two axes by up to 90°."
 
-    def _as_likely(self, case: Case) -> bool:
+    def _as_likely(self, case: HypothesisCase) -> bool:
         """Tell whether no residual, of these or other poses, sets a case apart from the best."""
         return abs(case.evidence.log_likelihood - self._best.evidence.log_likelihood) < _EQUAL
 
@@ -303,7 +303,7 @@ class Words:
             times = 1 / self._declared.evidence.noise[0]
             yield f"Or the noise that was given is {times:.0f} times too large: weigh the tool to be sure."
 
-    def _because(self, case: Case) -> str:
+    def _because(self, case: HypothesisCase) -> str:
         if decisive(case, self._declared) in (RESIDUALS, NOTHING):
             halves = (
                 np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1)
@@ -318,7 +318,7 @@ class Words:
         part = decisive(case, self._declared)
         return f"the residuals, {self._size(case)}, do not tell, but as declared {self._strange(part, case)}"
 
-    def _strange(self, part: str, case: Case) -> str:
+    def _strange(self, part: str, case: HypothesisCase) -> str:
         """Say what would be strange about the load as declared."""
         declared, prior = self._declared, self._context.prior
         if part == DOWN and case.hypothesis.prior is not None:
@@ -354,7 +354,7 @@ class Words:
             " touched something."
         )
 
-    def _left_out(self, case: Case) -> Iterator[str]:
+    def _left_out(self, case: HypothesisCase) -> Iterator[str]:
         out = np.flatnonzero(~case.evidence.kept).tolist()
         if not out:
             return
@@ -369,14 +369,14 @@ class Words:
         ends[len(self._context.poses) - 1] = " (or the sensor was re-zeroed before it)"
         yield f"{_capital(names[0])} looks bumped{ends.get(out[0], '')} and was left out."
 
-    def _noise(self, case: Case) -> str:
+    def _noise(self, case: HypothesisCase) -> str:
         force, torque = case.evidence.noise * self._context.sigmas[[0, 3]]
         return f"{_force(force)} and {_torque(torque)}"
 
-    def _residual(self, case: Case, halves: NDArray[np.intp]) -> float:
+    def _residual(self, case: HypothesisCase, halves: NDArray[np.intp]) -> float:
         return self._context.residual(case, self._best, halves)
 
-    def _size(self, case: Case, halves: NDArray[np.intp] = _BOTH) -> str:
+    def _size(self, case: HypothesisCase, halves: NDArray[np.intp] = _BOTH) -> str:
         """Return how large the residuals of forces (0), torques (1) or both are, with their unit."""
         if self._context.known:
             return f"{_short(self._residual(case, halves))} sigma"
@@ -384,11 +384,11 @@ class Words:
         return " and ".join([_force(rms[0]), _torque(rms[1])][half] for half in halves)
 
 
-def _angle(case: Case, prior: Prior) -> float:
+def _angle(case: HypothesisCase, prior: Prior) -> float:
     return angle_between(case.evidence.gravity_W, np.array(prior.down_W))
 
 
-def _height(case: Case, prior: Prior) -> float:
+def _height(case: HypothesisCase, prior: Prior) -> float:
     return float(np.array(prior.tool_axis_S) @ case.evidence.centre_of_mass_S)
 
 
@@ -404,7 +404,7 @@ def _torque(newton_metres: float) -> str:
     return f"{_digits(newton_metres)} N·m" if newton_metres >= 1 else f"{_digits(1e3 * newton_metres)} mN·m"
 
 
-def _distance(case: Case) -> str:
+def _distance(case: HypothesisCase) -> str:
     return _length(float(np.linalg.norm(case.evidence.centre_of_mass_S)))
 
 
@@ -446,7 +446,7 @@ _LEFT_OVER = float(
 )  # that an unknown cause is more probable than any whose residuals chance refutes
 
 
-def odds(cases: Sequence[Case], mistake: float, *, explained: bool) -> Mapping[str, float]:
+def odds(cases: Sequence[HypothesisCase], mistake: float, *, explained: bool) -> Mapping[str, float]:
     """Return the probability of each case by its key, and of NONE.
 
     None of the known causes is a reading of its own: its likelihood is that of the best known reading with
@@ -454,7 +454,7 @@ def odds(cases: Sequence[Case], mistake: float, *, explained: bool) -> Mapping[s
 
     Parameters
     ----------
-    cases : sequence of Case
+    cases : sequence of HypothesisCase
     mistake : float
         Share of recordings with a mistake of any one family.
     explained : bool
@@ -468,7 +468,7 @@ def odds(cases: Sequence[Case], mistake: float, *, explained: bool) -> Mapping[s
     return dict(zip([*(case.key for case in cases), NONE], shares.tolist(), strict=True))
 
 
-def _unexplained(case: Case) -> float:
+def _unexplained(case: HypothesisCase) -> float:
     """Return the logarithm of the likelihood if the size of the residuals means nothing."""
     return (
         case.value + case.evidence.excess - case.priors.get(QUIET, 0.0) + float(np.log(case.hypothesis.share))

@@ -37,7 +37,7 @@ _NOT_FREE = 1.0  # information on an angle that is not free: any, its step is ze
 
 
 @dataclass(frozen=True, eq=False)
-class Noise:
+class HypothesisNoise:
     """What is known of the noise before anything is fitted."""
 
     sigmas: NDArray[np.float64]  # (6,) of a pose's mean, N and N·m
@@ -212,7 +212,7 @@ class Fits:
         return np.asarray((self.kept[:, None].astype(np.float64) @ each)[:, 0], dtype=np.float64)
 
 
-def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: Noise) -> Fits:
+def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: HypothesisNoise) -> Fits:
     """Return fits that have not begun: g and L are zero.
 
     Parameters
@@ -220,7 +220,7 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: Noise) -> Fits:
     hypotheses : sequence of Hypothesis
     poses : Stack
         As declared.
-    noise : Noise
+    noise : HypothesisNoise
     """
     h, n = len(hypotheses), len(poses)
     factors = np.array([hypothesis.factor for hypothesis in hypotheses])
@@ -256,7 +256,7 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: Noise) -> Fits:
     )
 
 
-def _unsteady(span: NDArray[np.float64], noise: Noise) -> NDArray[np.float64]:
+def _unsteady(span: NDArray[np.float64], noise: HypothesisNoise) -> NDArray[np.float64]:
     """Return what the orientations' errors make (h, 2) of the weight and its torque, N and N·m.
 
     A vector of any direction is sqrt(3) times as long as each component's standard deviation; an error moves it

@@ -10,14 +10,15 @@ import hashlib
 import json
 import os
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from pydantic_core import from_json
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, PlainSerializer, ValidationError
+from pydantic_core import core_schema, from_json
 from scipy.spatial.transform import Rotation
 
 from contactbench import __version__
@@ -29,27 +30,36 @@ from contactbench.pipeline.calibration.model import PARAMETERS, STANDARD_GRAVITY
 from contactbench.pipeline.calibration.observability import Observability
 from contactbench.pipeline.calibration.outliers import Rejection
 from contactbench.pipeline.calibration.poses import PoseSample
-from contactbench.pipeline.calibration.verdict import Level, Verdict
+from contactbench.pipeline.calibration.verdict import Verdict
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
-    from numpy.typing import NDArray
+    from pydantic import GetCoreSchemaHandler
 
+_V = TypeVar("_V")
+
+SCHEMA, VERSION = "contactbench.calibration", 2
 SIZE_LIMIT = 32 * 2**20  # bytes; ten thousand poses take half of it
+REMEDY = "use the file as contactbench wrote it, or calibrate again."
+_ROUNDING = 1e-9  # of what is computed anew, on another machine too
+
+
+class CalibrationFileError(InputError):
+    """A calibration file that cannot be used: names the file, the field, and the remedy."""
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceFile:
     """The file that the poses came from."""
 
     name: str  # Its name, without folders
-    sha256: str  # Of its content, 64 hexadecimal digits
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]  # Of its content
 
     @classmethod
-    def of(cls, file: Path) -> Source:
+    def of(cls, file: Path) -> SourceFile:
         """Read a file for its hash; CalibrationFileError if that fails."""
         try:
             with file.open("rb") as stream:
@@ -89,7 +99,7 @@ class CalibrationRecord:
     calibration: Calibration
     created: datetime | None  # When, UTC; None if nobody said
     tool: str  # What wrote the file
-    source: Source | None  # What the poses came from
+    source: SourceFile | None  # What the poses came from
     mount: Mount | None
 
 
@@ -97,7 +107,7 @@ def save_calibration(
     calibration: Calibration,
     file: Path,
     *,
-    source: Path | Source | None = None,
+    source: Path | SourceFile | None = None,
     created: datetime | None = None,
     mount: Mount | None = None,
 ) -> None:
@@ -109,7 +119,7 @@ def save_calibration(
     calibration : Calibration
     file : path
         Appears as a whole; what was there stays until then.
-    source : path or Source, optional
+    source : path or SourceFile, optional
         The file of the poses, noted with its hash.
     created : datetime, optional
         With a time zone; `creation_time` gives one. Kept to the second.
@@ -120,29 +130,7 @@ def save_calibration(
     CalibrationFileError
         The calibration holds something that no file of this kind can, or the file cannot be written.
     """
-    if isinstance(source, Path):
-        source = Source.of(source)
-    if created is not None and created.tzinfo is None:
-        raise CalibrationFileError(f"{file}: created: the time has no zone: use datetime.now(UTC).")
-    provenance = {
-        "tool": f"contactbench {__version__}",
-        "created": None if created is None else created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
-        "source": None if source is None else vars(source),
-    }
-    fields = None
-    if mount is not None:
-        fields = {
-            "quaternion_SE": mount.quaternion_SE.tolist(),
-            "covariance_rad2": mount.covariance.tolist(),
-        }
-    content = document(calibration, provenance, fields)
-    try:
-        data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
-    except ValueError as error:  # not finite, or text that is no Unicode
-        raise CalibrationFileError(
-            f"{file}: this calibration cannot be written ({error}): {REMEDY}"
-        ) from error
-    _decode(data, str(file))  # what cannot be read is better refused now
+    data = encode_calibration(calibration, str(file), source=source, created=created, mount=mount)
     try:
         write_durably(file, data)
     except (OSError, ValueError) as error:
@@ -150,6 +138,29 @@ def save_calibration(
             f"{file}: the calibration cannot be written ({error}): choose a folder that exists, is writable"
             " and has space."
         ) from error
+
+
+def encode_calibration(
+    calibration: Calibration,
+    name: str,
+    *,
+    source: Path | SourceFile | None = None,
+    created: datetime | None = None,
+    mount: Mount | None = None,
+) -> bytes:
+    """Return what `save_calibration` writes; `name` is what messages call it."""
+    if created is not None and created.tzinfo is None:
+        raise CalibrationFileError(f"{name}: created: the time has no zone: use datetime.now(UTC).")
+    source = SourceFile.of(source) if isinstance(source, Path) else source
+    content = _document(calibration, source, created, mount)
+    try:
+        data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    except ValueError as error:  # not finite, or text that is no Unicode
+        raise CalibrationFileError(
+            f"{name}: this calibration cannot be written ({error}): {REMEDY}"
+        ) from error
+    _decode(data, name)  # what cannot be read is better refused now
+    return data
 
 
 def load_calibration(file: Path) -> Calibration:
@@ -204,154 +215,337 @@ def creation_time() -> datetime:
         ) from None
 
 
-# ---- reading -----------------------------------------------------------------------------------
+# ---- the fields, in the order of the file -------------------------------------------------------
 
-_ROUNDING = 1e-9  # of what is computed anew, on another machine too
+
+class _Listed:
+    """A value that JSON has as a list: checked as the list, then made; written as the list again."""
+
+    def __init__(self, listed: Any, make: Callable[[list[Any]], Any] = np.array) -> None:
+        self._listed, self._make = listed, make
+
+    def __get_pydantic_core_schema__(
+        self, _source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_after_validator_function(
+            self._make,
+            handler.generate_schema(self._listed),
+            serialization=core_schema.plain_serializer_function_ser_schema(lambda a: np.asarray(a).tolist()),
+        )
+
+
+def _list_of(each: Any, least: int, most: int | None = None) -> Any:
+    return Annotated[list[each], Field(min_length=least, max_length=most or least)]
+
+
+_Float = PlainSerializer(float)
+# The square of the largest number is still one.
+_Number = Annotated[float, Field(ge=-1e100, le=1e100), _Float]
+_Positive = Annotated[float, Field(ge=0, le=1e100), _Float]
+_Freedom = Annotated[float, Field(gt=0, le=1e100)]
+_Count = Annotated[int, Field(ge=1, le=2**63 - 1), PlainSerializer(int)]
+_Rank = Annotated[int, Field(ge=0, le=6)]
+_Flag = Annotated[bool, PlainSerializer(bool)]
+_Three = Annotated[NDArray[np.float64], _Listed(_list_of(_Number, 3))]
+_ThreePositive = Annotated[NDArray[np.float64], _Listed(_list_of(_Positive, 3))]
+_OneOrThree = Annotated[NDArray[np.float64], _Listed(_list_of(_Number, 1, 3))]  # one serves for all axes
+_Four = Annotated[NDArray[np.float64], _Listed(_list_of(_Number, 4))]
+_Matrix3 = Annotated[NDArray[np.float64], _Listed(_list_of(_list_of(_Number, 3), 3))]
+_Matrix12 = Annotated[NDArray[np.float64], _Listed(_list_of(_list_of(_Number, 12), 12))]
+_Two = Annotated[tuple[float, float], _Listed(_list_of(_Positive, 2), tuple)]
+_Words = Annotated[tuple[str, ...], _Listed(list[str], tuple)]
+_Time = Annotated[str, Field(pattern="^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$")]
+
+
+class _Part(BaseModel):
+    """A JSON object: every field there, of its own type, finite. A field is called as in the value it is of."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False)
+
+    @classmethod
+    def of(cls, value: object, **more: Any) -> Self:
+        """Return the part that writes a value; `more` has what the value itself does not."""
+        given = {
+            name: more[name] if name in more else getattr(value, name)
+            for name in cls.model_fields
+            if name in more or hasattr(value, name)
+        }
+        return cls.model_construct(**{cls.model_fields[name].alias or name: given[name] for name in given})
+
+    def value(self, kind: type[_V], **more: Any) -> _V:
+        """Return the value that was read; InputError if it refuses that."""
+        known = {each.name for each in fields(kind)} & type(self).model_fields.keys()  # type: ignore[arg-type]
+        return kind(**{**{name: getattr(self, name) for name in known}, **more})
+
+
+class _TaskPart(_Part):
+    point: _Three = Field(alias="point_S_m")
+    normal: _Three = Field(alias="normal_S")
+    force: _Number = Field(alias="force_N")
+    tilt: _Number = Field(alias="tilt_rad")
+    friction: _Number = Field(alias="friction_rad")
+
+
+class _NoisePart(_Part):
+    force: _OneOrThree = Field(alias="force_N")
+    torque: _OneOrThree = Field(alias="torque_Nm")
+    estimated: _Flag
+    force_freedom: _Freedom | None  # None: infinite
+    torque_freedom: _Freedom | None
+    least_force: _ThreePositive = Field(alias="least_force_N")
+    least_torque: _ThreePositive = Field(alias="least_torque_Nm")
+    orientation: _Positive = Field(alias="orientation_rad")
+
+
+class _ObservabilityPart(_Part):
+    rank: Annotated[int, Field(ge=0, le=12)]
+    force_rank: _Rank
+    torque_rank: _Rank
+    condition: _Positive | None  # None: infinite
+    force_condition: _Positive | None
+    torque_condition: _Positive | None
+    null_directions: _Words
+    weighs: _Flag
+    weak: str
+
+
+class _PosePart(_Part):
+    """A pose, with what the fit leaves of it."""
+
+    name: str
+    time: _Number | None = Field(alias="time_s")
+    R_WS: _Matrix3
+    force: _Three = Field(alias="force_N")
+    torque: _Three = Field(alias="torque_Nm")
+    count: _Count
+    force_sd: _ThreePositive | None = Field(alias="force_sd_N")
+    torque_sd: _ThreePositive | None = Field(alias="torque_sd_Nm")
+    temperature: _Number | None = Field(alias="temperature_C")
+    residual_force: _Three = Field(alias="residual_force_N")
+    residual_torque: _Three = Field(alias="residual_torque_Nm")
+    offset_force: _Three = Field(alias="offset_force_N")
+    offset_torque: _Three = Field(alias="offset_torque_Nm")
+    force_deviate: _Number
+    torque_deviate: _Number
+
+
+class _DriftPart(_Part):
+    """Growth of the biases at the session's end, and its 1 sigma."""
+
+    force_N_per_s: _Three
+    torque_Nm_per_s: _Three
+    force_sigma_N_per_s: _ThreePositive
+    torque_sigma_Nm_per_s: _ThreePositive
+
+
+class _MountPart(_Part):
+    quaternion_SE: _Four
+    covariance: _Matrix3 = Field(alias="covariance_rad2")
+
+
+class _Document(_Part):
+    """A whole file."""
+
+    schema_: Literal["contactbench.calibration"] = Field(alias="schema")
+    version: Literal[2]
+    tool: str
+    created: _Time | None
+    source: SourceFile | None
+    verdict: Verdict
+    contact_error: _Positive = Field(alias="contact_error_m")
+    task: _TaskPart
+    gravity_W: _Three = Field(alias="gravity_W_N")
+    mass: _Positive = Field(alias="mass_kg")
+    force_bias: _Three = Field(alias="force_bias_N")
+    centre_of_mass_S: _Three = Field(alias="centre_of_mass_S_m")
+    torque_bias: _Three = Field(alias="torque_bias_Nm")
+    parameters: list[str]
+    covariance: _Matrix12
+    noise: _NoisePart
+    scatter: _Positive
+    plausible: _Flag
+    noise_factor: _Two
+    causes: tuple[Cause, ...]
+    drift: _DriftPart | None
+    model_error: _Positive = Field(alias="model_error_m")
+    down_W: _Three
+    observability: _ObservabilityPart
+    rejected: tuple[Rejection, ...]
+    poses: Annotated[list[_PosePart], Field(min_length=3)]
+    mount: _MountPart | None = None
+
+
+# ---- writing -----------------------------------------------------------------------------------
+
+
+def _document(
+    calibration: Calibration, source: SourceFile | None, created: datetime | None, mount: Mount | None
+) -> dict[str, Any]:
+    """Lay a calibration out as JSON."""
+    noise, sight = calibration.noise, calibration.observability
+    rate, sigma = calibration.drift_rate, calibration.drift_rate_sigma
+    drift = None
+    if rate is not None and sigma is not None:
+        parts = (rate[:3], rate[3:], sigma[:3], sigma[3:])
+        drift = _DriftPart.of(None, **dict(zip(_DriftPart.model_fields, parts, strict=True)))
+    return _Document.of(
+        calibration,
+        schema_=SCHEMA,
+        version=VERSION,
+        tool=f"contactbench {__version__}",
+        created=None if created is None else created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        source=source,
+        task=_TaskPart.of(calibration.task),
+        parameters=list(PARAMETERS),
+        noise=_NoisePart.of(
+            noise,
+            force=np.atleast_1d(noise.force),
+            torque=np.atleast_1d(noise.torque),
+            force_freedom=_or_null(noise.freedom[0]),
+            torque_freedom=_or_null(noise.freedom[1]),
+            least_force=noise.least[:3],
+            least_torque=noise.least[3:],
+        ),
+        drift=drift,
+        observability=_ObservabilityPart.of(
+            sight, **{name: _or_null(getattr(sight, name)) for name in _CONDITIONS}
+        ),
+        poses=[
+            _PosePart.of(
+                pose,
+                residual_force=residual[:3],
+                residual_torque=residual[3:],
+                offset_force=offset[:3],
+                offset_torque=offset[3:],
+                force_deviate=deviate[0],
+                torque_deviate=deviate[1],
+            )
+            for pose, residual, offset, deviate in zip(
+                calibration.poses,
+                calibration.residuals,
+                calibration.offsets,
+                calibration.deviates,
+                strict=True,
+            )
+        ],
+        mount=None if mount is None else _MountPart.of(mount),
+    ).model_dump(by_alias=True)
+
+
+_CONDITIONS = ("condition", "force_condition", "torque_condition")
+
+
+def _or_null(value: float) -> float | None:
+    """JSON has no infinity."""
+    return None if value == np.inf else float(value)
+
+
+def _or_infinite(value: float | None) -> float:
+    """Return what `_or_null` wrote."""
+    return np.inf if value is None else value
+
+
+# ---- reading -----------------------------------------------------------------------------------
 
 
 def _decode(data: bytes, name: str) -> CalibrationRecord:
     """Return what a file holds, after checking that its parts fit together."""
     if len(data) > SIZE_LIMIT:
         raise CalibrationFileError(f"{name}: larger than {SIZE_LIMIT >> 20} MiB: choose a calibration file.")
-    content = parse(data, name)
+    content = _parse(data, name)
     model = _model(content, name)
     poses = tuple(_sample(pose, f"{name}: poses[{i}]") for i, pose in enumerate(content.poses))
-    residuals = np.array([pose.residual_force_N + pose.residual_torque_Nm for pose in content.poses])
-    offsets = np.array([pose.offset_force_N + pose.offset_torque_Nm for pose in content.poses])
+    residuals = np.array([[*pose.residual_force, *pose.residual_torque] for pose in content.poses])
+    offsets = np.array([[*pose.offset_force, *pose.offset_torque] for pose in content.poses])
     _check_residuals(model, poses, residuals + offsets, name)
-    drift = content.drift
-    calibration = Calibration(
+    drift, sight = content.drift, content.observability
+    calibration = content.value(
+        Calibration,
         model=model,
-        noise=_noise(content, name),
+        noise=_noise(content.noise, name),
         poses=poses,
         residuals=residuals,
         deviates=np.array([[pose.force_deviate, pose.torque_deviate] for pose in content.poses]),
-        rejected=tuple(Rejection(**vars(part)) for part in content.rejected),
-        observability=_observability(content),
-        scatter=content.scatter,
-        plausible=content.plausible,
+        observability=sight.value(
+            Observability, **{each: _or_infinite(getattr(sight, each)) for each in _CONDITIONS[1:]}
+        ),
         task=_task(content, name),
-        contact_error=content.contact_error_m,
-        verdict=Verdict(content.verdict.level, tuple(content.verdict.reasons)),
-        causes=tuple(Cause(**vars(part)) for part in content.causes),
         offsets=offsets,
-        drift_rate=None if drift is None else np.array(drift.force_N_per_s + drift.torque_Nm_per_s),
+        drift_rate=None if drift is None else np.hstack([drift.force_N_per_s, drift.torque_Nm_per_s]),
         drift_rate_sigma=None
         if drift is None
-        else np.array(drift.force_sigma_N_per_s + drift.torque_sigma_Nm_per_s),
-        noise_factor=(content.noise_factor[0], content.noise_factor[1]),
-        model_error=content.model_error_m,
+        else np.hstack([drift.force_sigma_N_per_s, drift.torque_sigma_Nm_per_s]),
         down_W=_down(content, name),
     )
-    source = None if content.source is None else Source(**vars(content.source))
     return CalibrationRecord(
-        calibration, _created(content, name), content.tool, source, _mount(content, name)
+        calibration, _created(content, name), content.tool, content.source, _mount(content.mount, name)
     )
 
 
-def _model(content: Document, name: str) -> GravityModel:
+def _model(content: _Document, name: str) -> GravityModel:
     with _at(f"{name}: covariance"):
-        covariance = _covariance(content.covariance)
-    model = GravityModel(
-        np.array(content.gravity_W_N),
-        np.array(content.force_bias_N),
-        np.array(content.centre_of_mass_S_m),
-        np.array(content.torque_bias_Nm),
-        covariance,
-    )
-    if abs(model.mass - content.mass_kg) > _ROUNDING * model.mass:
+        _check_covariance(content.covariance)
+    model = content.value(GravityModel)
+    if abs(model.mass - content.mass) > _ROUNDING * model.mass:
         raise CalibrationFileError(
-            f"{name}: mass_kg is {content.mass_kg:.6g}, but gravity_W_N over {STANDARD_GRAVITY} m/s² is"
+            f"{name}: mass_kg is {content.mass:.6g}, but gravity_W_N over {STANDARD_GRAVITY} m/s² is"
             f" {model.mass:.6g}: {REMEDY}"
         )
     return model
 
 
-def _sample(pose: PosePart, where: str) -> PoseSample:
+def _sample(pose: _PosePart, where: str) -> PoseSample:
     with _at(where):
-        sample = PoseSample(
-            np.array(pose.R_WS),
-            np.array(pose.force_N),
-            np.array(pose.torque_Nm),
-            count=pose.count,
-            force_sd=None if pose.force_sd_N is None else np.array(pose.force_sd_N),
-            torque_sd=None if pose.torque_sd_Nm is None else np.array(pose.torque_sd_Nm),
-            temperature=pose.temperature_C,
-            time=pose.time_s,
-            name=pose.name,
-        )
+        sample = pose.value(PoseSample)
     _keep_digits(sample, "R_WS", pose.R_WS)
     return sample
 
 
-def _task(content: Document, name: str) -> ContactTask:
-    part = content.task
+def _task(content: _Document, name: str) -> ContactTask:
     with _at(f"{name}: task"):
-        task = ContactTask(
-            np.array(part.point_S_m),
-            np.array(part.normal_S),
-            part.force_N,
-            part.tilt_rad,
-            part.friction_rad,
-            np.array(content.down_W),
-        )
-    _keep_digits(task, "normal", part.normal_S)
+        task = content.task.value(ContactTask, down_W=content.down_W)
+    _keep_digits(task, "normal", content.task.normal)
     return task
 
 
-def _keep_digits(value: PoseSample | ContactTask, field: str, written: list[Any]) -> None:
+def _keep_digits(value: PoseSample | ContactTask, field: str, written: NDArray[np.float64]) -> None:
     """Undo a last digit: constructors make unit vectors and rotations anew, which may round them again."""
-    array = np.array(written)
-    if np.abs(array - getattr(value, field)).max() < 1e-14:
-        array.flags.writeable = False
-        object.__setattr__(value, field, array)
+    if np.abs(written - getattr(value, field)).max() < 1e-14:
+        written.flags.writeable = False
+        object.__setattr__(value, field, written)
 
 
-def _noise(content: Document, name: str) -> PoseNoise:
-    part = content.noise
-    force, torque = (
-        values[0] if len(values) == 1 else np.array(values) for values in (part.force_N, part.torque_Nm)
-    )
-    least = np.array(part.least_force_N + part.least_torque_Nm)
-    freedom = (or_infinite(part.force_freedom), or_infinite(part.torque_freedom))
+def _noise(part: _NoisePart, name: str) -> PoseNoise:
+    force, torque = (each[0] if len(each) == 1 else each for each in (part.force, part.torque))
     with _at(f"{name}: noise"):
-        return PoseNoise(force, torque, part.estimated, freedom, least, part.orientation_rad)
+        return part.value(
+            PoseNoise,
+            force=force,
+            torque=torque,
+            freedom=(_or_infinite(part.force_freedom), _or_infinite(part.torque_freedom)),
+            least=np.hstack([part.least_force, part.least_torque]),
+        )
 
 
-def _down(content: Document, name: str) -> NDArray[np.float64]:
+def _down(content: _Document, name: str) -> NDArray[np.float64]:
     with _at(f"{name}: down_W"):
         direction(content.down_W)
-    down = np.array(content.down_W)
-    if abs(np.linalg.norm(down) - 1) > _ROUNDING:
+    if abs(np.linalg.norm(content.down_W) - 1) > _ROUNDING:
         raise CalibrationFileError(f"{name}: down_W is not of length 1: {REMEDY}")
-    return down
+    return content.down_W
 
 
-def _observability(content: Document) -> Observability:
-    part = content.observability
-    return Observability(
-        rank=part.rank,
-        force_rank=part.force_rank,
-        torque_rank=part.torque_rank,
-        force_condition=or_infinite(part.force_condition),
-        torque_condition=or_infinite(part.torque_condition),
-        null_directions=tuple(part.null_directions),
-        weighs=part.weighs,
-        weak=part.weak,
-    )
-
-
-def _mount(content: Document, name: str) -> Mount | None:
-    part = content.mount
+def _mount(part: _MountPart | None, name: str) -> Mount | None:
     if part is None:
         return None
     if abs(np.linalg.norm(part.quaternion_SE) - 1) > _ROUNDING:
         raise CalibrationFileError(f"{name}: mount.quaternion_SE is not of length 1: {REMEDY}")
     with _at(f"{name}: mount.covariance_rad2"):
-        return Mount(np.array(part.quaternion_SE), _covariance(part.covariance_rad2))
+        _check_covariance(part.covariance)
+    return part.value(Mount)
 
 
-def _created(content: Document, name: str) -> datetime | None:
+def _created(content: _Document, name: str) -> datetime | None:
     try:
         return None if content.created is None else datetime.fromisoformat(content.created)
     except ValueError as error:  # the 31st of February
@@ -377,9 +571,8 @@ def _check_residuals(
         )
 
 
-def _covariance(rows: list[list[float]]) -> NDArray[np.float64]:
-    """Return a matrix that can be a covariance; InputError if it cannot."""
-    C = np.array(rows)
+def _check_covariance(C: NDArray[np.float64]) -> None:
+    """Refuse a matrix that cannot be a covariance; InputError."""
     deviations = np.sqrt(np.maximum(np.diag(C), 0.0))
     with np.errstate(all="ignore"):  # what overflows is refused
         scale = np.where(deviations > 0, deviations, 1.0)
@@ -388,7 +581,6 @@ def _covariance(rows: list[list[float]]) -> NDArray[np.float64]:
         raise InputError(f"the matrix is not symmetric: {REMEDY}")
     if (np.diag(C) < 0).any() or np.linalg.eigvalsh(correlation)[0] < -_ROUNDING:
         raise InputError(f"the matrix is not positive semidefinite, so no covariance: {REMEDY}")
-    return C
 
 
 @contextmanager
@@ -399,190 +591,8 @@ def _at(place: str) -> Iterator[None]:
         raise CalibrationFileError(f"{place}: {error}") from None
 
 
-SCHEMA, VERSION = "contactbench.calibration", 2
-
-REMEDY = "use the file as contactbench wrote it, or calibrate again."
-
-
-class CalibrationFileError(InputError):
-    """A calibration file that cannot be used: names the file, the field, and the remedy."""
-
-
-class Part(BaseModel):
-    """A JSON object: every field named, of its own type, finite."""
-
-    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False)
-
-
-# The square of the largest number is still one.
-_Number = Annotated[float, Field(ge=-1e100, le=1e100)]
-_Positive = Annotated[float, Field(ge=0, le=1e100)]
-_Freedom = Annotated[float, Field(gt=0, le=1e100)]
-_Three = Annotated[list[_Number], Field(min_length=3, max_length=3)]
-_ThreePositive = Annotated[list[_Positive], Field(min_length=3, max_length=3)]
-_OneOrThree = Annotated[list[_Number], Field(min_length=1, max_length=3)]  # one serves for all axes
-_Four = Annotated[list[_Number], Field(min_length=4, max_length=4)]
-_Twelve = Annotated[list[_Number], Field(min_length=12, max_length=12)]
-_Matrix3 = Annotated[list[_Three], Field(min_length=3, max_length=3)]
-_Matrix12 = Annotated[list[_Twelve], Field(min_length=12, max_length=12)]
-_Rank = Annotated[int, Field(ge=0, le=6)]
-_Time = Annotated[str, Field(pattern="^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$")]
-
-
-class SourcePart(Part):
-    """Which file the poses came from."""
-
-    name: str
-    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
-
-
-class VerdictPart(Part):
-    """As Verdict."""
-
-    level: Level
-    reasons: list[str]
-
-
-class TaskPart(Part):
-    """As ContactTask."""
-
-    point_S_m: _Three
-    normal_S: _Three
-    force_N: _Number
-    tilt_rad: _Number
-    friction_rad: _Number
-
-
-class NoisePart(Part):
-    """As PoseNoise; a freedom of null is infinite."""
-
-    force_N: _OneOrThree
-    torque_Nm: _OneOrThree
-    estimated: bool
-    force_freedom: _Freedom | None
-    torque_freedom: _Freedom | None
-    least_force_N: _ThreePositive
-    least_torque_Nm: _ThreePositive
-    orientation_rad: _Positive
-
-
-class ObservabilityPart(Part):
-    """As Observability; a condition of null is infinite."""
-
-    rank: Annotated[int, Field(ge=0, le=12)]
-    force_rank: _Rank
-    torque_rank: _Rank
-    condition: _Positive | None
-    force_condition: _Positive | None
-    torque_condition: _Positive | None
-    null_directions: list[str]
-    weighs: bool
-    weak: str
-
-
-class RejectedPart(Part):
-    """As Rejection."""
-
-    index: Annotated[int, Field(ge=0)]
-    name: str
-    force_sigmas: _Number
-    torque_sigmas: _Number
-    reason: str
-
-
-class PosePart(Part):
-    """As PoseSample, with what the fit leaves of it."""
-
-    name: str
-    time_s: _Number | None
-    R_WS: _Matrix3
-    force_N: _Three
-    torque_Nm: _Three
-    count: Annotated[int, Field(ge=1, le=2**63 - 1)]
-    force_sd_N: _ThreePositive | None
-    torque_sd_Nm: _ThreePositive | None
-    temperature_C: _Number | None
-    residual_force_N: _Three
-    residual_torque_Nm: _Three
-    offset_force_N: _Three
-    offset_torque_Nm: _Three
-    force_deviate: _Number
-    torque_deviate: _Number
-
-
-class CausePart(Part):
-    """As Cause."""
-
-    key: str
-    odds: Annotated[float, Field(ge=0, le=1)]
-    sentence: str
-    believed: bool
-
-
-class DriftPart(Part):
-    """Growth of the biases at the session's end, and its 1 sigma."""
-
-    force_N_per_s: _Three
-    torque_Nm_per_s: _Three
-    force_sigma_N_per_s: _ThreePositive
-    torque_sigma_Nm_per_s: _ThreePositive
-
-
-class MountPart(Part):
-    """As Mount."""
-
-    quaternion_SE: _Four
-    covariance_rad2: _Matrix3
-
-
-class Document(Part):
-    """A whole file."""
-
-    schema_: Literal["contactbench.calibration"] = Field(alias="schema")
-    version: Literal[2]
-    tool: str
-    created: _Time | None
-    source: SourcePart | None
-    verdict: VerdictPart
-    contact_error_m: _Positive
-    task: TaskPart
-    gravity_W_N: _Three
-    mass_kg: _Positive
-    force_bias_N: _Three
-    centre_of_mass_S_m: _Three
-    torque_bias_Nm: _Three
-    parameters: list[str]
-    covariance: _Matrix12
-    noise: NoisePart
-    scatter: _Positive
-    plausible: bool
-    noise_factor: Annotated[list[_Positive], Field(min_length=2, max_length=2)]
-    causes: list[CausePart]
-    drift: DriftPart | None
-    model_error_m: _Positive
-    down_W: _Three
-    observability: ObservabilityPart
-    rejected: list[RejectedPart]
-    poses: Annotated[list[PosePart], Field(min_length=3)]
-    mount: MountPart | None = None
-
-
-def parse(data: bytes, name: str) -> Document:
-    """
-    Return what a file holds, every field in its place and of its type.
-
-    Parameters
-    ----------
-    data : bytes
-        Its content.
-    name : str
-        What messages call it.
-
-    Raises
-    ------
-    CalibrationFileError
-        It is no JSON, of another kind or version, or a field is missing, unknown, wrong or contradicts another.
-    """
+def _parse(data: bytes, name: str) -> _Document:
+    """Return what a file holds, every field in its place and of its type; CalibrationFileError if not."""
     try:
         content = from_json(data)
     except ValueError as error:
@@ -593,7 +603,7 @@ def parse(data: bytes, name: str) -> Document:
     if content.get("version") == 1 and not isinstance(content["version"], bool):
         data = json.dumps(_upgraded(content)).encode()
     try:
-        document = Document.model_validate_json(data)
+        document = _Document.model_validate_json(data)
     except ValidationError as error:
         fault = error.errors(include_url=False, include_context=False, include_input=False)[0]
         raise CalibrationFileError(f"{name}: {_where(fault['loc'])} {_what(fault)}: {REMEDY}") from None
@@ -641,17 +651,19 @@ def _upgraded(content: dict[str, Any]) -> dict[str, Any]:
     return {**content, **new, "noise": noise, "poses": poses}
 
 
-def _check_facts(content: Document, name: str) -> None:
+def _check_facts(content: _Document, name: str) -> None:
     """Refuse fields that contradict one another."""
     sight = content.observability
-    worst = max(or_infinite(sight.force_condition), or_infinite(sight.torque_condition))
+    worst = max(_or_infinite(sight.force_condition), _or_infinite(sight.torque_condition))
     faults = {
         "parameters": tuple(content.parameters) != PARAMETERS,
         "observability.rank": sight.rank != sight.force_rank + sight.torque_rank,
-        "observability.condition": or_infinite(sight.condition) != worst,
+        "observability.condition": _or_infinite(sight.condition) != worst,
     }
     indices = [part.index for part in content.rejected]
-    faults["rejected"] = len(set(indices)) < len(indices) or max(indices, default=0) >= len(content.poses)
+    known = set(range(len(content.poses)))
+    faults["rejected"] = len(set(indices)) < len(indices) or not known.issuperset(indices)
+    faults["causes"] = not all(0 <= cause.odds <= 1 for cause in content.causes)
     for field, wrong in faults.items():
         if wrong:
             raise CalibrationFileError(f"{name}: {field} does not fit the other fields: {REMEDY}")
@@ -676,130 +688,3 @@ _WORDS = {
 def _what(fault: Mapping[str, Any]) -> str:
     message = str(fault["msg"]).removeprefix("Input ")
     return _WORDS.get(fault["type"], message[:1].lower() + message[1:])
-
-
-# ---- writing -----------------------------------------------------------------------------------
-
-
-def document(
-    calibration: Calibration, provenance: Mapping[str, Any], mount: Mapping[str, Any] | None
-) -> dict[str, Any]:
-    """
-    Lay a calibration out as JSON; the order of the fields is that of the file.
-
-    Parameters
-    ----------
-    calibration : Calibration
-    provenance : mapping
-        The fields tool, created and source.
-    mount : mapping, optional
-        The field mount.
-    """
-    model, task, verdict = calibration.model, calibration.task, calibration.verdict
-    return {
-        "schema": SCHEMA,
-        "version": VERSION,
-        **provenance,
-        "verdict": {"level": verdict.level.value, "reasons": list(verdict.reasons)},
-        "contact_error_m": float(calibration.contact_error),
-        "task": {
-            "point_S_m": task.point.tolist(),
-            "normal_S": task.normal.tolist(),
-            "force_N": float(task.force),
-            "tilt_rad": float(task.tilt),
-            "friction_rad": float(task.friction),
-        },
-        "gravity_W_N": model.gravity_W.tolist(),
-        "mass_kg": model.mass,
-        "force_bias_N": model.force_bias.tolist(),
-        "centre_of_mass_S_m": model.centre_of_mass_S.tolist(),
-        "torque_bias_Nm": model.torque_bias.tolist(),
-        "parameters": list(PARAMETERS),
-        "covariance": model.covariance.tolist(),
-        "noise": _noise_part(calibration.noise),
-        "scatter": float(calibration.scatter),
-        "plausible": bool(calibration.plausible),
-        "noise_factor": list(calibration.noise_factor),
-        "causes": [vars(cause) for cause in calibration.causes],
-        "drift": _drift(calibration),
-        "model_error_m": float(calibration.model_error),
-        "down_W": calibration.down_W.tolist(),
-        "observability": _observability_part(calibration.observability),
-        "rejected": [vars(rejection) for rejection in calibration.rejected],
-        "poses": [_pose(calibration, index) for index in range(len(calibration.poses))],
-        "mount": mount,
-    }
-
-
-def _noise_part(noise: PoseNoise) -> dict[str, Any]:
-    return {
-        "force_N": np.atleast_1d(noise.force).tolist(),
-        "torque_Nm": np.atleast_1d(noise.torque).tolist(),
-        "estimated": bool(noise.estimated),
-        "force_freedom": _or_null(noise.freedom[0]),
-        "torque_freedom": _or_null(noise.freedom[1]),
-        "least_force_N": noise.least[:3].tolist(),
-        "least_torque_Nm": noise.least[3:].tolist(),
-        "orientation_rad": float(noise.orientation),
-    }
-
-
-def _drift(calibration: Calibration) -> dict[str, Any] | None:
-    rate, sigma = calibration.drift_rate, calibration.drift_rate_sigma
-    if rate is None or sigma is None:
-        return None
-    return {
-        "force_N_per_s": rate[:3].tolist(),
-        "torque_Nm_per_s": rate[3:].tolist(),
-        "force_sigma_N_per_s": sigma[:3].tolist(),
-        "torque_sigma_Nm_per_s": sigma[3:].tolist(),
-    }
-
-
-def _observability_part(sight: Observability) -> dict[str, Any]:
-    return {
-        "rank": sight.rank,
-        "force_rank": sight.force_rank,
-        "torque_rank": sight.torque_rank,
-        "condition": _or_null(sight.condition),
-        "force_condition": _or_null(sight.force_condition),
-        "torque_condition": _or_null(sight.torque_condition),
-        "null_directions": list(sight.null_directions),
-        "weighs": bool(sight.weighs),
-        "weak": sight.weak,
-    }
-
-
-def _pose(calibration: Calibration, index: int) -> dict[str, Any]:
-    pose, residual, offset = (
-        calibration.poses[index],
-        calibration.residuals[index],
-        calibration.offsets[index],
-    )
-    return {
-        "name": pose.name,
-        "time_s": None if pose.time is None else float(pose.time),
-        "R_WS": pose.R_WS.tolist(),
-        "force_N": pose.force.tolist(),
-        "torque_Nm": pose.torque.tolist(),
-        "count": int(pose.count),
-        "force_sd_N": None if pose.force_sd is None else pose.force_sd.tolist(),
-        "torque_sd_Nm": None if pose.torque_sd is None else pose.torque_sd.tolist(),
-        "temperature_C": None if pose.temperature is None else float(pose.temperature),
-        "residual_force_N": residual[:3].tolist(),
-        "residual_torque_Nm": residual[3:].tolist(),
-        "offset_force_N": offset[:3].tolist(),
-        "offset_torque_Nm": offset[3:].tolist(),
-        "force_deviate": float(calibration.deviates[index, 0]),
-        "torque_deviate": float(calibration.deviates[index, 1]),
-    }
-
-
-def _or_null(value: float) -> float | None:
-    """JSON has no infinity."""
-    return None if value == np.inf else float(value)
-
-
-def or_infinite(value: float | None) -> float:
-    """Return what `_or_null` wrote."""
-    return np.inf if value is None else value

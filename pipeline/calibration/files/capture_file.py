@@ -21,7 +21,6 @@ from contactbench.pipeline.calibration.stillness import (
     Capture,
     Rejected,
     StillnessDetector,
-    StillnessSettings,
     StillState,
 )
 from contactbench.pipeline.calibration.stillness.captures import angle
@@ -47,6 +46,7 @@ _BLOCK_ROWS = 20_000
 _LONGEST_DELAY_S = 10.0
 
 Delay = float | Literal["auto"] | None
+Progress = Callable[[int, int], None] | None
 
 
 def is_recording(source: Path | BinaryIO) -> bool:
@@ -60,58 +60,12 @@ def is_recording(source: Path | BinaryIO) -> bool:
         return False
 
 
-def capture_any(
+def capture_poses(
     source: Path | BinaryIO,
     convention: Convention | None = None,
     *,
     robot_poses: Path | None = None,
     R_ES: ArrayLike | None = None,
-    settings: StillnessSettings | None = None,
-    model: GravityModel | None = None,
-    delay: Delay = None,
-    progress: Callable[[int, int], None] | None = None,
-) -> Captured:
-    """
-    Find where a recording stands still, in whichever way it is written; see `capture_file`, `capture_recording`.
-
-    Raises
-    ------
-    InputError
-        Also where what was given does not go together: a convention or a table of the robot beside an MCAP file, which
-        has orientations, and a delay beside a table that has them in its rows.
-    """
-    mcap = is_recording(source)
-    if mcap and (convention is not None or robot_poses is not None):
-        raise InputError(
-            f"{source}: a recording says itself how its orientations are written, and has the robot's: leave the"
-            " convention out, and the robot's table."
-        )
-    if mcap or robot_poses is not None:
-        return capture_recording(
-            source,
-            convention,
-            robot_poses=robot_poses,
-            R_ES=R_ES,
-            settings=settings,
-            model=model,
-            delay=delay,
-            progress=progress,
-        )
-    if delay is not None:
-        raise InputError(
-            f"{source}: a table has wrench and pose in one row: a delay needs a recording, .mcap, or the robot's poses"
-            " as a table of their own."
-        )
-    return capture_file(source, convention, R_ES=R_ES, settings=settings, model=model, progress=progress)
-
-
-def capture_recording(
-    source: Path | BinaryIO,
-    convention: Convention | None = None,
-    *,
-    robot_poses: Path | None = None,
-    R_ES: ArrayLike | None = None,
-    settings: StillnessSettings | None = None,
     model: GravityModel | None = None,
     delay: Delay = None,
     progress: Callable[[int, int], None] | None = None,
@@ -119,38 +73,67 @@ def capture_recording(
     """
     Find where a sensor stood still while a robot held it, and average it there.
 
-    Sensor and robot have times of their own: the flange's orientation is interpolated to each wrench, never
-    extrapolated, nor across a gap of more than 0.25 s. The poses of an MCAP file are those of the table that
-    ``contactbench record convert`` makes. The robot's base B is taken as W.
-
     Parameters
     ----------
     source : path or binary file
-        An MCAP file of one sensor and one robot; with `robot_poses`, the sensor's table, see `read_wrench_track`.
+        An MCAP file of one sensor and one robot. Or a table: columns t (s), fx, fy, fz, mx, my, mz (raw readings, S, N
+        and N·m) and those of the orientation at the same time, unless there are `robot_poses`; read in blocks; empty
+        cells are missing samples.
     convention : Convention, optional
-        How the orientations in `robot_poses` are written.
+        How orientations in a table are written. Left out: quaternions, if there are no others beside them.
     robot_poses : path, optional
-        The robot's table, see `read_flange_track`.
+        The robot's own table, see `read_flange_track`.
     R_ES : array_like (3, 3), optional
-        Orientation of the sensor in the flange.
-    settings : StillnessSettings, optional
+        Orientation of the sensor in the flange, where orientations or joints are those of the flange E.
     model : GravityModel, optional
         A preliminary calibration, to see steady touches.
     delay : float or "auto", optional
         How much later a wrench is heard than its pose, s. An estimate that is doubtful is not applied, and the
-        warnings say so; see `contactbench.pipeline.recording.delay`.
+        warnings say so; see `contactbench.pipeline.recording.delay`. Not for a table with poses in its rows.
     progress : callable, optional
-        Gets the bytes read so far, and those in the file.
+        Gets the bytes read so far, and those in the file (0 if that is unknown).
 
     Raises
     ------
-    RecordingError
-        It is not of one sensor and one robot, has no poses beside the wrenches, or its motion does not show the
-        delay.
     WrenchFileError
         A table cannot be used; the message names file, line and column.
+    RecordingError
+        It is not of one sensor and one robot, has no poses beside the wrenches, or its motion does not show the delay.
     InputError
-        R_ES is no rotation, or the delay no time.
+        What was given does not go together, R_ES is no rotation, the delay no time, or there is no such robot.
+    """
+    mcap = is_recording(source)
+    if mcap and (convention is not None or robot_poses is not None):
+        raise InputError(
+            f"{source}: a recording says itself how its orientations are written, and has the robot's: leave the"
+            " convention out, and the robot's table."
+        )
+    work = Capturing(model)
+    if mcap or robot_poses is not None:
+        return _of_two(source, convention, robot_poses, R_ES, work, delay, progress)
+    if delay is not None:
+        raise InputError(
+            f"{source}: a table has wrench and pose in one row: a delay needs a recording, .mcap, or the robot's poses"
+            " as a table of their own."
+        )
+    return _of_table(source, convention, R_ES, work, progress)
+
+
+def _of_two(
+    source: Path | BinaryIO,
+    convention: Convention | None,
+    robot_poses: Path | None,
+    R_ES: ArrayLike | None,
+    work: Capturing,
+    delay: Delay,
+    progress: Progress,
+) -> Captured:
+    """
+    Capture where sensor and robot have times of their own.
+
+    The flange's orientation is interpolated to each wrench, never extrapolated, nor across a gap of more than 0.25 s.
+    The poses of an MCAP file are those of the table that ``contactbench record convert`` makes. The robot's base B is
+    taken as W.
     """
     if robot_poses is None:
         recording = read_recording(Path(str(source)), progress)
@@ -166,7 +149,6 @@ def capture_recording(
     kept = _kept(source, wrenches, there, said)
     R_WS = sensor_orientations(quaternions[kept, :4], Convention(), R_ES)
     times, readings = wrenches.times[kept], wrenches.wrenches[kept]
-    work = Capturing(settings, model)
     for begin in range(0, len(times), _BLOCK_ROWS):
         rows = slice(begin, begin + _BLOCK_ROWS)
         work.update(times[rows], readings[rows], R_WS[rows])
@@ -183,7 +165,7 @@ def read_any_poses(
     progress: Callable[[int, int], None] | None = None,
 ) -> PoseTable:
     """
-    Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_any`.
+    Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_poses`.
 
     A table of samples, by its column t, is a recording too. The lines of poses that were found are their numbers; the
     stretches that gave none are among the warnings.
@@ -197,7 +179,7 @@ def read_any_poses(
         if delay is not None:
             raise InputError(f"{source}: a table of still poses has no delay: leave it out.")
         return read_poses(source, convention, R_ES=R_ES)
-    found = capture_any(
+    found = capture_poses(
         source, convention, robot_poses=robot_poses, R_ES=R_ES, delay=delay, progress=progress
     )
     warnings = (*found.warnings, *found.left_out)
@@ -285,7 +267,7 @@ class Captured:
     rejected: tuple[Rejected, ...]  # What was refused, and why, in order
     rows: int  # Of the recording
     warnings: tuple[str, ...] = ()  # What was noticed, in sentences
-    delay: float | None = None  # That was asked for or estimated, s; see `capture_recording`
+    delay: float | None = None  # That was asked for or estimated, s; see `capture_poses`
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -295,40 +277,13 @@ class Captured:
         )
 
 
-def capture_file(
+def _of_table(
     source: Path | BinaryIO,
-    convention: Convention | None = None,
-    *,
-    R_ES: ArrayLike | None = None,
-    settings: StillnessSettings | None = None,
-    model: GravityModel | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    convention: Convention | None,
+    R_ES: ArrayLike | None,
+    work: Capturing,
+    progress: Progress,
 ) -> Captured:
-    """Find where a recording stands still, and average it there.
-
-    Parameters
-    ----------
-    source : path or binary file
-        Columns t (s), fx, fy, fz, mx, my, mz (raw readings, S, N and N·m) and those of the orientation at the
-        same time. Read in blocks; empty cells are missing samples.
-    convention : Convention, optional
-        How orientations are written. Left out: quaternions, if there are no others beside them.
-    R_ES : array_like (3, 3), optional
-        Orientation of the sensor in the flange, where orientations or joints are those of the flange E.
-    settings : StillnessSettings, optional
-    model : GravityModel, optional
-        A preliminary calibration, to see steady touches.
-    progress : callable, optional
-        Called after each block with the bytes read and the size of the source (0 if that is unknown).
-
-    Raises
-    ------
-    WrenchFileError
-        The source cannot be used; the message names file, line and column.
-    InputError
-        R_ES is no rotation, or there is no such robot.
-    """
-    work = Capturing(settings, model)
     with open_table(source, WrenchFileError) as (stream, name, size):
         reader = TableReader(stream, name, Wording(_HEADER, rows="readings", error=WrenchFileError))
         convention = find_convention(reader, convention)
@@ -357,13 +312,12 @@ class Capturing:
 
     Parameters
     ----------
-    settings : StillnessSettings, optional
     model : GravityModel, optional
         A preliminary calibration, to see steady touches.
     """
 
-    def __init__(self, settings: StillnessSettings | None = None, model: GravityModel | None = None) -> None:
-        self._detector = StillnessDetector(None, settings, model)
+    def __init__(self, model: GravityModel | None = None) -> None:
+        self._detector = StillnessDetector(None, None, model)
         self._rows = 0
         self._looked_at = -np.inf
         self._first: tuple[int, float, NDArray[np.float64]] | None = None  # of the stop: row, time, R_WS
@@ -445,9 +399,6 @@ def in_order(reader: TableReader) -> Iterator[TableRows]:
             )
         latest = float(times[-1])
         yield rows
-
-
-Progress = Callable[[int, int], None] | None
 
 
 def read_wrench_track(source: Path | BinaryIO, progress: Progress = None) -> WrenchTrack:

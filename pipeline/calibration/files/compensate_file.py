@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 import time
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -20,8 +19,14 @@ from contactbench.pipeline.calibration.files.pose_csv import (
 )
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
 from contactbench.pipeline.calibration.verdict import Level
-from contactbench.pipeline.contact.shortest import WIDTH, shortest
-from contactbench.pipeline.contact.stream import Progress, WrenchFileError, refuse_overwriting, whole_output
+from contactbench.pipeline.contact.shortest import csv_rows
+from contactbench.pipeline.contact.stream import (
+    Progress,
+    WrenchFileError,
+    ahead,
+    refuse_overwriting,
+    whole_output,
+)
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
@@ -130,7 +135,7 @@ def compensate_file(
         reader.select(wanted, text="t", allow_nan=wanted if allow_nan else ())
         work = _Compensation(calibration, convention, mount, reader.error)
         write(HEADER)
-        for text in _ahead(reader, work):
+        for _, text in ahead(reader, work):
             write(text)
             if progress is not None:
                 progress(reader.bytes_read, size)
@@ -146,24 +151,6 @@ def _wording(convention: Convention | None) -> Wording:
         text="a time",
         error=WrenchFileError,
     )
-
-
-def _ahead(blocks: TableReader, work: Callable[[TableRows], bytes]) -> Iterator[bytes]:
-    """Do the `work` on each block in a second thread while the next is read: NumPy releases the lock."""
-    with ThreadPoolExecutor(1, "compensate") as pool:
-        waiting: Future[bytes] | None = None
-        try:
-            for rows in blocks:
-                ahead = pool.submit(work, rows)
-                if waiting is not None:
-                    yield waiting.result()
-                waiting = ahead
-        except InputError:
-            if waiting is not None:
-                waiting.result()  # what is wrong further up in the file comes first
-            raise
-        if waiting is not None:
-            yield waiting.result()
 
 
 class _Compensation:
@@ -200,7 +187,8 @@ class _Compensation:
             wrenches = np.full_like(readings, np.nan)
             wrenches[oriented] = self._model.compensate(R_WS, readings[oriented])
         self._add(wrenches, R_WS, np.flatnonzero(oriented))
-        return _text(rows.text, wrenches)
+        assert rows.text is not None  # noqa: S101  (the table was asked for them)
+        return csv_rows(rows.text, *wrenches.T)
 
     def summary(self, seconds: float) -> CompensateSummary:
         sigma_force, sigma_torque = np.sqrt(self._variances).tolist()
@@ -273,17 +261,3 @@ class _Compensation:
             yield (
                 f"Rows with empty or infinite cells: {self._not_finite} of {self._rows}. Read on with --allow-nan."
             )
-
-
-def _text(times: NDArray[np.bytes_] | None, wrenches: NDArray[np.float64]) -> bytes:
-    """Write CSV lines; rows side by side in a byte matrix, whose NUL bytes are then taken out."""
-    assert times is not None  # noqa: S101  (the table was asked for them)
-    count, width = len(times), times.itemsize
-    rows = np.empty((count, width + 6 * (WIDTH + 1) + 1), dtype=np.uint8)
-    rows[:, :width] = times.view(np.uint8).reshape(count, width)
-    cells = rows[:, width:-1].reshape(count, 6, WIDTH + 1)
-    cells[:, :, 0] = ord(",")
-    for channel, values in enumerate(wrenches.T):  # one at a time stays in the processor's cache
-        cells[:, channel, 1:] = shortest(values)
-    rows[:, -1] = ord("\n")
-    return rows.tobytes().translate(None, b"\0")

@@ -134,26 +134,32 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
     InputError
         There are no poses, a name does not fit into a line, or the file cannot be written.
     """
-    if not poses:
-        raise InputError(f"{file}: there are no poses to write: capture some first.")
-    quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat(canonical=True)
-    rows = [
-        dict(zip(("qx", "qy", "qz", "qw"), quaternion, strict=True)) | _cells(file, poses, index)
-        for index, quaternion in enumerate(quaternions.tolist())
-    ]
-    order = ("t", *Convention().columns, *CHANNELS, *_OPTIONAL[1:], "name")
-    columns = [name for name in order if any(row.get(name) is not None for row in rows)]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([row.get(name) for name in columns] for row in rows)
+    data = encode_poses(poses, str(file))
     try:
-        write_durably(file, text.getvalue().encode())
+        write_durably(file, data)
     except (OSError, ValueError) as error:
         raise InputError(
             f"{file}: the poses cannot be written ({error}): choose a folder that exists, is writable and has"
             " space."
         ) from error
+
+
+def encode_poses(poses: Sequence[PoseSample], name: str) -> bytes:
+    """Return what `write_poses` writes; `name` is what messages call it."""
+    if not poses:
+        raise InputError(f"{name}: there are no poses to write: capture some first.")
+    quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat(canonical=True)
+    rows = [
+        dict(zip(("qx", "qy", "qz", "qw"), quaternion, strict=True)) | _cells(name, poses, index)
+        for index, quaternion in enumerate(quaternions.tolist())
+    ]
+    order = ("t", *Convention().columns, *CHANNELS, *_OPTIONAL[1:], "name")
+    columns = [column for column in order if any(row.get(column) is not None for row in rows)]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([row.get(column) for column in columns] for row in rows)
+    return text.getvalue().encode()
 
 
 # ---- recordings --------------------------------------------------------------------------------
@@ -492,7 +498,7 @@ def _repeats(values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[
 # ---- writing -----------------------------------------------------------------------------------
 
 
-def _cells(file: Path, poses: Sequence[PoseSample], index: int) -> dict[str, object]:
+def _cells(file: str, poses: Sequence[PoseSample], index: int) -> dict[str, object]:
     pose = poses[index]
     cells: dict[str, object] = {"t": pose.time, "count": pose.count, "temperature": pose.temperature}
     for names, values in (
@@ -507,7 +513,7 @@ def _cells(file: Path, poses: Sequence[PoseSample], index: int) -> dict[str, obj
     return cells
 
 
-def _one_line(file: Path, poses: Sequence[PoseSample], index: int) -> str:
+def _one_line(file: str, poses: Sequence[PoseSample], index: int) -> str:
     name = poses[index].name.strip()
     try:
         fits = len(name.encode()) <= _LONGEST_NAME and not any(mark in name for mark in "\0\r\n")

@@ -28,9 +28,9 @@ from contactbench.pipeline.calibration.contact_error import (
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.model import upright as turn_upright
 from contactbench.pipeline.calibration.nuisance import REZERO
+from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
 from contactbench.pipeline.calibration.report.beside import taken_off
-from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

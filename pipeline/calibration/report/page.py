@@ -16,13 +16,13 @@ from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
 from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
+from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
 from contactbench.pipeline.calibration.verdict import Level
-from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.page import moment, render
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.calibrate import Calibration
-    from contactbench.pipeline.calibration.files.calibration_file import Source
+    from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 
 __all__ = ["report_html", "write_report"]
 
@@ -67,7 +67,7 @@ def write_report(
     file: Path,
     *,
     title: str = "Gravity calibration",
-    source: Source | None = None,
+    source: SourceFile | None = None,
     created: datetime | None = None,
 ) -> None:
     """Write a calibration's report as one HTML file that needs nothing beside itself.
@@ -78,7 +78,7 @@ def write_report(
         Appears as a whole; what was there stays until then.
     title : str
         Heading of the page.
-    source : Source, optional
+    source : SourceFile, optional
         The file of the poses, with its hash.
     created : datetime, optional
         When the calibration was made, with a time zone.
@@ -96,7 +96,7 @@ def report_html(
     calibration: Calibration,
     *,
     title: str = "Gravity calibration",
-    source: Source | None = None,
+    source: SourceFile | None = None,
     created: datetime | None = None,
 ) -> str:
     """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""

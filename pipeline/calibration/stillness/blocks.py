@@ -31,7 +31,7 @@ _SPIKE_RUN = 0.004  # s, and two samples at least: what lasts longer is a knock,
 _MADN = 1.4826  # standard deviation of Gaussian numbers over their median absolute deviation
 
 
-class Block(NamedTuple):
+class SampleBlock(NamedTuple):
     """What 0.1 s of samples say."""
 
     first: int
@@ -49,10 +49,10 @@ class Block(NamedTuple):
     R_WS: Floats | None
 
 
-class Held(NamedTuple):
+class HeldCapture(NamedTuple):
     """A capture that was disturbed: dropped if that was a bump, kept if the robot left."""
 
-    blocks: list[Block]
+    blocks: list[SampleBlock]
     reason: str
     since: float
 
@@ -133,7 +133,7 @@ def _spikes(residuals: Floats, least: Floats, run: int) -> NDArray[np.bool_]:
 class Window:
     """Blocks as arrays, and the straight line through their means."""
 
-    def __init__(self, blocks: Sequence[Block]) -> None:
+    def __init__(self, blocks: Sequence[SampleBlock]) -> None:
         self.blocks = blocks
         self.means = np.array([block.mean for block in blocks])
         self.variances = np.array([block.variance for block in blocks])
@@ -164,7 +164,7 @@ def by_chance(freedom: float, risk: float) -> float:
     return float(chdtri(freedom, risk)) / freedom
 
 
-class Intake:
+class SampleIntake:
     """Cuts a stream of samples into blocks.
 
     The blocks follow one another from the first sample on; after a pause they start anew with the sample that
@@ -213,7 +213,7 @@ class Intake:
         self.latest = float(self._t[stop - 1])
         self._filled, self._R = stop, R_WS
 
-    def feed(self, t: Floats, w: Floats, R_WS: Floats | None) -> Iterator[Block | None]:
+    def feed(self, t: Floats, w: Floats, R_WS: Floats | None) -> Iterator[SampleBlock | None]:
         """Add samples (n,), (n, 6) with orientations (n, 3, 3), (3, 3) or None; yield the blocks they end."""
         i = 0
         while i < len(t):
@@ -223,7 +223,7 @@ class Intake:
             self.put(t[i:j], w[i:j], j - i, R_WS[j - 1] if R_WS is not None and R_WS.ndim == 3 else R_WS)
             i = j
 
-    def close(self, t: float) -> Iterator[Block | None]:
+    def close(self, t: float) -> Iterator[SampleBlock | None]:
         """End the block because a sample came at `t`; yield None for one with too few samples."""
         if not self.rate and self._filled >= _LEARNT:
             yield from self._learn()
@@ -234,14 +234,14 @@ class Intake:
                 self.due = t
             self.due += self.length
 
-    def _learn(self) -> Iterator[Block | None]:
+    def _learn(self) -> Iterator[SampleBlock | None]:
         """Take the rate from the samples so far, and cut them again."""
         t, w = self._t[: self._filled].copy(), self._w[: self._filled].copy()
         self._know((len(t) - 1) / (t[-1] - t[0]))
         self._filled, self.due = 0, -inf
         yield from self.feed(t, w, self._R)
 
-    def summary(self) -> Block | None:
+    def summary(self) -> SampleBlock | None:
         """Return what the block says, and begin the next."""
         count, first = self._filled, self._index
         t, w = self._t[:count], self._w[:count]
@@ -253,7 +253,7 @@ class Intake:
             return None
         gap, self.last_finite = float(t[0]) - self.last_finite, float(t[-1])
         mean, variance, quick, freedom, spikes, self._step = _robust(t, w, self._step, self.calm, self._run)
-        return Block(
+        return SampleBlock(
             first, first + count, gap, float(t[0]), float(t[-1]), float(t.mean()), len(t) - spikes, spikes,
             freedom, mean, variance, quick, self._R,
         )  # fmt: skip

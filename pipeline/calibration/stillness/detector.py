@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from contactbench.pipeline.calibration.stillness.blocks import Block, Held, Intake, Window
+from contactbench.pipeline.calibration.stillness.blocks import HeldCapture, SampleBlock, SampleIntake, Window
 from contactbench.pipeline.calibration.stillness.captures import (
     Capture,
     Rejected,
@@ -89,15 +89,15 @@ class StillnessDetector:
         self.model = model
         self.captures: list[Capture] = []
         self.rejected: list[Rejected] = []
-        self._intake = Intake(rate_hz)
+        self._intake = SampleIntake(rate_hz)
         self._rule = Yardstick(s, self._intake)
-        self._blocks: deque[Block] = deque()  # the window
+        self._blocks: deque[SampleBlock] = deque()  # the window
         self._unrests: deque[float] = deque()
         self._begun = False
-        self._open: list[Block] = []  # the capture that is being made
-        self._held: Held | None = None  # one that was disturbed
+        self._open: list[SampleBlock] = []  # the capture that is being made
+        self._held: HeldCapture | None = None  # one that was disturbed
         self._done: Capture | None = None  # that of this pose
-        self._after: list[Block] = []  # the still blocks of the newest capture, and what followed
+        self._after: list[SampleBlock] = []  # the still blocks of the newest capture, and what followed
         self._restless = 0.0  # s since the pose was captured
         self._trims = 0
         self._touched: int | None = None  # which of the rejected goes on
@@ -172,7 +172,7 @@ class StillnessDetector:
         if last is not None:
             self._take(last)
         if self._open:
-            self._held, self._open = Held(self._open, "", self._intake.latest), []
+            self._held, self._open = HeldCapture(self._open, "", self._intake.latest), []
         self._release("the recording ended")
         return self._answer()
 
@@ -195,7 +195,7 @@ class StillnessDetector:
             averaged = self._done.duration
         self._now = Stillness(state, seconds, sd, slope, sigma, averaged, self._recommended, sentence)
 
-    def _reject(self, blocks: Sequence[Block], state: StillState, reason: str) -> None:
+    def _reject(self, blocks: Sequence[SampleBlock], state: StillState, reason: str) -> None:
         first, last = blocks[0], blocks[-1]
         self._refuse(Rejected(first.first, last.last, first.start, last.stop, state, reason))
 
@@ -205,7 +205,7 @@ class StillnessDetector:
 
     # ---- one block -----------------------------------------------------------------------------
 
-    def _take(self, block: Block | None) -> None:
+    def _take(self, block: SampleBlock | None) -> None:
         gap = self._intake.due - self._intake.last_finite if block is None else block.gap
         if gap > self.settings.longest_gap and self._begun:
             self._interrupt(gap)
@@ -260,7 +260,7 @@ class StillnessDetector:
 
     # ---- without a capture ---------------------------------------------------------------------
 
-    def _wait(self, block: Block, window: Window) -> None:
+    def _wait(self, block: SampleBlock, window: Window) -> None:
         unrest, by = self._rule.unrest(window)
         self._unrests.append(unrest)
         self._rearm(block, unrest)
@@ -287,19 +287,19 @@ class StillnessDetector:
             self._open = list(self._blocks)[len(self._blocks) // 2 :]
             self._consider(window)
 
-    def _has_left(self, held: Held, window: Window, quiet: bool, unrest: float) -> bool:
+    def _has_left(self, held: HeldCapture, window: Window, quiet: bool, unrest: float) -> bool:
         """Return whether what disturbed a capture was the beginning of a motion."""
         first, last = window.blocks[0], window.blocks[-1]
         disturbed = first.start if quiet else last.stop if unrest > 1 else -inf
         return disturbed - held.since > _KNOCK or self._turned(held.blocks, last)
 
-    def _turned(self, blocks: Sequence[Block], now: Block) -> bool:
+    def _turned(self, blocks: Sequence[SampleBlock], now: SampleBlock) -> bool:
         before = blocks[0].R_WS
         if before is None or now.R_WS is None:
             return False
         return angle(before, now.R_WS) > self.settings.rotation
 
-    def _rearm(self, block: Block, unrest: float) -> None:
+    def _rearm(self, block: SampleBlock, unrest: float) -> None:
         """Forget that the pose was captured once the robot has left it."""
         if self._done is None:
             return
@@ -364,7 +364,7 @@ class StillnessDetector:
 
     # ---- in a capture --------------------------------------------------------------------------
 
-    def _average(self, block: Block, before: Window, window: Window) -> None:
+    def _average(self, block: SampleBlock, before: Window, window: Window) -> None:
         reason = self._rule.disturbance(block, before, window)
         turned = self._turned(self._open, block)
         if not reason and not turned:
@@ -373,7 +373,7 @@ class StillnessDetector:
             return
         if reason:
             reason += f" after {block.start - self._open[0].start:.1f} s"
-        self._held, self._open = Held(self._open, reason, block.start), []
+        self._held, self._open = HeldCapture(self._open, reason, block.start), []
         self._blocks.clear()  # and is called still again only after a whole quiet window
         self._unrests.append(_UNREST)
         if turned:
@@ -403,7 +403,7 @@ class StillnessDetector:
         self._open = []
         self._complete(blocks, window)
 
-    def _complete(self, blocks: list[Block], window: Window | None) -> None:
+    def _complete(self, blocks: list[SampleBlock], window: Window | None) -> None:
         """Make a capture of `blocks`, or say why not; `window` is that of now if it is still."""
         whole = Window(blocks)
         refused = self._rule.refusal(whole)
@@ -442,10 +442,10 @@ class StillnessDetector:
         else:
             self._complete(blocks, None)
 
-    def _duration(self, blocks: Sequence[Block]) -> float:
+    def _duration(self, blocks: Sequence[SampleBlock]) -> float:
         return blocks[-1].stop - blocks[0].start + 1 / self._intake.rate
 
-    def _blind(self, block: Block) -> str:
+    def _blind(self, block: SampleBlock) -> str:
         """Say why a steady touch would not be seen."""
         if self.model is None:
             return " A steady touch cannot be seen before a first calibration."

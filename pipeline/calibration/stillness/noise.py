@@ -24,7 +24,7 @@ _FITS = 40  # rounds of the fit: to some per cent of the standard error
 
 
 @dataclass(frozen=True, eq=False)
-class Noise:
+class NoiseFloor:
     """Noise of each axis (6,) by its Allan variance: ``white / tau + flicker + walk tau``.
 
     The variance of a mean over T is half the sum of the Allan variances at T, 2 T, 4 T, ... up to the horizon
@@ -98,7 +98,7 @@ class NoiseMemory:
             freedom = np.array([run[1][0] for run in runs])
             self.block_variance = freedom @ np.array([run[0][0] for run in runs]) / freedom.sum()
 
-    def fit(self, means: Floats, white: Floats, rounding: Floats) -> Noise:
+    def fit(self, means: Floats, white: Floats, rounding: Floats) -> NoiseFloor:
         """Return the noise behind block means (n, 6), n >= 2, and all remembered ones.
 
         The estimates of Allan variances are gamma distributed; multiplying each coefficient by the ratio of
@@ -129,7 +129,7 @@ class NoiseMemory:
         # A capture that is less quiet than the others has its own error.
         excess = (own_freedom[:, None] * own / fitted).sum(axis=0) / chdtri(own_freedom.sum(), 0.05)
         parts *= np.maximum(excess, 1.0)
-        return Noise(parts[0], parts[1], parts[2], rounding, self._horizon)
+        return NoiseFloor(parts[0], parts[1], parts[2], rounding, self._horizon)
 
     def _pooled(self, own: Floats, own_freedom: Floats) -> tuple[Floats, Floats]:
         sums, freedom = np.zeros((_LEVELS, 6)), np.zeros(_LEVELS)

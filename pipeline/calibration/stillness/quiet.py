@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from contactbench.pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
+from contactbench.pipeline.calibration.stillness.blocks import SampleBlock, SampleIntake, Window, by_chance
 from contactbench.pipeline.calibration.stillness.captures import (
     LEAST,
     StillnessSettings,
@@ -24,7 +24,7 @@ from contactbench.pipeline.calibration.stillness.captures import (
     short,
     size,
 )
-from contactbench.pipeline.calibration.stillness.noise import Noise, NoiseMemory, rounding_variance
+from contactbench.pipeline.calibration.stillness.noise import NoiseFloor, NoiseMemory, rounding_variance
 
 _FILLED = 0.6  # share of a window's samples that must have come
 _RISK = 1e-6  # that one axis of one clean block looks disturbed: some 200 are tested in a capture
@@ -47,7 +47,7 @@ class Yardstick:
         Of the captures.
     """
 
-    def __init__(self, settings: StillnessSettings, intake: Intake) -> None:
+    def __init__(self, settings: StillnessSettings, intake: SampleIntake) -> None:
         self._s, self._intake = settings, intake
         self._slopes = np.repeat([settings.slope_force, settings.slope_torque], 3)
         self._loudest = np.repeat([settings.loudest_force, settings.loudest_torque], 3)
@@ -147,7 +147,7 @@ class Yardstick:
             return float(jump.max()), f"{size(step / self._intake.length, jump)}/s"
         return float(scatter.max()), f"{size(np.sqrt(last.variance), scatter)} of scatter"
 
-    def disturbance(self, block: Block, before: Window, window: Window) -> str:
+    def disturbance(self, block: SampleBlock, before: Window, window: Window) -> str:
         """Return how a block departs from the capture `before` it, in words; empty if it does not."""
         n = len(before.blocks)
         jitter = np.sqrt(0.5 * (np.diff(before.means, axis=0) ** 2).mean(axis=0))
@@ -163,19 +163,19 @@ class Yardstick:
         excess = self.creep(window, np.maximum(self.sigma, window.scatter))
         return f"the reading crept by {size(window.slope, excess)}/s" if (excess > 1).any() else ""
 
-    def noise(self, blocks: Sequence[Block]) -> Noise:
+    def noise(self, blocks: Sequence[SampleBlock]) -> NoiseFloor:
         """Return the noise behind the means of `blocks`."""
         part = Window(blocks)
         rounding = rounding_variance(part.variance, self._intake.step)
         return self.memory.fit(part.means, part.variance / self._intake.rate, rounding)
 
-    def duration(self, blocks: Sequence[Block]) -> float:
+    def duration(self, blocks: Sequence[SampleBlock]) -> float:
         """Return how long to average by the noise in `blocks`, s: to the target given, or a fifth of the floor."""
         given, s = both(self._s.target_force, self._s.target_torque), self._s
         target = np.where(given > 0, given, 0.2 * self.floor)
         return self.noise(blocks).advise(target, s.min_duration, s.max_duration)
 
-    def tail(self, blocks: Sequence[Block]) -> int:
+    def tail(self, blocks: Sequence[SampleBlock]) -> int:
         """Return how many blocks to leave out at the start, because they had not settled yet."""
         head, length = len(blocks) // 3, self._intake.length
         means = np.array([block.mean for block in blocks])

@@ -19,7 +19,14 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import load_record
 from contactbench.pipeline.config.runtime.build import Filters, RobotNames, build_config
-from contactbench.pipeline.config.runtime.checks import CHECK_KINDS, checks_of, made_with_others, read_check
+from contactbench.pipeline.config.runtime.checks import (
+    CHECK_KINDS,
+    checks_of,
+    made_with_others,
+    rate_reasons,
+    read_check,
+    read_verification,
+)
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from contactbench.pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
@@ -29,7 +36,6 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_of_angles,
     mount_reasons,
 )
-from contactbench.pipeline.config.runtime.verified import rate_reasons, read_verification
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
@@ -50,45 +56,19 @@ _CLOCK_BEGINS = datetime(2000, 1, 1, tzinfo=UTC).timestamp()
 
 @dataclass(frozen=True)
 class ExportSettings:
-    """
-    What an export needs that neither a calibration nor a probe knows.
+    """What an export needs that neither a calibration nor a probe knows."""
 
-    Attributes
-    ----------
-    sensor : str
-        Its model.
-    serial : str or None
-        None: the one that the session knows.
-    rate : float or None
-        Readings a second, Hz; None: that of the verified recording, if the verification says it.
-    noise : WrenchNoise or None
-        Of one reading; None: the scatter within the poses of the calibration, or else `WrenchNoise`'s own.
-    filters : Filters or None
-        None: as `smoothed` and `cutoff` say, at the rate that is found.
-    smoothed : bool
-        Whether the wrench goes through the Kalman filter with its own settings.
-    cutoff : float or None
-        Low-pass of the contact point, Hz; None: none.
-    gates : Gates
-    torsion_arm : float
-        One standard deviation of the local torque over the force, m.
-    limits : LimitsPart
-    controller : ControllerPart or None
-    operator : str or None
-        None: who made the newest of what the session gives.
-    names : RobotNames
-    mount : (4,) tuple or None
-        quaternion_ES, w, x, y, z; None: the one that the calibration was made with, if there is one.
-    """
-
-    sensor: str = "unknown"
-    serial: str | None = None
+    sensor: str = "unknown"  # Its model
+    serial: str | None = None  # None: the one that the session knows
+    # Readings a second, Hz; None: that of the verified recording, if the verification says it
     rate: float | None = None
+    # Of one reading; None: the scatter within the poses of the calibration, or else `WrenchNoise`'s own
     noise: WrenchNoise | None = None
-    filters: Filters | None = None
-    smoothed: bool = True
-    cutoff: float | None = None
+    filters: Filters | None = None  # None: as `smoothed` and `cutoff` say, at the rate that is found
+    smoothed: bool = True  # Whether the wrench goes through the Kalman filter with its own settings
+    cutoff: float | None = None  # Low-pass of the contact point, Hz; None: none
     gates: Gates = field(default_factory=Gates)
+    # One standard deviation of the local torque over the force, m
     torsion_arm: float = TouchModel.torsion_arm
     limits: LimitsPart = field(
         default_factory=lambda: LimitsPart(
@@ -96,8 +76,9 @@ class ExportSettings:
         )
     )
     controller: ControllerPart | None = None
-    operator: str | None = None
+    operator: str | None = None  # None: who made the newest of what the session gives
     names: RobotNames = field(default_factory=RobotNames)
+    # (4,) quaternion_ES, w, x, y, z; None: the one that the calibration was made with, if there is one
     mount: tuple[float, float, float, float] | None = None
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from contactbench.pipeline.config.consumers import regenerate_ft_calib_yaml, regenerate_ros2_yaml
 from contactbench.pipeline.config.runtime.canonical import first_difference
-from contactbench.pipeline.config.runtime.checks import failed_checks
+from contactbench.pipeline.config.runtime.checks import RATE_OFF, failed_checks
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
 from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
@@ -21,7 +21,6 @@ from contactbench.pipeline.config.runtime.values import (
     low_pass_sections,
     wrench_covariance,
 )
-from contactbench.pipeline.config.runtime.verified import RATE_OFF
 from contactbench.pipeline.config.vertical import points_away
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.load import MeshFile, settle

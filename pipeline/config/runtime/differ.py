@@ -37,7 +37,7 @@ _MEANINGS = {
 
 
 @dataclass(frozen=True)
-class Difference:
+class ConfigDifference:
     """A field with two values: its path, the values (JSON), and what it means."""
 
     field: str
@@ -48,21 +48,11 @@ class Difference:
 
 @dataclass(frozen=True)
 class Differences:
-    """
-    All that differs.
+    """All that differs."""
 
-    Attributes
-    ----------
-    fields : tuple of Difference
-        Empty: the two are the same, file hashes included.
-    files : tuple of str
-        Files whose content differs, or that only one has.
-    mesh : mapping or None
-        ``facets`` of both and how far the surfaces are apart, mm; None where ``probe.ply`` is the same.
-    """
-
-    fields: tuple[Difference, ...]
-    files: tuple[str, ...]
+    fields: tuple[ConfigDifference, ...]  # Empty: the two are the same, file hashes included
+    files: tuple[str, ...]  # Files whose content differs, or that only one has
+    # ``facets`` of both and how far the surfaces are apart, mm; None where ``probe.ply`` is the same
     mesh: dict[str, Any] | None
 
     @property
@@ -84,7 +74,7 @@ def differences(one: RuntimeConfig, other: RuntimeConfig) -> Differences:
     """Compare two configs field by field, and their surfaces by distance."""
     first, second = (dict(_flat("", config.model.to_json())) for config in (one, other))
     fields = tuple(
-        Difference(path, first.get(path, _ABSENT), second.get(path, _ABSENT), _meaning(path))
+        ConfigDifference(path, first.get(path, _ABSENT), second.get(path, _ABSENT), _meaning(path))
         for path in sorted(first.keys() | second.keys())
         if first.get(path, _ABSENT) != second.get(path, _ABSENT)
     )

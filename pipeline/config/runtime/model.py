@@ -39,13 +39,13 @@ _File = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")]
 _Time = Annotated[str, Field(pattern="^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$")]
 
 
-class Part(BaseModel):
+class ConfigPart(BaseModel):
     """A JSON object: every field named, of its own type, finite."""
 
     model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
 
 
-class UnitsPart(Part):
+class UnitsPart(ConfigPart):
     """The only units there are; written down so that nobody has to know."""
 
     force: Literal["N"]
@@ -55,7 +55,7 @@ class UnitsPart(Part):
     angle: Literal["rad"]
 
 
-class FramesPart(Part):
+class FramesPart(ConfigPart):
     """
     The frames, in words.
 
@@ -74,7 +74,7 @@ class FramesPart(Part):
     quaternion_ES: _Four | None
 
 
-class WorldPart(Part):
+class WorldPart(ConfigPart):
     """
     Where down is in W, as somebody said: a unit vector.
 
@@ -84,7 +84,7 @@ class WorldPart(Part):
     down_W: _Three
 
 
-class SensorPart(Part):
+class SensorPart(ConfigPart):
     """
     Which sensor this config belongs to: with another one it is wrong.
 
@@ -96,7 +96,7 @@ class SensorPart(Part):
     rate_Hz: _Positive
 
 
-class GravityPart(Part):
+class GravityPart(ConfigPart):
     """
     As GravityModel: a still sensor reads F = R_SW g + F0, M = L x (R_SW g) + M0.
 
@@ -110,7 +110,7 @@ class GravityPart(Part):
     covariance: _Matrix12
 
 
-class DriftPart(Part):
+class DriftPart(ConfigPart):
     """
     How fast the bias changed at the end of the calibration, N/s and N·m/s, each with its standard deviation.
 
@@ -123,7 +123,7 @@ class DriftPart(Part):
     torque_sigma_Nmps: _ThreeSigmas
 
 
-class ZeroPart(Part):
+class ZeroPart(ConfigPart):
     """
     How old the bias is.
 
@@ -135,7 +135,7 @@ class ZeroPart(Part):
     drift: DriftPart | None
 
 
-class NoisePart(Part):
+class NoisePart(ConfigPart):
     """
     How uncertain a wrench is.
 
@@ -151,7 +151,7 @@ class NoisePart(Part):
     wrench_covariance: _Matrix6
 
 
-class KalmanPart(Part):
+class KalmanPart(ConfigPart):
     """
     As KalmanFilter: each channel a random walk seen through white noise.
 
@@ -166,7 +166,7 @@ class KalmanPart(Part):
     per_sample: bool
 
 
-class LowPassPart(Part):
+class LowPassPart(ConfigPart):
     """As LowPass: a Butterworth filter of the contact point; the sections are what the runtime takes."""
 
     kind: Literal["lowpass"]
@@ -176,14 +176,14 @@ class LowPassPart(Part):
     sections: Annotated[list[_Six], Field(min_length=1, max_length=4)]
 
 
-class FiltersPart(Part):
+class FiltersPart(ConfigPart):
     """Of the compensated wrench, and of the contact point."""
 
     wrench: KalmanPart | None
     location: LowPassPart | None
 
 
-class ModelErrorPart(Part):
+class ModelErrorPart(ConfigPart):
     """
     Standard deviation of what drift, cable, hysteresis and mount leave in a wrench, by axis of S.
 
@@ -195,7 +195,7 @@ class ModelErrorPart(Part):
     measured: bool
 
 
-class TouchModelPart(Part):
+class TouchModelPart(ConfigPart):
     """
     As TouchModel: what is known of a touch beside the sensor's noise.
 
@@ -209,7 +209,7 @@ class TouchModelPart(Part):
     mesh_curved: bool
 
 
-class MotionPart(Part):
+class MotionPart(ConfigPart):
     """
     What takes the tool's inertia off the readings, where poses have positions.
 
@@ -221,7 +221,7 @@ class MotionPart(Part):
     gyration_m: Annotated[float, Field(ge=0, le=1)]
 
 
-class StreamsPart(Part):
+class StreamsPart(ConfigPart):
     """
     How poses and samples come together, and when a stream is unhealthy.
 
@@ -237,7 +237,7 @@ class StreamsPart(Part):
     motion: MotionPart | None
 
 
-class GatesPart(Part):
+class GatesPart(ConfigPart):
     """
     As Gates; a limit of null is none. Odds are so many to one; a runtime takes them as 2 ln(odds).
 
@@ -261,7 +261,7 @@ class GatesPart(Part):
     accept_by_region: bool
 
 
-class ProbePart(Part):
+class ProbePart(ConfigPart):
     """The mesh: binary PLY in S, metres, with the priority of each facet in the property ``region``."""
 
     file: _File
@@ -271,7 +271,7 @@ class ProbePart(Part):
     bounds_S_m: Annotated[list[_Three], Field(min_length=2, max_length=2)]
 
 
-class RegionPart(Part):
+class RegionPart(ConfigPart):
     """
     A region.
 
@@ -287,7 +287,7 @@ class RegionPart(Part):
     untouchable: bool
 
 
-class PlanesPart(Part):
+class PlanesPart(ConfigPart):
     """
     The facets as planes in priority order, for controllers that run the loop of Cao et al. (2023) themselves.
 
@@ -299,7 +299,7 @@ class PlanesPart(Part):
     count: _Count
 
 
-class ForceGainsPart(Part):
+class ForceGainsPart(ConfigPart):
     """
     Along S's z axis: ``M`` x'' + ``D`` x' + ``K`` x = error in N.
 
@@ -312,7 +312,7 @@ class ForceGainsPart(Part):
     gain_per_s: _Positive
 
 
-class AngleGainsPart(Part):
+class AngleGainsPart(ConfigPart):
     """
     About S's x and y axes, in this order: ``M`` a'' + ``D`` a' + ``K`` a = error in N·m.
 
@@ -327,7 +327,7 @@ class AngleGainsPart(Part):
     settling_s: _Positive
 
 
-class LeadPart(Part):
+class LeadPart(ConfigPart):
     """
     What the aware variant needs to estimate how the tissue moves, and to lead it.
 
@@ -341,7 +341,7 @@ class LeadPart(Part):
     lean_s: _Positive
 
 
-class TouchPart(Part):
+class TouchPart(ConfigPart):
     """How tissue is met, lost and left; ``probing_m`` is the press that measures its stiffness, 0 for none."""
 
     approach_speed_mps: _Positive
@@ -355,7 +355,7 @@ class TouchPart(Part):
     attempts: _Count
 
 
-class ToolPart(Part):
+class ToolPart(ConfigPart):
     """
     What is known of sensor and tool beside the calibration.
 
@@ -370,7 +370,7 @@ class ToolPart(Part):
     gyration_m: _NotNegative
 
 
-class WatchPart(Part):
+class WatchPart(ConfigPart):
     """
     When it stops and goes back.
 
@@ -385,7 +385,7 @@ class WatchPart(Part):
     max_tilt_rad: Annotated[float, Field(gt=0, lt=1.5708)]
 
 
-class ControllerPart(Part):
+class ControllerPart(ConfigPart):
     """
     Admittance control in force and orientation; see the control documentation.
 
@@ -405,7 +405,7 @@ class ControllerPart(Part):
     watch: WatchPart
 
 
-class LimitsPart(Part):
+class LimitsPart(ConfigPart):
     """What a controller must never exceed."""
 
     max_force_N: _Positive
@@ -414,7 +414,7 @@ class LimitsPart(Part):
     max_turn_radps: _Positive | None
 
 
-class VerificationPart(Part):
+class VerificationPart(ConfigPart):
     """What was measured on markers; lengths in m. ``ratio`` is the error over the noise bound."""
 
     touches: _Count
@@ -431,7 +431,7 @@ class VerificationPart(Part):
     diagnosis: Annotated[str, Field(max_length=10_000)]
 
 
-class KnownWeightPart(Part):
+class KnownWeightPart(ConfigPart):
     """
     A known weight that was hung on the tool, and what the compensated sensor made of it.
 
@@ -447,7 +447,7 @@ class KnownWeightPart(Part):
     created: _Time | None
 
 
-class KnownTouchPart(Part):
+class KnownTouchPart(ConfigPart):
     """
     A known point that was pressed, and where the contact was located; null: it was not.
 
@@ -462,21 +462,21 @@ class KnownTouchPart(Part):
     created: _Time | None
 
 
-class ChecksPart(Part):
+class ChecksPart(ConfigPart):
     """What no residual of a calibration shows - sign, units, scale - and a check does; null: it was not done."""
 
     known_weight: KnownWeightPart | None
     known_touch: KnownTouchPart | None
 
 
-class SelfTestPart(Part):
+class SelfTestPart(ConfigPart):
     """Samples with the answers that a runtime must give; see docs/bundle.md."""
 
     file: _File
     samples: Annotated[int, Field(ge=1, le=100_000)]
 
 
-class SourcePart(Part):
+class SourcePart(ConfigPart):
     """A file that something here was computed from."""
 
     role: _Text
@@ -484,7 +484,7 @@ class SourcePart(Part):
     sha256: _Hash
 
 
-class ProvenancePart(Part):
+class ProvenancePart(ConfigPart):
     """Who, when, with what, and the hash of every other file of the bundle."""
 
     created: _Time
@@ -496,7 +496,7 @@ class ProvenancePart(Part):
     stale: Annotated[list[_Text], Field(max_length=100)]
 
 
-class RuntimeModel(Part):
+class RuntimeModel(ConfigPart):
     """
     A whole config.
 

@@ -21,17 +21,9 @@ _SAME_RAD = 1e-6
 
 @dataclass(frozen=True)
 class Mounts:
-    """
-    quaternion_ES (w, x, y, z) of a calibration and of a verification; None where it is not known.
+    """quaternion_ES (w, x, y, z) of a calibration and of a verification; None where it is not known."""
 
-    Attributes
-    ----------
-    calibrated : (4,) tuple or None
-        None also means that the orientations were the sensor's own.
-    verified : (4,) tuple or None
-    """
-
-    calibrated: Quaternion | None = None
+    calibrated: Quaternion | None = None  # None also means that the orientations were the sensor's own
     verified: Quaternion | None = None
 
 

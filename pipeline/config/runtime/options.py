@@ -30,66 +30,33 @@ _Six = tuple[_Positive, _Positive, _Positive, _Positive, _Positive, _Positive]
 
 
 class ExportOptions(BaseModel):
-    """
-    As the options of ``contactbench bundle export``; None: what the session or the files know.
-
-    Attributes
-    ----------
-    sensor : str
-        Model of the sensor.
-    serial : str or None
-        Its serial number.
-    rate : float or None
-        Readings a second, Hz.
-    mount : three floats or None
-        Angles of the sensor in the flange about the fixed x, y, z, degrees.
-    noise_force, noise_torque : float or None
-        Standard deviation of one reading, N and N·m; both or none.
-    cutoff : float or None
-        Low-pass of the contact point, Hz.
-    no_filter : bool
-        Whether the wrench is left unfiltered.
-    saturation : six floats or None
-        Where the channels end, N and N·m.
-    region_only : bool
-        Whether contacts outside every region are refused.
-    accept_by_region : bool
-        Whether contacts that are sure only because of the regions are accepted.
-    torsion_arm_mm : float
-        Usual local torque over the force, mm.
-    max_force, max_torque : float
-        What a controller must never exceed, N and N·m.
-    controller : ControllerPart or None
-        Gains, as the part ``controller`` of a file that ``contactbench bench control tune`` writes.
-    sensor_frame, world_frame : str
-        S and W, as the robot description names them.
-    sensor_name : str or None
-        The sensor, as the ros2_control tag of the robot description names it; None: ``ros2.yaml`` has a placeholder.
-    operator : str or None
-        Who is answerable.
-    """
+    """As the options of ``contactbench bundle export``; None: what the session or the files know."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    sensor: _Name = "unknown"
+    sensor: _Name = "unknown"  # Its model
     serial: _Name | None = None
-    rate: _Positive | None = None
-    mount: _Three | None = None
+    rate: _Positive | None = None  # Readings a second, Hz
+    mount: _Three | None = None  # Angles of the sensor in the flange about the fixed x, y, z, degrees
+    # Standard deviation of one reading, N and N·m; both or none
     noise_force: _Positive | None = None
     noise_torque: _Positive | None = None
-    cutoff: _Positive | None = None
-    no_filter: bool = False
-    saturation: _Six | None = None
-    region_only: bool = False
-    accept_by_region: bool = True
-    torsion_arm_mm: _Arm = 1.0
+    cutoff: _Positive | None = None  # Low-pass of the contact point, Hz
+    no_filter: bool = False  # The wrench is left unfiltered
+    saturation: _Six | None = None  # Where the channels end, N and N·m
+    region_only: bool = False  # Contacts outside every region are refused
+    accept_by_region: bool = True  # Contacts that are sure only because of the regions are accepted
+    torsion_arm_mm: _Arm = 1.0  # Usual local torque over the force
+    # What a controller must never exceed, N and N·m
     max_force: _Positive = 30.0
     max_torque: _Positive = 3.0
+    # Gains, as the part ``controller`` of a file that ``contactbench bench control tune`` writes
     controller: ControllerPart | None = None
+    # S, W and the sensor, as the robot description names them; without the last ``ros2.yaml`` has a placeholder
     sensor_frame: _Name = "ft_sensor"
     world_frame: _Name = "base_link"
     sensor_name: _Name | None = None
-    operator: _Name | None = None
+    operator: _Name | None = None  # Who is answerable
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> ExportOptions:

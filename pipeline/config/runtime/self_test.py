@@ -17,8 +17,8 @@ import numpy as np
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import SelfTestPart
 from contactbench.pipeline.config.runtime.pack import SELF_TEST
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
-from contactbench.pipeline.config.runtime.synthetic import PoseRow, Row, SampleRow, synthetic_stream
+from contactbench.pipeline.config.runtime.synthetic import Row, StreamPose, StreamSample, synthetic_stream
+from contactbench.pipeline.config.runtime.values import make_runtime
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -100,7 +100,7 @@ def replay(config: RuntimeConfig, name: str) -> int | None:
     where = f"{name}: {part.file}"
     lines = _lines_of(config.files[part.file], where)
     rows = [_row_of(cells, where, line) for line, cells in lines]
-    samples = sum(isinstance(row, SampleRow) for row in rows)
+    samples = sum(isinstance(row, StreamSample) for row in rows)
     if samples != part.samples:
         raise ConfigError(
             f"{where}: there are {samples} samples, but self_test.samples is {part.samples}. {_AGAIN}"
@@ -119,7 +119,7 @@ def _encoded(config: RuntimeConfig) -> bytes:
     lines = list(_HEAD)
     rows = synthetic_stream(config, SAMPLES)
     for row, contact in zip(rows, _answers(config, rows), strict=True):
-        if isinstance(row, PoseRow):
+        if isinstance(row, StreamPose):
             lines.append(",".join(["pose", *map(_cell, (row.time, *row.R, *row.p))]))
         elif contact is not None:
             given = ["sample", _cell(row.time), _cell(row.arrival), str(row.flags), *map(_cell, row.wrench)]
@@ -131,7 +131,7 @@ def _encoded(config: RuntimeConfig) -> bytes:
 def _answers(config: RuntimeConfig, rows: list[Row]) -> Iterator[kernel.RuntimeContact | None]:
     runtime = make_runtime(config)
     for row in rows:
-        if isinstance(row, SampleRow):
+        if isinstance(row, StreamSample):
             yield runtime.locate(np.array(row.wrench), row.time, row.arrival, row.flags)
         else:
             runtime.pose(np.array(row.R).reshape(3, 3), np.array(row.p), row.time)
@@ -187,11 +187,11 @@ def _row_of(cells: list[str], where: str, line: int) -> Row:
     try:
         if columns is _POSE:
             time, *numbers = (_number(cell) for cell in cells[1:])
-            return PoseRow(time, tuple(numbers[:9]), tuple(numbers[9:]))
+            return StreamPose(time, tuple(numbers[:9]), tuple(numbers[9:]))
         time, arrival = _number(cells[1]), _number(cells[2])
         for cell in cells[len(_INPUTS) + len(_NAMES) :]:
             _number(cell)
-        return SampleRow(
+        return StreamSample(
             time, arrival, _flags(cells[3]), tuple(_number(cell) for cell in cells[4 : len(_INPUTS)])
         )
     except ValueError as error:

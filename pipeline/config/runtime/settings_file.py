@@ -16,7 +16,13 @@ from pydantic_core import from_json
 from contactbench.pipeline.config.runtime.build import Filters, gates_content
 from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.errors import ConfigError
-from contactbench.pipeline.config.runtime.model import ControllerPart, GatesPart, KalmanPart, LimitsPart, Part
+from contactbench.pipeline.config.runtime.model import (
+    ConfigPart,
+    ControllerPart,
+    GatesPart,
+    KalmanPart,
+    LimitsPart,
+)
 from contactbench.pipeline.config.runtime.values import gates_of, kalman_of
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.errors import InputError
@@ -28,19 +34,19 @@ if TYPE_CHECKING:
 _LARGEST = 2**20
 
 
-class _LowPass(Part):
+class _LowPass(ConfigPart):
     kind: Literal["lowpass"] = "lowpass"
     rate_Hz: Annotated[float, Field(gt=0, le=1e9)]
     cutoff_Hz: Annotated[float, Field(gt=0, le=1e9)]
     order: Annotated[int, Field(ge=1, le=8)] = 2
 
 
-class _Filters(Part):
+class _Filters(ConfigPart):
     wrench: KalmanPart | None
     location: _LowPass | None
 
 
-class _Settings(Part):
+class _Settings(ConfigPart):
     controller: ControllerPart | None = None
     limits: LimitsPart | None = None
     gates: dict[str, Any] | None = None

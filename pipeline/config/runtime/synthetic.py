@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.values import make_runtime
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +39,7 @@ _OVERRANGE, _INVALID, _LATE, _ERROR, _CLOCK = 1, 2, 8, 16, 32
 
 
 @dataclass(frozen=True)
-class PoseRow:
+class StreamPose:
     """A pose: s, R (nine numbers, row by row), m."""
 
     time: float
@@ -48,7 +48,7 @@ class PoseRow:
 
 
 @dataclass(frozen=True)
-class SampleRow:
+class StreamSample:
     """A raw reading: s, s, bits of Status, N and N·m."""
 
     time: float
@@ -57,7 +57,7 @@ class SampleRow:
     wrench: tuple[float, ...]
 
 
-Row = PoseRow | SampleRow
+Row = StreamPose | StreamSample
 
 
 def synthetic_stream(config: RuntimeConfig, samples: int, seed: int = 1) -> list[Row]:
@@ -219,7 +219,7 @@ class _Stage:
         for repeats in (6, 19):
             self.play([self.cast[0]] * 2)
             last = self.rows[-1]
-            if isinstance(last, SampleRow):
+            if isinstance(last, StreamSample):
                 self._repeat(last.wrench, repeats)
 
     def _repeat(self, wrench: tuple[float, ...], times: int) -> None:
@@ -262,7 +262,7 @@ class _Stage:
         time = round(self.time + shift, 6)
         # Not every stream knows it.
         arrival = round(time + _LATENCY_S, 6) if self.left % 4 else float("nan")
-        self.rows.append(SampleRow(time, arrival, flags, wrench))
+        self.rows.append(StreamSample(time, arrival, flags, wrench))
 
     def _poses(self) -> None:
         while self.next_pose <= self.time + self.lead and not self.full:
@@ -271,7 +271,7 @@ class _Stage:
 
     def _add_pose(self, time: float, R: NDArray[np.float64], p: NDArray[np.float64]) -> None:
         self.rows.append(
-            PoseRow(round(time, 6), tuple(np.round(R, 8).ravel().tolist()), tuple(np.round(p, 6).tolist()))
+            StreamPose(round(time, 6), tuple(np.round(R, 8).ravel().tolist()), tuple(np.round(p, 6).tolist()))
         )
 
     @property

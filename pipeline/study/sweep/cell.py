@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation import Touches
     from contactbench.pipeline.study.sweep.plan import Cell
 
@@ -71,7 +71,7 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
 @lru_cache(maxsize=_METHODS)
 def _method(
     name: str, identity: str, probe: str, facets: int, noise: str, way: str, gates: Gates
-) -> tuple[Method, int]:
+) -> tuple[ContactMethod, int]:
     """Make a method, and say how many facets it has; `identity` tells files apart that were changed meanwhile."""
     del identity
     mesh = mesh_of(probe, facets)
@@ -118,7 +118,7 @@ def _touches(probe: str, force: float, angle: float, torsion: float, count: int,
     )
 
 
-def _timed(method: Method, wrenches: NDArray[np.float64]) -> dict[str, float]:
+def _timed(method: ContactMethod, wrenches: NDArray[np.float64]) -> dict[str, float]:
     times = dict.fromkeys(TIMES, float("nan"))
     engine = getattr(method.engine, "time_each", None)
     slow = False
@@ -136,7 +136,7 @@ def _timed(method: Method, wrenches: NDArray[np.float64]) -> dict[str, float]:
     return times
 
 
-def _calls(method: Method, wrenches: NDArray[np.float64]) -> tuple[Callable[[Any], object], list[Any]]:
+def _calls(method: ContactMethod, wrenches: NDArray[np.float64]) -> tuple[Callable[[Any], object], list[Any]]:
     """Return what is timed from Python; of the wrench axis only the ray, the least that any program must do for it."""
     axis = method.engine
     if not isinstance(axis, EmbreeAxis):

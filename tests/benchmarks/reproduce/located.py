@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.study.control_rig import CalibratedSensor
     from contactbench.pipeline.study.marker_touches import Touched
@@ -173,7 +173,7 @@ class ProbeResult:
 
 def solver_for(
     method: str, name: str, facets: int, bench: CalibratedSensor, R_WS: NDArray[np.float64]
-) -> Method:
+) -> ContactMethod:
     """Build a method that knows the filtered noise and what the calibration leaves, averaged over the touches."""
     extra = bench.calibration.model.wrench_covariance(R_WS).mean(axis=0)
     left = filtered_noise(bench)

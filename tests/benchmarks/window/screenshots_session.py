@@ -11,7 +11,7 @@ from contactbench.app.pages.virtual_mesh import bench_address, take_housing
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.verification.known import TOUCH, WEIGHT
+from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 from contactbench.pipeline.workbench import gravity_results
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.gravity import GravityWork

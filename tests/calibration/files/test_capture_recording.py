@@ -17,9 +17,7 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
     Delay,
-    capture_any,
-    capture_file,
-    capture_recording,
+    capture_poses,
     is_recording,
     read_any_poses,
 )
@@ -94,8 +92,8 @@ def said(result: Any) -> str:
 
 def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_path: Path) -> None:
     write_csv(tmp_path / "a.csv", read_recording(file))
-    table = capture_file(tmp_path / "a.csv", R_ES=MOUNT)
-    found = capture_recording(file, R_ES=MOUNT)
+    table = capture_poses(tmp_path / "a.csv", R_ES=MOUNT)
+    found = capture_poses(file, R_ES=MOUNT)
     assert len(found.poses) >= 5
     assert found.rows == table.rows
     for one, other in zip(found.poses, table.poses, strict=True):
@@ -109,7 +107,7 @@ def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_pat
 
 
 def test_the_poses_lead_to_the_load(file: Path, taken: Recording) -> None:
-    off = calibrate(capture_recording(file, R_ES=MOUNT).poses).model.vector - taken.model.vector
+    off = calibrate(capture_poses(file, R_ES=MOUNT).poses).model.vector - taken.model.vector
     assert np.abs(off[:3]).max() < 0.05
     assert np.abs(off[6:9]).max() < 0.001
 
@@ -132,7 +130,7 @@ def test_a_delay_is_estimated_and_said(taken: Recording, tmp_path: Path) -> None
     facts = json.loads(result.stdout)
     assert facts["delay_s"] == pytest.approx(LATE, abs=0.005)
     assert "ms later than the robot" in said(result)
-    given = capture_recording(late, R_ES=MOUNT, delay=LATE)
+    given = capture_poses(late, R_ES=MOUNT, delay=LATE)
     assert given.delay == LATE
     assert len(given.poses) == len(facts["poses"])
 
@@ -140,7 +138,7 @@ def test_a_delay_is_estimated_and_said(taken: Recording, tmp_path: Path) -> None
 def test_no_pose_is_carried_over_a_gap(taken: Recording, tmp_path: Path) -> None:
     dwell = taken.dwells[2]
     gap = (dwell.start - 0.2, dwell.stop + 0.2)
-    found = capture_recording(write(tmp_path / "gap.mcap", taken, gap=gap), R_ES=MOUNT)
+    found = capture_poses(write(tmp_path / "gap.mcap", taken, gap=gap), R_ES=MOUNT)
     for capture in found.captures:
         assert capture.stop < gap[0] + 0.3 or capture.start > gap[1] - 0.3
     assert "no pose within 0.25 s" in " ".join(found.warnings)
@@ -177,7 +175,7 @@ def test_what_does_not_fit_is_said(file: Path, tmp_path: Path, options: tuple[st
 
 def test_a_delay_needs_a_recording() -> None:
     with pytest.raises(InputError, match="a delay needs a recording"):
-        capture_any(io.BytesIO(b"t\n"), delay=0.1)
+        capture_poses(io.BytesIO(b"t\n"), delay=0.1)
     assert not is_recording(Path("none"))
 
 
@@ -186,8 +184,8 @@ def test_a_delay_needs_a_recording() -> None:
 
 def test_two_tables_give_what_the_recording_gives(file: Path, taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken)
-    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT)
-    expected = capture_recording(file, R_ES=MOUNT)
+    found = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT)
+    expected = capture_poses(file, R_ES=MOUNT)
     assert found.rows == expected.rows
     assert len(found.poses) == len(expected.poses) >= 5
     for one, other in zip(found.poses, expected.poses, strict=True):
@@ -231,18 +229,18 @@ def test_the_other_commands_join_two_tables(taken: Recording, tmp_path: Path) ->
 
 def test_a_doubtful_delay_is_told_and_not_applied(taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken, late=-LATE)
-    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay="auto")
+    found = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay="auto")
     assert found.delay == 0.0
     assert "The delay is not applied" in " ".join(found.warnings)
     assert "--delay -0.04" in " ".join(found.warnings)
-    forced = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=-LATE)
+    forced = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=-LATE)
     assert forced.delay == -LATE
 
 
 def test_a_delay_brings_the_poses_to_their_wrenches(file: Path, taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken, late=3.0)
-    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=3.0)
-    expected = capture_recording(file, R_ES=MOUNT)
+    found = capture_poses(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=3.0)
+    expected = capture_poses(file, R_ES=MOUNT)
     assert len(found.poses) == len(expected.poses)
     for one, other in zip(found.poses, expected.poses, strict=True):
         np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-6)
@@ -254,13 +252,13 @@ def test_tables_that_do_not_go_together(file: Path, taken: Recording, tmp_path: 
     with pytest.raises(
         RecordingError, match=r"wrenches\.csv: column t runs from .*, that of .*robot\.csv from 17"
     ):
-        capture_any(sensor, EULER, robot_poses=robot)
+        capture_poses(sensor, EULER, robot_poses=robot)
     with pytest.raises(InputError, match="leave the convention out, and the robot's table"):
-        capture_any(file, robot_poses=robot)
+        capture_poses(file, robot_poses=robot)
     with pytest.raises(WrenchFileError, match=r"line 1: there is no orientation .*--robot-poses FILE"):
-        capture_any(sensor)
+        capture_poses(sensor)
     with pytest.raises(WrenchFileError, match="pass --euler ORDER"):
-        capture_any(sensor, robot_poses=robot)
+        capture_poses(sensor, robot_poses=robot)
 
 
 def test_wrong_rows_of_the_robot_are_named(taken: Recording, tmp_path: Path) -> None:
@@ -268,10 +266,10 @@ def test_wrong_rows_of_the_robot_are_named(taken: Recording, tmp_path: Path) -> 
     rows = robot.read_text(encoding="utf-8").splitlines()
     robot.write_text("\n".join([*rows[:5], rows[6], rows[5], *rows[7:]]) + "\n", encoding="utf-8")
     with pytest.raises(WrenchFileError, match=r"robot\.csv: line 7: column t runs backwards"):
-        capture_any(sensor, EULER, robot_poses=robot)
+        capture_poses(sensor, EULER, robot_poses=robot)
     (tmp_path / "q.csv").write_text("t,qw,qx,qy,qz\n0,1,0,0,0\n1,1,1,0,0\n", encoding="utf-8")
     with pytest.raises(WrenchFileError, match=r"q\.csv: line 3: the quaternion has length"):
-        capture_any(sensor, robot_poses=tmp_path / "q.csv")
+        capture_poses(sensor, robot_poses=tmp_path / "q.csv")
 
 
 def flat(file: Path, *, robot: bool, shift: float = 0.0) -> Path:
@@ -295,12 +293,12 @@ def test_recordings_that_show_nothing(
     tmp_path: Path, robot: bool, shift: float, delay: Delay, words: str
 ) -> None:
     with pytest.raises(RecordingError, match=words):
-        capture_recording(flat(tmp_path / "a.mcap", robot=robot, shift=shift), delay=delay)
+        capture_poses(flat(tmp_path / "a.mcap", robot=robot, shift=shift), delay=delay)
 
 
 def test_a_damaged_recording_is_named(file: Path, tmp_path: Path) -> None:
     (tmp_path / "b.mcap").write_bytes(file.read_bytes()[:30])
     with pytest.raises(RecordingError, match=r"b\.mcap"):
-        capture_any(tmp_path / "b.mcap")
+        capture_poses(tmp_path / "b.mcap")
     with pytest.raises(InputError, match="leave the convention out"):
         read_any_poses(file, Convention())

@@ -17,8 +17,8 @@ from config.runtime.bundle_reference import Answer, Reference
 from config.runtime.bundles import example
 
 from contactbench import assets
-from contactbench.pipeline.config.runtime.runtime_of import make_runtime
-from contactbench.pipeline.config.runtime.synthetic import PoseRow, synthetic_stream
+from contactbench.pipeline.config.runtime.synthetic import StreamPose, synthetic_stream
+from contactbench.pipeline.config.runtime.values import make_runtime
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.save import encode_probe
 
@@ -157,7 +157,7 @@ def test_every_sample_is_answered_alike(name: str, tmp_path: Path) -> None:
     compiled, reference = make_runtime(config), Reference(tmp_path / "bundle")
     seen: Counter[str] = Counter()
     for number, row in enumerate(synthetic_stream(config, SAMPLES // len(VARIANTS), seed=7)):
-        if isinstance(row, PoseRow):
+        if isinstance(row, StreamPose):
             R, p = np.array(row.R).reshape(3, 3), np.array(row.p)
             assert compiled.pose(R, p, row.time) == reference.pose(R, p, row.time), number
             continue

@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.canonical import json_schema
-from contactbench.pipeline.config.runtime.verified import read_verification
+from contactbench.pipeline.config.runtime.checks import read_verification
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file

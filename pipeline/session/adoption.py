@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import RecordingError, RecordingReader
 from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.files import UNFINISHED, chunks_of, own_file, unfinished, wrong_with
+from contactbench.pipeline.session.files import UNFINISHED, digest_of, own_file, unfinished, wrong_with
 from contactbench.pipeline.session.live import RECORDING
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ def _adopt(session: Session, file: Path) -> str:
     name = file.name.removeprefix(UNFINISHED)
     if not own_file(file).stat().st_size:
         return _remove(file, f"The recording {name} was never begun: its empty file is removed.")
-    digest = _digest(file)
+    digest, _ = digest_of(file)
     same = [each.file for each in session.state.inputs if each.file.sha256 == digest]
     if any(not wrong_with(session.folder, each) for each in same):
         return _remove(file, f"The recording {name} is in the session already: its second name is removed.")
@@ -154,13 +153,6 @@ def _moment(info: RecordingInfo, moment: float) -> datetime | None:
         return datetime.fromtimestamp(info.log_time(moment) / 1e9, UTC)
     except (ValueError, OverflowError, OSError):
         return None
-
-
-def _digest(file: Path) -> str:
-    digest = hashlib.sha256()
-    for chunk in chunks_of(file):
-        digest.update(chunk)
-    return digest.hexdigest()
 
 
 def _remove(file: Path, words: str) -> str:

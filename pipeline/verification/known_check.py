@@ -1,27 +1,23 @@
-"""What the checks against a known weight and a known point share: parameters, outcome, the file they write."""
+"""What the checks against a known weight and a known point share: outcome, and the file they write."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import PosesSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
-    from typing import Self
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.settings import Three
-
-_FOLDERS_SEPARATORS = ("/", "\\")
 
 WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
 SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}
@@ -32,7 +28,7 @@ WEIGHT_ROLES = ("calibration", "unloaded", "loaded")
 TOUCH_ROLES = ("calibration", "probe", "touch")
 
 
-class Outcome(StrEnum):
+class CheckOutcome(StrEnum):
     """What a check says."""
 
     PASSED = "passed"
@@ -40,22 +36,31 @@ class Outcome(StrEnum):
     UNDECIDED = "undecided"  # its uncertainty is too large to tell
 
 
-class CheckParameters(PosesSettings):
-    """Settings of a check, and the name of the file that is written."""
+@dataclass(frozen=True, eq=False)
+class KnownCheck:
+    """What a check shows."""
 
-    name: str
+    outcome: CheckOutcome
+    reasons: tuple[str, ...]  # What is wrong or missing, and what else to know; sentences
+    sentence: str  # All in a paragraph
 
-    @classmethod
-    def checked(cls, values: Mapping[str, Any]) -> Self:
-        """Return parameters; InputError, with the first that is wrong."""
-        given = super().checked(values)
-        if not given.name.endswith(".json") or any(each in given.name for each in _FOLDERS_SEPARATORS):
-            raise InputError(f"{given.name}: the result is a file whose name ends in .json.")
-        return given
+    @property
+    def passed(self) -> bool:
+        """Whether what was measured is what it should be."""
+        return self.outcome is CheckOutcome.PASSED
+
+    def said(self) -> dict[str, Any]:
+        """Return it as the file of the check has it."""
+        return {
+            "outcome": self.outcome.value,
+            "passed": self.passed,
+            "reasons": list(self.reasons),
+            "sentence": self.sentence,
+        }
 
 
 def load_calibrated(
-    file: Path, mount: Three | None
+    file: Path, R_ES: NDArray[np.float64] | None
 ) -> tuple[Calibration, NDArray[np.float64] | None, tuple[str, ...]]:
     """
     Load a calibration.
@@ -64,7 +69,7 @@ def load_calibrated(
     -------
     Calibration
     (3, 3) or None
-        R_ES: as `mount` says, else as the calibration has it.
+        R_ES: as given, else as the calibration has it.
     tuple of str
         Why nothing that rests on it may pass: it was refused.
 
@@ -73,8 +78,6 @@ def load_calibrated(
     InputError
         It cannot be read.
     """
-    from scipy.spatial.transform import Rotation
-
     from contactbench.pipeline.calibration import Level
     from contactbench.pipeline.calibration.files.calibration_file import load_record
 
@@ -82,22 +85,9 @@ def load_calibrated(
     verdict = record.calibration.verdict
     refused = verdict.level is Level.REFUSE
     faults = (f"The calibration was refused: {verdict.reasons[0]}",) if refused else ()
-    if mount is not None:
-        return record.calibration, Rotation.from_euler("xyz", mount, degrees=True).as_matrix(), faults
-    return record.calibration, None if record.mount is None else record.mount.R_SE.T, faults
-
-
-def roles_of(inputs: Mapping[str, Path], roles: tuple[str, ...]) -> None:
-    """InputError unless the inputs are of these roles."""
-    if set(inputs) != set(roles):
-        raise InputError(f"inputs: {', '.join(roles)} are needed; there are {', '.join(inputs) or 'none'}.")
-
-
-def sha256_of(file: Path) -> str:
-    """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
-    from contactbench.pipeline.calibration.files.calibration_file import Source
-
-    return Source.of(file).sha256
+    if R_ES is None and record.mount is not None:
+        R_ES = record.mount.R_SE.T
+    return record.calibration, R_ES, faults
 
 
 def read_check(kind: str, file: Path) -> dict[str, Any]:
@@ -125,7 +115,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
         VERSION,
     )
     words = (content.get("sentence"), content.get("outcome")) if known else ()
-    if not words or not isinstance(words[0], str) or words[1] not in set(Outcome):
+    if not words or not isinstance(words[0], str) or words[1] not in set(CheckOutcome):
         raise InputError(f"{file}: this is no {SCHEMAS[kind]} of version {VERSION}: {remedy}")
     found: dict[str, Any] = content
     return found
@@ -147,11 +137,11 @@ def likely(causes: list[str]) -> str:
     return " ".join([f"Likely cause: {first}.", *(f"Also possible: {each}." for each in others)])
 
 
-def words_of(outcome: Outcome, reasons: list[str], passed: str) -> str:
+def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:
     """Return the one paragraph that says all."""
     start = {
-        Outcome.PASSED: passed,
-        Outcome.FAILED: "The check failed.",
-        Outcome.UNDECIDED: "The check cannot tell.",
+        CheckOutcome.PASSED: passed,
+        CheckOutcome.FAILED: "The check failed.",
+        CheckOutcome.UNDECIDED: "The check cannot tell.",
     }[outcome]
     return " ".join([start, *reasons])

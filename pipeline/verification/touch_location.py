@@ -27,69 +27,36 @@ _MUCH_TORSION = TouchModel(torsion_arm=0.01)  # ten times what is usual
 
 
 @dataclass(frozen=True, eq=False)
-class Located:
-    """
-    The contact of a touch.
+class TouchLocation:
+    """The contact of a touch."""
 
-    Attributes
-    ----------
-    point : (3,)
-        Of the mean wrench, S, m.
-    covariance : (3, 3)
-        Of that point: sensor noise over the samples, and the calibration; m².
-    wrench : (6,)
-        Mean over the samples, S, N and N·m.
-    R_WS : (3, 3)
-    torque : float
-        Local torque k, N·m.
-    normal : (3,)
-        Of the facet that was touched.
-    count : int
-        Samples.
-    drift, drift_sigma : float
-        How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m.
-    ambiguous : bool
-    implausible : bool
-        No single touch explains the wrench, unless with more torque about the normal than a tip can give.
-    """
-
-    point: NDArray[np.float64]
+    point: NDArray[np.float64]  # (3,) of the mean wrench, S, m
+    # (3, 3) of that point: sensor noise over the samples, and the calibration; m²
     covariance: NDArray[np.float64]
-    wrench: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    torque: float
-    normal: NDArray[np.float64]
-    count: int
+    wrench: NDArray[np.float64]  # (6,) mean over the samples, S, N and N·m
+    R_WS: NDArray[np.float64]  # (3, 3)
+    torque: float  # Local torque k, N·m
+    normal: NDArray[np.float64]  # (3,) of the facet that was touched
+    count: int  # Samples
+    # How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m
     drift: float
     drift_sigma: float
     ambiguous: bool
+    # No single touch explains the wrench, unless with more torque about the normal than a tip can give
     implausible: bool = False
 
 
 @dataclass(frozen=True)
-class Placed:
-    """
-    The marker that a contact belongs to.
+class MarkerMatch:
+    """The marker that a contact belongs to."""
 
-    Attributes
-    ----------
-    marker : int
-        Its place in the set.
-    sigmas : float
-        Mahalanobis distance; covariance of the contact, and what alignment may be off.
-    rival : bool
-        A second marker is about as near.
-    far : bool
-        It is none of the markers.
-    """
-
-    marker: int
-    sigmas: float
-    rival: bool
-    far: bool
+    marker: int  # Its place in the set
+    sigmas: float  # Mahalanobis distance; covariance of the contact, and what alignment may be off
+    rival: bool  # A second marker is about as near
+    far: bool  # It is none of the markers
 
 
-class Placing:
+class TouchLocator:
     """
     Locate touches on a probe, and find their markers.
 
@@ -128,7 +95,7 @@ class Placing:
         """What tells where a touch is whose torque is not to be believed."""
         return ContactSolver(self.probe, self.solver.noise, model=_MUCH_TORSION)
 
-    def locate(self, wrenches: NDArray[np.float64], R_WS: NDArray[np.float64]) -> Located | Reason:
+    def locate(self, wrenches: NDArray[np.float64], R_WS: NDArray[np.float64]) -> TouchLocation | Reason:
         """Return where samples (n, 6) taken at orientations (n, 3, 3) have touched, or why that is nowhere."""
         count, mean = len(wrenches), wrenches.mean(axis=0)
         whole = self.solver.locate(mean)
@@ -144,7 +111,7 @@ class Placing:
         moved = np.linalg.norm(per_wrench @ (halves[1] - halves[0] * _norm_ratio(halves)))
         seen = _high_pass(wrenches) * self._correlation
         left = per_wrench @ (seen * 4 / count) @ per_wrench.T
-        return Located(
+        return TouchLocation(
             point=np.array(whole.point),
             covariance=per_wrench @ total @ per_wrench.T,
             wrench=mean,
@@ -158,25 +125,25 @@ class Placing:
             implausible=implausible,
         )
 
-    def moved(self, located: Located, wrenches: NDArray[np.float64]) -> float:
+    def moved(self, located: TouchLocation, wrenches: NDArray[np.float64]) -> float:
         """Return how far, m, from a contact later samples (n, 6) have touched; along the surface, to first order."""
         mean = wrenches.mean(axis=0)
         per_wrench = self._sensitivity(located.point, located.normal, mean[:3])
         at_point = np.concatenate([mean[:3], np.cross(located.point, mean[:3]) + _along(located, mean[:3])])
         return float(np.linalg.norm(per_wrench @ (mean - at_point)))
 
-    def place(self, located: Located, expected: int | None = None) -> Placed:
+    def place(self, located: TouchLocation, expected: int | None = None) -> MarkerMatch:
         """Return the nearest marker by the contact's own covariance, or what the expected one is to it."""
         C = located.covariance + _ALLOWED**2 * np.eye(3)
         away = self.markers.points - located.point
         sigmas = np.sqrt(np.einsum("nk,nk->n", away, np.linalg.solve(C, away.T).T))
         if expected is not None:
             near = float(sigmas[expected])
-            return Placed(expected, near, False, near > _FAR)
+            return MarkerMatch(expected, near, False, near > _FAR)
         order = np.argsort(sigmas, kind="stable")
         rival = len(order) > 1 and sigmas[order[1]] - sigmas[order[0]] < _RIVAL
         near = float(sigmas[order[0]])
-        return Placed(int(order[0]), near, bool(rival and near <= _FAR), near > _FAR)
+        return MarkerMatch(int(order[0]), near, bool(rival and near <= _FAR), near > _FAR)
 
     @staticmethod
     def _sensitivity(
@@ -190,7 +157,7 @@ def _norm_ratio(halves: NDArray[np.float64]) -> float:
     return float(np.linalg.norm(halves[1, :3]) / np.linalg.norm(halves[0, :3]))
 
 
-def _along(located: Located, force: NDArray[np.float64]) -> NDArray[np.float64]:
+def _along(located: TouchLocation, force: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the local torque that goes along with a force, N·m: it moves no contact."""
     return np.asarray(located.torque * force / np.linalg.norm(force))
 

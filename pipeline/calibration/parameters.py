@@ -1,0 +1,50 @@
+"""What the ways to compute results share: the name of the result, their inputs, and how files are told apart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import Settings
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+    from pathlib import Path
+
+
+class Parameters(Settings):
+    """Parameters of a computation: settings, and the name of the result."""
+
+    endings: ClassVar[tuple[str, ...]] = (".json",)  # Of the file that the result is
+
+    name: str  # Of the result: of the file that it is, too
+
+    @classmethod
+    def checked(cls, values: Mapping[str, Any]) -> Self:
+        """Return parameters; InputError, with the first that is wrong."""
+        given = super().checked(values)
+        if not given.name.endswith(cls.endings) or "/" in given.name or "\\" in given.name:
+            raise InputError(
+                f"{given.name}: a result of this kind is a file whose name ends in {' or '.join(cls.endings)}."
+            )
+        return given
+
+
+def check_roles(inputs: Mapping[str, Path], needed: Collection[str], optional: Collection[str] = ()) -> None:
+    """InputError if an input that is needed is missing, or there are strangers."""
+    if not set(needed) <= set(inputs) <= {*needed, *optional}:
+        may = f", and perhaps {', '.join(optional)}" if optional else ""
+        raise InputError(
+            f"inputs: {', '.join(needed)} are needed{may}; there are {', '.join(inputs) or 'none'}."
+        )
+
+
+def sha256_of(file: Path) -> str:
+    """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
+    import hashlib
+
+    try:
+        with file.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{file}: the file cannot be read ({error}): check the path.") from error

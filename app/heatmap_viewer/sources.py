@@ -13,6 +13,7 @@ import numpy as np
 from contactbench.app.heatmap_viewer.reading_options import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
+from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError
@@ -20,7 +21,7 @@ from contactbench.pipeline.heatmap.contacts import locate_recording, read_contac
 from contactbench.pipeline.heatmap.selection import in_order
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.report.report_file import check_sources, sha256_of
+from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs

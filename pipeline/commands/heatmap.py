@@ -108,8 +108,9 @@ def found_contacts(
         return read_contacts(files.contacts, wrenches)
     if wrenches is not None:
         raise typer.BadParameter("--wrenches is for a CSV file of contacts; a verification has forces.")
+    from contactbench.pipeline.calibration.parameters import sha256_of
     from contactbench.pipeline.heatmap.contacts import touches_of
-    from contactbench.pipeline.report.report_file import check_sources, sha256_of
+    from contactbench.pipeline.report.report_file import check_sources
     from contactbench.pipeline.report.verification_file import read_verification
 
     verification = read_verification(files.contacts)

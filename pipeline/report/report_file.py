@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 from datetime import datetime
 from importlib import import_module
 from importlib.util import find_spec
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import Field
 
+from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_check
 
@@ -21,15 +20,15 @@ if TYPE_CHECKING:
 _ROLES = ("verification", "probe", "calibration", WEIGHT, TOUCH)
 
 
-class ReportParameters(BaseModel):
-    """`name` is that of the result and ends in .html or .pdf; the others as `ReportContent`."""
+class ReportParameters(Parameters):
+    """Who made the report, and of what: as `ReportContent`."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    endings = (".html", ".pdf")
 
     name: str = "report.html"
     operator: str = ""
     session: str = ""
-    serials: dict[str, str] = {}
+    serials: dict[str, str] = Field(default_factory=dict)
 
 
 def report(
@@ -48,12 +47,8 @@ def report(
     from contactbench.pipeline.report.page import ReportContent, report_html
     from contactbench.pipeline.report.verification_file import read_verification
 
-    given = _parameters(parameters)
-    if not {"verification", "probe"} <= set(inputs) <= set(_ROLES):
-        raise InputError(
-            f"inputs: verification and probe are needed, and perhaps {', '.join(_ROLES[2:])}; there are"
-            f" {', '.join(inputs) or 'none'}."
-        )
+    given = ReportParameters.checked(parameters)
+    check_roles(inputs, _ROLES[:2], _ROLES[2:])
     verification = read_verification(inputs["verification"])
     hashes = {role: sha256_of(inputs[role]) for role in _ROLES if role in inputs}
     check_sources(verification.sources, hashes, inputs)
@@ -122,24 +117,3 @@ def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: 
                 f" {sources[role][:12]}): give the {role} that {files['verification'].name} was made with, or verify"
                 " again with this one."
             )
-
-
-def sha256_of(file: Path) -> str:
-    """Return the SHA-256 of a file, hexadecimal; InputError if it cannot be read."""
-    try:
-        with file.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except (OSError, ValueError) as error:
-        raise InputError(f"{file}: the file cannot be read ({error}): check the path.") from error
-
-
-def _parameters(parameters: Mapping[str, Any]) -> ReportParameters:
-    try:
-        given = ReportParameters.model_validate(dict(parameters))
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(map(str, first["loc"]))
-        raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
-    if PurePath(given.name).name != given.name or not given.name.endswith((".html", ".pdf")):
-        raise InputError(f"{given.name}: a report is a file whose name ends in .html or .pdf.")
-    return given

@@ -165,7 +165,7 @@ def test_calibrate_takes_a_recording(file: Path, tmp_path: Path) -> None:
         (("--euler", "xyz"), "leave the convention out"),
         (("--delay", "soon"), "seconds, or auto"),
         (("--delay", "99"), "at most 10"),
-        (("--delay", "nan"), "at most 10"),
+        (("--delay", "nan"), "a finite number"),
     ],
 )
 def test_what_does_not_fit_is_said(file: Path, tmp_path: Path, options: tuple[str, ...], words: str) -> None:

@@ -346,7 +346,8 @@ def test_allow_nan_answers_with_not_finite(solver, write):
 def test_a_raw_recording_is_refused(solver, write, column):
     source = write(table(GOOD + ",0", header=f"{COLUMNS},{column}"))
     with pytest.raises(
-        WrenchFileError, match=f"line 1: column {column}: this is a raw recording.* contactbench calibrate comp"
+        WrenchFileError,
+        match=f"line 1: column {column}: this is a raw recording.* contactbench calibrate comp",
     ):
         located(solver, source)
     plain = located(solver, write(table(GOOD), "plain.csv"))

@@ -166,12 +166,12 @@ class Model(ABC):
         return taken
 
     def _obey(self, command: bytes) -> None:
-        self.obeyed_count += 1
         self.commands.append(command)
+        self.obeyed_count += 1  # last: who waits for the count in another thread finds the command
 
     def _refuse(self, command: bytes) -> None:
-        self.refused_count += 1
         self.refused.append(command)
+        self.refused_count += 1
 
     def _checked(self, quirks: Iterable[Quirk | str]) -> frozenset[Quirk]:
         named = frozenset(quirks)

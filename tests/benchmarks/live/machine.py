@@ -41,7 +41,8 @@ class Sleeper:
     @property
     def late(self) -> float:
         """The 99th percentile so far, s; 0 before it has slept."""
-        return float(np.percentile(np.array(self._late), 99)) if self._late else 0.0
+        # A copy: what NumPy looks at cannot grow, and the thread goes on.
+        return float(np.percentile(np.array(self._late[:]), 99)) if self._late else 0.0
 
     def _run(self) -> None:
         while not self._stopping.is_set():

@@ -198,7 +198,7 @@ def test_elfin_answers_and_fails_by_script():
         line.open()
         reader, replies = elfin.ReplyReader(), []
         end = time.monotonic() + PATIENCE_S
-        while not any(reply.outcome is not elfin.Outcome.OK for reply in replies):
+        while not any(reply.kind is not elfin.ReplyKind.OK for reply in replies):
             assert time.monotonic() < end
             line.write(elfin.REQUEST)
             known = len(replies)
@@ -206,7 +206,7 @@ def test_elfin_answers_and_fails_by_script():
                 assert time.monotonic() < end
                 replies += reader.feed(line.read(0.05).data)
         line.close()
-    assert replies[0].outcome is elfin.Outcome.OK
+    assert replies[0].kind is elfin.ReplyKind.OK
     assert elfin.read_position(replies[0])[0] == pytest.approx(np.degrees(0.3), abs=1e-5)
 
 

@@ -272,9 +272,10 @@ def check_soundness(
             np.ascontiguousarray(original[1], dtype=np.int32),
         )
         scaled = ((there[0] - middle) / size, there[1])
-        signed = measure_health(*there).outward is True
-        # Of several bodies one may be inside out, and the whole outward.
-        signed = signed and not _parts_inside(*scaled, _doubled(*scaled))[2].any()
+        state = measure_health(*there)
+        signed = state.outward is True
+        if signed and state.components > 1:  # one of them may be inside out, and the whole outward
+            signed = not _parts_inside(*scaled, _doubled(*scaled))[2].any()
         deviation[ours] = _normal_deviation(unit, faces[ours], doubled[ours], scaled, signed, steepest_deg)
     edges = _half_edges(faces)
     slivers = _turned_slivers(unit, faces, doubled, edges)

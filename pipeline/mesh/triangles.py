@@ -23,6 +23,15 @@ def cross_products(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> N
     return np.cross(b - a, c - a)
 
 
+def six_volumes(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], label: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Return six times the signed volume of each labelled part, as seen from one vertex of the mesh, (parts,)."""
+    corners = vertices[faces] - vertices[faces[0, 0]]
+    six = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    return np.bincount(label, six).astype(np.float64)
+
+
 def first_alike(rows: NDArray[np.float64] | NDArray[np.int32]) -> NDArray[np.int64]:
     """
     For each row the first one that is equal to it, itself where it is new.

@@ -60,7 +60,7 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
         Any unit.
     faces : (m, 3) int32
     **control
-        See `contactbench.pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.child.run`.
 
     Returns
     -------
@@ -69,7 +69,7 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
     Raises
     ------
     EngineError, Cancelled
-        See `contactbench.pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.child.run`.
     """
     size = float(np.ptp(vertices, axis=0).max())
     grid = 2.0 ** np.ceil(np.log2(size * _GRID))

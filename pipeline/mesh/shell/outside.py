@@ -153,7 +153,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
     added : sequence of (vertices, faces)
         Surfaces that close it; what of them is not needed is cut off.
     **control
-        See `contactbench.pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.child.run`.
 
     Returns
     -------
@@ -163,7 +163,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
     Raises
     ------
     EngineError, Cancelled
-        See `contactbench.pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.child.run`.
     """
     soup = _with((sewn.vertices, sewn.faces, sewn.born), added)
     cut = unite(*soup[:2]) or cut_crossings(*soup[:2], **control)

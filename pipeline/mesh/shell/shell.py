@@ -33,7 +33,7 @@ from contactbench.pipeline.mesh.shell.rim import find_lip
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, join, parts, twins
+from contactbench.pipeline.mesh.triangles import cross_products, join, parts, six_volumes, twins
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -379,8 +379,7 @@ def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
 def _empty(probe: Probe) -> NDArray[np.bool_]:
     """Mark the facets of parts that enclose no space, (m,): what is left of facets that lie on each other."""
     label = label_parts(probe.faces, len(probe.vertices))
-    corners = probe.vertices[probe.faces] - probe.vertices[probe.faces[0, 0]]
-    six = np.bincount(label, np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])))
+    six = six_volumes(probe.vertices, probe.faces, label)
     return np.asarray((six < _NO_SPACE * np.bincount(label, probe.areas) ** 1.5)[label])
 
 

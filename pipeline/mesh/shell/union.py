@@ -10,6 +10,7 @@ from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.health import edge_table, label_parts
 from contactbench.pipeline.mesh.shell.cut import Cut
 from contactbench.pipeline.mesh.soundness import CROSSING
+from contactbench.pipeline.mesh.triangles import six_volumes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,20 +47,16 @@ def unite(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Cut | None
     met = part[pairs[kinds == CROSSING]]
     if not complete or len(met) == 0 or (met[:, 0] == met[:, 1]).any():
         return None
-    corners = vertices[faces] - vertices[faces[0, 0]]
-    inverted = (
-        np.bincount(part, np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) < 0
-    )
+    inverted = six_volumes(vertices, faces, part) < 0
     outward = faces.copy()
     outward[inverted[part]] = outward[inverted[part]][:, ::-1]
     made = _union(vertices, outward, part)
     if made is None:
         return None
     points, triangles, born = made
+    # As they were: whoever keeps them turns them over, and says so.
     back = inverted[part[born]]
-    triangles[back] = triangles[back][
-        :, ::-1
-    ]  # as they were: whoever keeps them turns them over, and says so
+    triangles[back] = triangles[back][:, ::-1]
     _, _, counts, _ = crossings(points, triangles)
     return Cut(points, triangles, born, left=0) if not counts.any() else None
 

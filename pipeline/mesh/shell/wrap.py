@@ -116,7 +116,7 @@ def fine_wrap(
     alpha : float
         Metres; the facets of the result are of about this size.
     **control
-        Progress, cancelling and time limit of `engines.run`.
+        Progress, cancelling and time limit of `engines.child.run`.
     """
     layers = [surface, *patches, plug]
     vertices, faces = join(layers)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QIcon, QPixmapCache
 from PySide6.QtWidgets import QApplication
 
 from contactbench.app.errors import Faults, LogFile
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.translation import load
 from contactbench.app.window import MainWindow
 from contactbench.widgets.software_gl import spare_cores
@@ -46,7 +46,7 @@ def run(session: Path | None = None, *, virtual: bool = False, language: str = "
         Exit code.
     """
     application = prepared()
-    settings, faults, log = Settings(), Faults(), LogFile()
+    settings, faults, log = WindowSettings(), Faults(), LogFile()
     load(application, language or settings.now.language)
     use_theme(settings.now.theme)
     window = MainWindow(settings, faults, log)

@@ -126,10 +126,10 @@ class Bench(QObject):
     @property
     def connected(self) -> bool:
         """Whether samples come."""
-        from contactbench.pipeline.devices.stream import State
+        from contactbench.pipeline.devices.stream import StreamState
 
         health = self.live.health
-        return health is not None and health[0].state is State.STREAMING
+        return health is not None and health[0].state is StreamState.STREAMING
 
     @property
     def ending(self) -> bool:

@@ -49,11 +49,11 @@ def view(
 
     application = prepared()
     from contactbench.app.heatmap_viewer import run
-    from contactbench.app.settings import Settings
+    from contactbench.app.settings import WindowSettings
     from contactbench.app.translation import load
     from contactbench.widgets.theme import use_theme
 
-    remembered = Settings().now
+    remembered = WindowSettings().now
     load(application, remembered.language)
     use_theme(remembered.theme)
     raise typer.Exit(run(list(files or ())))

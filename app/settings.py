@@ -52,7 +52,7 @@ def own_folder(kind: str) -> Path:
     return platformdirs.user_documents_path() / "contactbench"
 
 
-class Settings:
+class WindowSettings:
     """
     The file with what is remembered. One that is missing, damaged or of another version counts as empty.
 

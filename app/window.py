@@ -17,7 +17,7 @@ from contactbench.app.garbage import Garbage
 from contactbench.app.heartbeat import Heartbeat
 from contactbench.app.jobs import Jobs
 from contactbench.app.message_router import MessageRouter
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.turns import Turns
 from contactbench.app.window_docks import Docks, geometry_text, restore_geometry
@@ -50,7 +50,7 @@ class MainWindow(QMainWindow):
 
     Parameters
     ----------
-    settings : Settings, optional
+    settings : WindowSettings, optional
     faults : Faults, optional
         What nobody caught; told in the message list.
     log : LogFile, optional
@@ -67,10 +67,10 @@ class MainWindow(QMainWindow):
     gone = Signal()  # no session is open any more
 
     def __init__(
-        self, settings: Settings | None = None, faults: Faults | None = None, log: LogFile | None = None
+        self, settings: WindowSettings | None = None, faults: Faults | None = None, log: LogFile | None = None
     ) -> None:
         super().__init__()
-        self.settings, self.log = settings or Settings(), log
+        self.settings, self.log = settings or WindowSettings(), log
         self.bench: Bench | None = None
         self.scene: Scene | None = None
         self._ending = self._ended = self._connected = self._waits = False

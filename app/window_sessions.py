@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
-    from contactbench.app.settings import Settings
+    from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
 
@@ -62,7 +62,7 @@ class Sessions(QObject):
     wanted = Signal()
     told = Signal(str, str, str)
 
-    def __init__(self, start: StartPage, jobs: Jobs, settings: Settings, window: MainWindow) -> None:
+    def __init__(self, start: StartPage, jobs: Jobs, settings: WindowSettings, window: MainWindow) -> None:
         super().__init__(window)
         self._window, self._why_read_only = window, ""
         window.shown.connect(self._say_read_only)

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
@@ -67,14 +67,14 @@ class DeviceTrial(QFrame):
     def _standing(self, trial: ConnectionTrial | None) -> tuple[str, str, str]:
         if trial is None:
             return "ready", "muted", self.tr("Not connected")
-        if trial.state is State.STREAMING:
+        if trial.state is StreamState.STREAMING:
             if trial.sentences:
                 return "warning", "warning", self.tr("Connected")
             return "done", "good", self.tr("Connected")
         return {
-            State.CONNECTING: ("running", "accent", self.tr("Waiting")),
-            State.SILENT: ("warning", "warning", self.tr("Silent")),
-            State.LOST: ("failed", "bad", self.tr("Lost")),
+            StreamState.CONNECTING: ("running", "accent", self.tr("Waiting")),
+            StreamState.SILENT: ("warning", "warning", self.tr("Silent")),
+            StreamState.LOST: ("failed", "bad", self.tr("Lost")),
         }.get(trial.state, ("stop", "muted", self.tr("Ended")))
 
     def _counted(self, trial: ConnectionTrial) -> str:

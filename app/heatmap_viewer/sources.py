@@ -50,11 +50,11 @@ class HeatmapSource:
     contacts: Contacts  # In order of time
     notes: tuple[str, ...] = ()  # Sentences
     # What it was read from, with what it was read with: to be read again in another way
-    origin: HeatmapFiles | None = None
+    origin: HeatmapInputs | None = None
 
 
 @dataclass(frozen=True)
-class HeatmapFiles:
+class HeatmapInputs:
     """Files by what they are."""
 
     sessions: tuple[Path, ...] = ()
@@ -72,7 +72,7 @@ class HeatmapFiles:
         """All that holds contacts."""
         return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
 
-    def only(self, path: Path) -> HeatmapFiles:
+    def only(self, path: Path) -> HeatmapInputs:
         """Return one of those that hold contacts, with what it is shown with."""
 
         def those(paths: tuple[Path, ...]) -> tuple[Path, ...]:
@@ -94,17 +94,17 @@ class OpenedFiles:
     sources: tuple[HeatmapSource, ...]
     problems: tuple[str, ...]  # What could not be opened, in sentences
     # To be given again with the next ones, so that a probe may come after its recording
-    files: HeatmapFiles = field(default_factory=HeatmapFiles)
+    files: HeatmapInputs = field(default_factory=HeatmapInputs)
 
 
-def sorted_files(paths: Iterable[Path], before: HeatmapFiles | None = None) -> HeatmapFiles:
+def sorted_files(paths: Iterable[Path], before: HeatmapInputs | None = None) -> HeatmapInputs:
     """
     Return files by what they are.
 
     Parameters
     ----------
     paths : iterable of Path
-    before : HeatmapFiles, optional
+    before : HeatmapInputs, optional
         What was given before: its probe, calibration, wrenches and markers still hold.
 
     Raises
@@ -115,12 +115,12 @@ def sorted_files(paths: Iterable[Path], before: HeatmapFiles | None = None) -> H
     found: dict[str, list[Path]] = {}
     for path in paths:
         found.setdefault(_kind(path), []).append(path)
-    old = before or HeatmapFiles()
+    old = before or HeatmapInputs()
 
     def one(kind: str, known: Path | None) -> Path | None:
         return found[kind][-1] if kind in found else known
 
-    return HeatmapFiles(
+    return HeatmapInputs(
         sessions=tuple(found.get("session", ())),
         recordings=tuple(found.get("recording", ())),
         tables=tuple(found.get("table", ())),
@@ -133,7 +133,7 @@ def sorted_files(paths: Iterable[Path], before: HeatmapFiles | None = None) -> H
 
 
 def _kind(path: Path) -> str:
-    """Return which field of `HeatmapFiles` a path belongs to."""
+    """Return which field of `HeatmapInputs` a path belongs to."""
     if path.is_dir():
         return "session"
     suffix = path.suffix.lower()
@@ -171,7 +171,7 @@ def _kind_of_json(path: Path) -> str:
 
 
 def open_files(
-    files: HeatmapFiles,
+    files: HeatmapInputs,
     how: HowRead = _USUAL,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -181,7 +181,7 @@ def open_files(
 
     Parameters
     ----------
-    files : HeatmapFiles
+    files : HeatmapInputs
     how : HowRead
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
@@ -243,7 +243,7 @@ def read_again(
 
 
 def _of_file(
-    path: Path, files: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], name: str = ""
+    path: Path, files: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], name: str = ""
 ) -> HeatmapSource:
     if files.probe is None:
         raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
@@ -270,7 +270,7 @@ def _of_file(
 
 
 def _of_recording(
-    path: Path, files: HeatmapFiles, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
+    path: Path, files: HeatmapInputs, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
 ) -> Contacts:
     if files.calibration is None:
         raise HeatmapError(
@@ -296,7 +296,7 @@ def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
 
 
 def _of_session(
-    folder: Path, given: HeatmapFiles, how: HowRead, told: Callable[[int, int], None], problems: list[str]
+    folder: Path, given: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], problems: list[str]
 ) -> list[HeatmapSource]:
     """Return the newest recording of a session, and the touches of its verification."""
     found: list[HeatmapSource] = []

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
     from contactbench.app.heatmap_viewer.reading_options import HowRead
-    from contactbench.app.heatmap_viewer.sources import HeatmapFiles, HeatmapSource, OpenedFiles
+    from contactbench.app.heatmap_viewer.sources import HeatmapInputs, HeatmapSource, OpenedFiles
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
     from contactbench.widgets.scene import Pick
@@ -60,7 +60,7 @@ class HeatmapViewer(QWidget):
         self.controls, self.time = HeatmapControls(self), TimeBar(self)
         self.sides = [Side(self)]
         self.sources: list[HeatmapSource] = []
-        self._files: HeatmapFiles | None = None
+        self._files: HeatmapInputs | None = None
         self._shown = [0, 0]
         self._wanted: dict[int, tuple[HeatmapSource, float]] = {}
         self._making: set[int] = set()

@@ -12,7 +12,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
 from contactbench.app.undo import SetParameters
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
 _HIGH = 40
-_BAD = (State.SILENT, State.LOST)
+_BAD = (StreamState.SILENT, StreamState.LOST)
 
 
 class DevicesPage(Page):
@@ -41,7 +41,7 @@ class DevicesPage(Page):
         self._worker = ThreadPoolExecutor(1, "serial ports")
         self._ports: Future[list[SerialPort]] | None = None
         self._ports_at = self._trial_at = 0.0
-        self._told: State | None = None
+        self._told: StreamState | None = None
         self._opening = False
         self._refused = ("", "")  # the address that could not be opened, and why
         self._known = Devices.of(bench.desk.state)
@@ -247,5 +247,5 @@ class DevicesPage(Page):
         before, self._told = self._told, state
         if state in _BAD and trial.sentences:
             self.bench.tell(Weight.WARNING, trial.sentences[0])
-        elif state is State.STREAMING and before in _BAD:
+        elif state is StreamState.STREAMING and before in _BAD:
             self.bench.tell(Weight.GOOD, self.tr("The sensor is back: readings come again."))

@@ -143,10 +143,11 @@ def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Cha
 
 def broken(pair: Pair) -> bool:
     """Tell whether a stream has ended before its end: it failed, or its recording cannot be read on."""
-    from contactbench.pipeline.devices.stream import State
+    from contactbench.pipeline.devices.stream import StreamState
 
     return any(
-        stream.health.failure is not None or (stream.done.is_set() and stream.health.state is State.LOST)
+        stream.health.failure is not None
+        or (stream.done.is_set() and stream.health.state is StreamState.LOST)
         for stream in pair.streams
     )
 

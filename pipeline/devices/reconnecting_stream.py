@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
-from contactbench.pipeline.devices.stream import Health, Sample, State, Stream
+from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
 from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine
 from contactbench.pipeline.devices.url import Carrier
 from contactbench.pipeline.errors import InputError
@@ -86,8 +86,11 @@ class ReconnectingStream(Stream[Sample]):
         with self._watching:
             state = self._state
             # The thread may be held up, such as by a line that takes nothing: no one is told of samples that are not.
-            if state is State.STREAMING and time.monotonic() - self._last > self._watch.patience + 2 * READ_S:
-                state, self._why = State.SILENT, self._silence(time.monotonic())
+            if (
+                state is StreamState.STREAMING
+                and time.monotonic() - self._last > self._watch.patience + 2 * READ_S
+            ):
+                state, self._why = StreamState.SILENT, self._silence(time.monotonic())
             return self._health(state)
 
     @property
@@ -125,7 +128,7 @@ class ReconnectingStream(Stream[Sample]):
 
     # ---- the thread ----------------------------------------------------------------------------
 
-    def _health(self, state: State) -> Health:
+    def _health(self, state: StreamState) -> Health:
         return replace(
             super()._health(state),
             counters=self._counters(),
@@ -134,14 +137,14 @@ class ReconnectingStream(Stream[Sample]):
             failure=None if self._failure is None else self._why,
         )
 
-    def _findings(self, state: State) -> dict[str, str]:
-        if state is State.LOST:
+    def _findings(self, state: StreamState) -> dict[str, str]:
+        if state is StreamState.LOST:
             return {self._why: self._why}
-        if state is State.SILENT:
+        if state is StreamState.SILENT:
             return {"silent": self._why} | self._watch.damage() | self._troubles()
-        if state is State.CONNECTING:
+        if state is StreamState.CONNECTING:
             return self._troubles()
-        return self._watch.findings() | self._troubles() if state is State.STREAMING else {}
+        return self._watch.findings() | self._troubles() if state is StreamState.STREAMING else {}
 
     def _run(self) -> None:
         try:
@@ -152,7 +155,7 @@ class ReconnectingStream(Stream[Sample]):
 
     def _keep_on(self) -> None:
         while not self._stopping.is_set():
-            self._change(State.CONNECTING if self._tries == 0 else State.LOST)
+            self._change(StreamState.CONNECTING if self._tries == 0 else StreamState.LOST)
             try:
                 self._line.open()
                 self._heard = time.monotonic()
@@ -173,7 +176,7 @@ class ReconnectingStream(Stream[Sample]):
 
     def _lose(self, error: LineError | ProtocolError) -> None:
         self._why = str(error)
-        self._change(State.LOST)
+        self._change(StreamState.LOST)
         self._tell()  # another reason is news
         with self._watching:
             self._reset()
@@ -185,7 +188,7 @@ class ReconnectingStream(Stream[Sample]):
         while not self._stopping.is_set():
             chunk = self._line.read(self._idle(time.monotonic()))
             if self._take(chunk.data, chunk.time):
-                self._change(State.STREAMING)
+                self._change(StreamState.STREAMING)
             elif chunk.time - self._last > self._watch.patience:
                 self._be_silent(chunk.time)
                 if chunk.time - max(self._last, begun_again) > _START_AGAIN_S:
@@ -202,7 +205,7 @@ class ReconnectingStream(Stream[Sample]):
         with self._watching:
             self._why = self._silence(now)
             self._watch.rest()
-        self._change(State.SILENT)
+        self._change(StreamState.SILENT)
 
     def _silence(self, now: float) -> str:
         return (
@@ -229,7 +232,7 @@ class ReconnectingStream(Stream[Sample]):
             self._on_samples(samples)
         return bool(samples)
 
-    def _change(self, state: State) -> None:
+    def _change(self, state: StreamState) -> None:
         if state is not self._state:
             self._state = state
             self._tell()
@@ -247,9 +250,9 @@ class ReconnectingStream(Stream[Sample]):
             with suppress(LineError):  # it is gone, and with it the stream
                 self._end()
             self._line.close()
-            self._change(State.CLOSED if self._failure is None else State.LOST)
+            self._change(StreamState.CLOSED if self._failure is None else StreamState.LOST)
             self._tell()  # why it failed is news to those who know that it is lost
         except _FAILURES as error:  # a listener that fails may do so again
             self._fail(error)
-            self._state = State.LOST
+            self._state = StreamState.LOST
             self._line.close()

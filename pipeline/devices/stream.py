@@ -24,7 +24,7 @@ Sample = TypeVar("Sample", bound="WrenchSample | FlangeSample")
 _GUESSED_HZ = 100.0
 
 
-class State(StrEnum):
+class StreamState(StrEnum):
     """Where a stream is."""
 
     CLOSED = "closed"
@@ -38,7 +38,7 @@ class State(StrEnum):
 class Health:
     """A stream at one moment."""
 
-    state: State
+    state: StreamState
     findings: tuple[str, ...]  # what is wrong, in sentences; empty when nothing is
     samples: int  # given since the stream was opened
     rate: float | None  # measured over the last samples, Hz
@@ -56,7 +56,7 @@ class Health:
     @property
     def well(self) -> bool:
         """Whether samples come, and nothing is wrong with them or suspected to be."""
-        return self.state is State.STREAMING and not self.findings and not self.suspicions
+        return self.state is StreamState.STREAMING and not self.findings and not self.suspicions
 
 
 class Stream(ABC, Generic[Sample]):
@@ -96,8 +96,8 @@ class Stream(ABC, Generic[Sample]):
         self._on_change = on_change
         self._watch = watch
         self._watching = threading.Lock()
-        self._state = State.CLOSED
-        self._told: tuple[State, tuple[str, ...]] = (State.CLOSED, ())
+        self._state = StreamState.CLOSED
+        self._told: tuple[StreamState, tuple[str, ...]] = (StreamState.CLOSED, ())
 
     @abstractmethod
     def start(self) -> Self:
@@ -108,7 +108,7 @@ class Stream(ABC, Generic[Sample]):
         """End it; returns when no more samples come."""
 
     @abstractmethod
-    def _findings(self, state: State) -> dict[str, str]:
+    def _findings(self, state: StreamState) -> dict[str, str]:
         """Return what is wrong, by kind; two of one kind are no news."""
 
     def __enter__(self) -> Self:
@@ -130,7 +130,7 @@ class Stream(ABC, Generic[Sample]):
         with self._watching:
             self._watch.acknowledge()
 
-    def _health(self, state: State) -> Health:
+    def _health(self, state: StreamState) -> Health:
         watch, findings = self._watch, tuple(self._findings(state).values())
         return Health(
             state, findings, watch.samples, watch.rate(), watch.jitter(), Counters(), 0, watch.suspicions
@@ -214,7 +214,7 @@ class SourceStream(Stream[Sample]):
             self._stopped = True
         self.source.leave(self)
         if not self.done.is_set():
-            self._become(State.CLOSED)
+            self._become(StreamState.CLOSED)
 
     def step(self, count: int = 1) -> int:
         """
@@ -237,24 +237,24 @@ class SourceStream(Stream[Sample]):
             if samples and not self._stopped:
                 with self._watching:
                     self._watch.see(samples)
-                self._become(State.STREAMING, findings)
+                self._become(StreamState.STREAMING, findings)
 
     def end(self, error: Exception | None = None, findings: tuple[str, ...] = ()) -> None:
         """Be at the end, by an error or with what was wrong on the way; the source calls it."""
         try:
             if not self._stopped:  # else it has said that it is closed
                 self._become(
-                    State.CLOSED if error is None else State.LOST,
+                    StreamState.CLOSED if error is None else StreamState.LOST,
                     findings if error is None else (str(error),),
                 )
         finally:
             self.done.set()
 
-    def _become(self, state: State, findings: tuple[str, ...] = ()) -> None:
+    def _become(self, state: StreamState, findings: tuple[str, ...] = ()) -> None:
         with self._watching:
             self._state, self._found = state, findings
         self._tell()
 
-    def _findings(self, state: State) -> dict[str, str]:
-        seen = self._watch.findings() if state is State.STREAMING else {}
+    def _findings(self, state: StreamState) -> dict[str, str]:
+        seen = self._watch.findings() if state is StreamState.STREAMING else {}
         return seen | dict(zip(self._found, self._found, strict=True))

@@ -35,7 +35,7 @@ class FacetFits:
     points: Float
 
 
-class Judge:
+class CaseJudge:
     """Judges the answers that a solver gives without regions and previous contacts."""
 
     def __init__(self, solver: ContactSolver) -> None:

@@ -19,7 +19,7 @@ from contactbench.pipeline.contact import (
 )
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_judge import Judge
+from contactbench.pipeline.study.hard_judge import CaseJudge
 from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
 
 if TYPE_CHECKING:
@@ -184,7 +184,7 @@ def judged(drawn: Drawn) -> Check:
     def check(method: methods.ContactMethod, batch: Batch) -> Bools:
         if not isinstance(method.engine, ContactSolver):
             return np.zeros(len(drawn), dtype=bool)
-        judge = Judge(method.engine)
+        judge = CaseJudge(method.engine)
         wrong = [bool(judge.faults(w, batch[i])) for i, w in enumerate(drawn.wrenches)]
         return np.array(wrong, dtype=bool)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,7 +25,7 @@ _CLOSE = 0.8  # of the range
 class ConnectionTrial:
     """What is measured of open devices."""
 
-    state: State  # Of the sensor
+    state: StreamState  # Of the sensor
     rate: float | None  # Of the sensor, Hz
     pose_rate: float | None  # Hz; None: there are no poses, or not yet
     samples: int  # Since they were opened
@@ -85,17 +85,17 @@ def _states(sensor: Health, poses: Health | None, finished: bool) -> list[str]:
     said = []
     if finished:
         said.append("The recording is at its end: choose it again to play it once more.")
-    elif sensor.state is State.CONNECTING:
+    elif sensor.state is StreamState.CONNECTING:
         said.append("The sensor does not answer yet: check that it has power and that its cable is in.")
-    elif sensor.state is State.SILENT:
+    elif sensor.state is StreamState.SILENT:
         said.append(
             "The sensor is silent: nothing more comes. Check its cable and power; it goes on by itself."
         )
-    elif sensor.state is State.LOST:
+    elif sensor.state is StreamState.LOST:
         said.append("The sensor is gone: plug it in again. It goes on by itself as soon as it is back.")
     said += [*sensor.findings, *sensor.suspicions]
     if poses is not None and not finished:
-        if poses.state in {State.CONNECTING, State.SILENT, State.LOST}:
+        if poses.state in {StreamState.CONNECTING, StreamState.SILENT, StreamState.LOST}:
             said.append(
                 "No poses come, so the orientation is not known: check the robot's address and cable."
                 " They go on by themselves."

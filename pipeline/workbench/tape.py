@@ -6,7 +6,7 @@ import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording.recorder import health_facts
 from contactbench.pipeline.session.live import LiveRecording
@@ -114,7 +114,7 @@ class SessionTape:
         """What is wrong now, in sentences."""
         said = [self.error] if self.error else []
         for device, health in tuple(self._health.items()):
-            if health.state in {State.SILENT, State.LOST}:
+            if health.state in {StreamState.SILENT, StreamState.LOST}:
                 said.append(
                     f"{_NAMES[device]} gives nothing: the recording waits and goes on when it is back."
                 )

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
 from contactbench.app.page import Page
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.workbench.steps import Step
 
@@ -55,7 +55,7 @@ def make_window(qtbot):
     made = []
 
     def make(**options):
-        window = MainWindow(options.pop("settings", None) or Settings(), **options)
+        window = MainWindow(options.pop("settings", None) or WindowSettings(), **options)
         made.append(window)
         window.show()
         qtbot.waitExposed(window)

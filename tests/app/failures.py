@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from workbench.touch_session import make_session
 
 from contactbench.app.errors import Faults, LogFile
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.workbench.steps import Step
 
@@ -26,7 +26,7 @@ class Whole:
     def __init__(self, qtbot, folder):
         self.qtbot = qtbot
         self.log, self.faults = LogFile(folder / "log"), Faults()
-        self.window = MainWindow(Settings(), self.faults, self.log)
+        self.window = MainWindow(WindowSettings(), self.faults, self.log)
         self.faults.install()
         self.unexpected = []
         self.faults.happened.connect(self._happened)

@@ -4,22 +4,22 @@ import json
 
 import pytest
 
-from contactbench.app.settings import Settings, own_folder
+from contactbench.app.settings import WindowSettings, own_folder
 
 
 def test_what_is_remembered_comes_back(tmp_path):
-    settings = Settings(tmp_path)
+    settings = WindowSettings(tmp_path)
     settings.change(theme="dark", language="de")
     for number in range(12):
         settings.opened(tmp_path / f"s{number}", "gravity", "begun")
     settings.opened(tmp_path / "s5", "probe", "done: Gravity")
-    again = Settings(tmp_path).now
+    again = WindowSettings(tmp_path).now
     assert (again.theme, again.language) == ("dark", "de")
     assert len(again.recent) == 10
     assert (again.recent[0].folder, again.recent[0].page) == (str(tmp_path / "s5"), "probe")
     assert len({each.folder for each in again.recent}) == 10
     settings.forget(str(tmp_path / "s5"))
-    assert Settings(tmp_path).page_of(tmp_path / "s5") == ""
+    assert WindowSettings(tmp_path).page_of(tmp_path / "s5") == ""
 
 
 @pytest.mark.parametrize(
@@ -28,19 +28,19 @@ def test_what_is_remembered_comes_back(tmp_path):
 )
 def test_a_file_that_makes_no_sense_counts_as_empty(tmp_path, content):
     (tmp_path / "window.json").write_text(content, encoding="utf-8")
-    now = Settings(tmp_path).now
+    now = WindowSettings(tmp_path).now
     assert (now.theme, now.recent) == ("system", ())
 
 
 def test_a_disk_that_cannot_be_written_is_survived(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
-    settings = Settings(tmp_path / "file")
+    settings = WindowSettings(tmp_path / "file")
     settings.change(theme="dark")
     assert settings.now.theme == "dark"
 
 
 def test_the_file_has_a_version(tmp_path):
-    Settings(tmp_path).change(theme="light")
+    WindowSettings(tmp_path).change(theme="light")
     assert json.loads((tmp_path / "window.json").read_text(encoding="utf-8"))["version"] == 1
 
 

@@ -13,7 +13,7 @@ from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
 
 from contactbench.app.opening import VIRTUAL_BENCH, free_folder
-from contactbench.app.settings import Recent, Settings
+from contactbench.app.settings import Recent, WindowSettings
 from contactbench.app.start import QuestionCard, StartPage
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
@@ -216,8 +216,8 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
     window.show_step(Step.VERIFY)
     copy = tmp_path / "copy"
     shutil.copytree(folder, copy)  # as a kill at this moment leaves it
-    qtbot.waitUntil(lambda: Settings().page_of(folder) == "verify", timeout=10_000)
-    settings = json.loads(Settings().file.read_text(encoding="utf-8"))
+    qtbot.waitUntil(lambda: WindowSettings().page_of(folder) == "verify", timeout=10_000)
+    settings = json.loads(WindowSettings().file.read_text(encoding="utf-8"))
     assert settings["recent"][0] | {"opened": ""} == {
         "folder": str(folder),
         "opened": "",

@@ -12,7 +12,7 @@ from PySide6.QtGui import QUndoCommand, QWheelEvent
 from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.steps import Step
@@ -162,7 +162,7 @@ def test_closing_gives_the_session_back_and_remembers_the_page(qtbot, opened, tm
     assert gravity.calls == ["enter", "leave", "close"]
     with Session.open(tmp_path / "a session"):
         pass  # nothing holds its lock
-    assert Settings().page_of(tmp_path / "a session") == "gravity"
+    assert WindowSettings().page_of(tmp_path / "a session") == "gravity"
     shown(qtbot, opened, lambda: opened.sessions.open(tmp_path / "a session"))
     assert pages.step is Step.GRAVITY
 
@@ -179,7 +179,7 @@ def test_layout_and_theme_are_remembered(qtbot, opened):
     assert not opened.docks.chart_dock.isHidden()
     opened.reset_layout()
     assert not opened.docks.message_dock.isHidden()
-    assert Settings().now.theme == "light"
+    assert WindowSettings().now.theme == "light"
 
 
 def test_closing_while_work_runs_waits_for_it_and_asks_nothing(qtbot, opened):

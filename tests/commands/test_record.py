@@ -22,7 +22,7 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.protocols import Counters
-from contactbench.pipeline.devices.stream import Health, State
+from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.recording import (
     Event,
     RecordingError,
@@ -356,7 +356,7 @@ class Device:
         self.changes = Changes(lambda: self.now)
 
     def is_now(
-        self, state: State, *findings: str, suspicions: tuple[str, ...] = (), after: float = 0.0
+        self, state: StreamState, *findings: str, suspicions: tuple[str, ...] = (), after: float = 0.0
     ) -> None:
         self.now += after
         health = Health(state, findings, 0, None, None, Counters(), 0, suspicions)
@@ -365,10 +365,10 @@ class Device:
 
 def test_what_is_new_is_said_at_once(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
-    device.is_now(State.CONNECTING)
-    device.is_now(State.STREAMING)
-    device.is_now(State.SILENT, "No sample for 0.4 s.")
-    device.is_now(State.SILENT, "No sample for 0.9 s.", suspicions=("It was re-zeroed.",))
+    device.is_now(StreamState.CONNECTING)
+    device.is_now(StreamState.STREAMING)
+    device.is_now(StreamState.SILENT, "No sample for 0.4 s.")
+    device.is_now(StreamState.SILENT, "No sample for 0.9 s.", suspicions=("It was re-zeroed.",))
     assert capsys.readouterr().err.splitlines() == [
         "sensor: connecting",
         "sensor: streaming",
@@ -382,8 +382,8 @@ def test_what_is_new_is_said_at_once(capsys: pytest.CaptureFixture[str]) -> None
 def test_repeats_are_counted_and_the_line_ends_with_how_it_is_now(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
     for _ in range(38):
-        device.is_now(State.SILENT, f"No sample for {device.now} s.", after=0.0625)
-        device.is_now(State.STREAMING, after=0.0625)
+        device.is_now(StreamState.SILENT, f"No sample for {device.now} s.", after=0.0625)
+        device.is_now(StreamState.STREAMING, after=0.0625)
     lines = capsys.readouterr().err.splitlines()
     assert lines == ["sensor: silent: No sample for 0.0 s.", "sensor: streaming"]
     device.changes.tick()
@@ -400,8 +400,8 @@ def test_ten_minutes_of_coming_and_going_are_a_line_every_five_seconds(
 ) -> None:
     device = Device()
     for _ in range(1200):
-        device.is_now(State.SILENT, f"No sample for {device.now} s.", after=0.25)
-        device.is_now(State.STREAMING, after=0.25)
+        device.is_now(StreamState.SILENT, f"No sample for {device.now} s.", after=0.25)
+        device.is_now(StreamState.STREAMING, after=0.25)
     device.changes.end()
     lines = capsys.readouterr().err.splitlines()
     assert 100 < len(lines) <= 600 / 5 + 3
@@ -412,8 +412,8 @@ def test_ten_minutes_of_coming_and_going_are_a_line_every_five_seconds(
 
 def test_what_waits_is_said_without_another_change(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
-    for state in (State.STREAMING, State.SILENT, State.STREAMING, State.SILENT):
-        device.is_now(state, *(["It has no power."] if state is State.SILENT else []))
+    for state in (StreamState.STREAMING, StreamState.SILENT, StreamState.STREAMING, StreamState.SILENT):
+        device.is_now(state, *(["It has no power."] if state is StreamState.SILENT else []))
     capsys.readouterr()
     device.now = 4.9
     device.changes.tick()
@@ -425,10 +425,10 @@ def test_what_waits_is_said_without_another_change(capsys: pytest.CaptureFixture
 
 def test_a_repeat_after_a_quiet_time_is_news(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
-    device.is_now(State.STREAMING)
-    device.is_now(State.LOST, "The line is open.")
-    device.is_now(State.STREAMING, after=60.0)
-    device.is_now(State.LOST, "The line is open.", after=3600.0)
+    device.is_now(StreamState.STREAMING)
+    device.is_now(StreamState.LOST, "The line is open.")
+    device.is_now(StreamState.STREAMING, after=60.0)
+    device.is_now(StreamState.LOST, "The line is open.", after=3600.0)
     assert capsys.readouterr().err.splitlines() == 2 * [
         "sensor: streaming",
         "sensor: lost: The line is open.",
@@ -437,23 +437,23 @@ def test_a_repeat_after_a_quiet_time_is_news(capsys: pytest.CaptureFixture[str])
 
 def test_what_waits_comes_before_what_is_new(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
-    for state in (State.STREAMING, State.SILENT, State.STREAMING, State.CLOSED):
+    for state in (StreamState.STREAMING, StreamState.SILENT, StreamState.STREAMING, StreamState.CLOSED):
         device.is_now(state)
     assert capsys.readouterr().err.splitlines()[2:] == ["sensor: streaming", "sensor: closed"]
 
 
 def test_devices_are_counted_apart(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
-    device.is_now(State.STREAMING)
+    device.is_now(StreamState.STREAMING)
     device.name = "robot"
-    device.is_now(State.STREAMING)
+    device.is_now(StreamState.STREAMING)
     assert capsys.readouterr().err.splitlines() == ["sensor: streaming", "robot: streaming"]
 
 
 def test_words_that_differ_each_time_do_not_flood_either(capsys: pytest.CaptureFixture[str]) -> None:
     device = Device()
     for number in range(1000):
-        device.is_now(State.LOST, "x" * number)
+        device.is_now(StreamState.LOST, "x" * number)
     assert len(capsys.readouterr().err.splitlines()) <= 50
 
 
@@ -462,7 +462,7 @@ def test_a_closed_terminal_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
         raise BrokenPipeError
 
     monkeypatch.setattr("contactbench.pipeline.commands.record.say", broken)
-    Device().is_now(State.STREAMING)
+    Device().is_now(StreamState.STREAMING)
 
 
 def test_lines_that_wait_are_looked_at_while_it_records() -> None:

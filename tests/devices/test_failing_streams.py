@@ -15,7 +15,7 @@ from waiting import until
 from contactbench.pipeline.devices import reconnecting_stream
 from contactbench.pipeline.devices.robot_poses import ElfinPoses
 from contactbench.pipeline.devices.sensor import SensorStream
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport import LineLost, LineUnavailable
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
@@ -31,19 +31,19 @@ def test_what_a_listener_raises_ends_the_stream_and_stops_the_device():
     with SensorStream("sri+tcp://h?rate=100", raising, heard.change, line=line) as stream:
         heard.until(lambda: heard.changes and heard.changes[-1][1].failure is not None)
         health = stream.health
-        assert health.state is State.LOST
+        assert health.state is StreamState.LOST
         assert "of the listener" in health.failure
         assert health.findings == (health.failure,)
         assert isinstance(stream.failure, ValueError)
         until(lambda: line.written.count(b"AT+GSD=STOP\r\n") == 2)  # before the start, and at the end
-    assert stream.health.state is State.LOST
+    assert stream.health.state is StreamState.LOST
 
 
 def test_a_listener_of_changes_that_raises_ends_it_too():
     line = Script(frames(9.0))
     with SensorStream("sri+tcp://h?rate=100", lambda _: None, raising, line=line) as stream:
         until(lambda: stream.failure is not None)
-    assert stream.health.state is State.LOST
+    assert stream.health.state is StreamState.LOST
     assert not any(thread.name == str(stream.address) for thread in threading.enumerate())
 
 
@@ -51,7 +51,7 @@ def test_a_listener_that_wants_to_exit_does_not_end_the_thread_in_silence():
     line = Script(frames(9.0))
     with SensorStream("sri+tcp://h?rate=100", lambda _: sys.exit(1), line=line) as stream:
         until(lambda: stream.failure is not None)
-        until(lambda: stream.health.state is State.LOST)
+        until(lambda: stream.health.state is StreamState.LOST)
 
 
 def test_a_stream_that_is_stopped_has_not_failed():
@@ -80,7 +80,7 @@ def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
             heard.until(lambda: any("nothing came" in finding for finding in heard.findings()))
             until(lambda: line.opened == 2)
         else:  # a serial line is there as long as its plug is
-            heard.until(lambda: State.SILENT in heard.states())
+            heard.until(lambda: StreamState.SILENT in heard.states())
             until(lambda: time.monotonic() > line.opened_at[0] + 0.5)
             assert line.opened == 1
 
@@ -116,7 +116,7 @@ def test_only_samples_after_a_loss_are_a_reconnection():
 
     heard = Heard()
     with sri(Absent(says), heard) as stream:
-        heard.until(lambda: State.LOST in heard.states())
+        heard.until(lambda: StreamState.LOST in heard.states())
         count = len(heard.samples)
         heard.until(lambda: len(heard.samples) > count)
         assert stream.health.reconnected == 1

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.pose_source import file_track, still_track
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.streams import PoseTrackError, open_poses
 
@@ -76,9 +76,9 @@ def test_a_still_pose_is_given_at_its_rate_on_the_host_clock():
     begun = time.monotonic()
     with open_poses("still://?rpy=0,90,0&rate=100", take, told.append) as stream:
         assert enough.wait(10)
-        assert stream.health.state is State.STREAMING
+        assert stream.health.state is StreamState.STREAMING
     assert not stream.done.is_set()
-    assert [told[0].state, told[-1].state] == [State.STREAMING, State.CLOSED]
+    assert [told[0].state, told[-1].state] == [StreamState.STREAMING, StreamState.CLOSED]
     assert np.diff([pose.time for pose in given]) == pytest.approx(0.01)
     assert begun <= given[0].time
     assert given[-1].time <= time.monotonic()  # none before its time
@@ -110,8 +110,8 @@ def test_a_file_has_an_end(tmp_path):
     with open_poses(f"poses://{file}?speed=100", given.extend, told.append) as stream:
         assert stream.done.wait(10)
     assert len(given) == 50
-    assert (stream.health.state, stream.health.findings) == (State.CLOSED, ())
-    assert told[-1].state is State.CLOSED
+    assert (stream.health.state, stream.health.findings) == (StreamState.CLOSED, ())
+    assert told[-1].state is StreamState.CLOSED
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from waiting import be_slow, until
 from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.devices.robot_poses import ElfinPoses
 from contactbench.pipeline.devices.sensor import SensorStream
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport import Chunk, LineLost
 from contactbench.pipeline.devices.url import DeviceAddress
 
@@ -78,15 +78,15 @@ def test_it_never_says_streaming_while_no_sample_comes():
     heard = Heard()
     line = Script(frames(0.4))
     with sri(line, heard) as stream:
-        heard.until(lambda: State.STREAMING in heard.states())
+        heard.until(lambda: StreamState.STREAMING in heard.states())
 
         def silent():
             if time.monotonic() - heard.samples[-1].time > 0.2:
-                assert stream.health.state is not State.STREAMING
-            return State.SILENT in heard.states()
+                assert stream.health.state is not StreamState.STREAMING
+            return StreamState.SILENT in heard.states()
 
         until(silent)
-        told = next(when for when, health in heard.changes if health.state is State.SILENT)
+        told = next(when for when, health in heard.changes if health.state is StreamState.SILENT)
         assert told - heard.samples[-1].time < 0.2
         count, reads = len(heard.changes), line.reads
         until(lambda: line.reads > reads + 5)
@@ -147,7 +147,7 @@ def test_an_answer_that_refuses_is_a_finding_and_the_line_stays(answer, words):
     address = DeviceAddress.parse("elfin+tcp://h?rate=50")
     with ElfinPoses(address, heard.take, heard.change, line=line) as stream:
         heard.until(lambda: any(words in finding for finding in heard.findings()))
-        heard.until(lambda: stream.health.state is State.SILENT)
+        heard.until(lambda: stream.health.state is StreamState.SILENT)
         assert stream.health.counters.bad_checksums > 0
     assert line.opened == 1
     assert heard.samples == []

@@ -16,7 +16,7 @@ from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
 from contactbench.pipeline.devices.robot_poses import ElfinPoses, UrPoses, poses_from
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.robot import Robot
 
@@ -29,7 +29,7 @@ def test_a_robot_tells_its_joints_and_orientation(protocol):
         poses_from(device.url, heard.take, heard.change) as stream,
     ):
         heard.until(lambda: len(heard.samples) > 20)
-        assert stream.health.state is State.STREAMING
+        assert stream.health.state is StreamState.STREAMING
     for sample in heard.samples:
         assert sample.joints == pytest.approx(JOINTS, abs=1e-5)
         assert pytest.approx(np.eye(3), abs=1e-9) == sample.R_BE @ sample.R_BE.T
@@ -52,7 +52,7 @@ def test_a_lost_robot_is_asked_again(protocol):
         emulator(protocol, signal=swinging(protocol), script=script) as device,
         poses_from(device.url, heard.take, heard.change) as stream,
     ):
-        heard.until(lambda: State.LOST in heard.states())
+        heard.until(lambda: StreamState.LOST in heard.states())
         count = len(heard.samples)
         heard.until(lambda: len(heard.samples) > count + 10)
         assert stream.health.reconnected >= 1

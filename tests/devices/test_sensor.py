@@ -11,7 +11,7 @@ from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emu
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.devices.sensor import SensorStream
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]
@@ -70,10 +70,10 @@ def test_every_sample_was_sent_and_in_order(protocol, carrier):
     with emulator(protocol, carrier, rate=100.0, signal=moving()) as device, listen(device, heard) as stream:
         heard.until(lambda: len(heard.samples) >= 60)
         health = stream.health
-    assert health.state is State.STREAMING
+    assert health.state is StreamState.STREAMING
     assert health.counters.lost == health.counters.bad_checksums == 0
-    assert heard.states()[0] is State.CONNECTING
-    assert heard.states()[-1] is State.CLOSED
+    assert heard.states()[0] is StreamState.CONNECTING
+    assert heard.states()[-1] is StreamState.CLOSED
     times = [sample.time for sample in heard.samples]
     assert times == sorted(set(times))
     assert all(sample.arrival is not None and sample.time <= sample.arrival for sample in heard.samples)
@@ -93,16 +93,16 @@ def test_a_silence_is_noticed_and_ends_by_itself(protocol, carrier):
         emulator(protocol, carrier, rate=100.0, signal=moving(), script=script) as device,
         listen(device, heard),
     ):
-        heard.until(lambda: State.SILENT in heard.states())
+        heard.until(lambda: StreamState.SILENT in heard.states())
         silent, health = next(
-            (when, health) for when, health in heard.changes if health.state is State.SILENT
+            (when, health) for when, health in heard.changes if health.state is StreamState.SILENT
         )
         count = len(heard.samples)
         heard.until(lambda: len(heard.samples) > count + 10)
     before = [sample.time for sample in heard.samples if sample.time <= silent]
     assert 0.1 < silent - before[-1] < 0.25
     assert "no sample for" in health.findings[0]
-    assert heard.states()[-2] is State.STREAMING
+    assert heard.states()[-2] is StreamState.STREAMING
 
 
 @pytest.mark.parametrize(("protocol", "carrier"), [pair for pair in DEVICES if pair != ("rdt", "udp")])
@@ -113,7 +113,7 @@ def test_a_lost_line_is_opened_again(protocol, carrier):
         emulator(protocol, carrier, rate=100.0, signal=moving(), script=script) as device,
         listen(device, heard) as stream,
     ):
-        heard.until(lambda: State.LOST in heard.states())
+        heard.until(lambda: StreamState.LOST in heard.states())
         count = len(heard.samples)
         heard.until(lambda: len(heard.samples) > count + 10)
         assert stream.health.reconnected >= 1
@@ -151,11 +151,11 @@ def test_damage_costs_the_damaged_frames_only():
 def test_a_device_that_is_not_there_is_a_sentence_and_is_waited_for():
     heard = Heard()
     with SensorStream("sri+serial:///dev/no-such-port", heard.take, heard.change) as stream:
-        heard.until(lambda: State.LOST in heard.states())
+        heard.until(lambda: StreamState.LOST in heard.states())
         assert "cannot be opened" in " ".join(heard.findings())
         assert not stream.health.well
     assert heard.samples == []
-    assert heard.states()[-1] is State.CLOSED
+    assert heard.states()[-1] is StreamState.CLOSED
 
 
 def test_a_robot_is_no_force_sensor():

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from recording.recording_cases import flange_samples, record, wrench_samples
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
@@ -55,11 +55,11 @@ def test_a_sensor(recording):
     given, told = [], []
     with open_sensor(f"replay://{recording}?speed=1e6", given.extend, told.append) as stream:
         assert stream.done.wait(10)
-        assert stream.health.state is State.CLOSED
+        assert stream.health.state is StreamState.CLOSED
         assert stream.health.findings == ()
     assert given == wrench_samples(400)
-    assert told[0].state is State.STREAMING
-    assert told[-1].state is State.CLOSED
+    assert told[0].state is StreamState.STREAMING
+    assert told[-1].state is StreamState.CLOSED
     assert told[-1].samples == 400
     assert told[-1].rate == pytest.approx(200)
     assert str(stream.address) == f"replay://{recording}?speed=1000000"
@@ -115,12 +115,12 @@ def test_step_by_step(recording):
         assert pair.step(3) == 3
         assert len(given) == 3
         assert pair.now() == given[-1].time
-        assert pair.sensor.health.state is State.STREAMING
+        assert pair.sensor.health.state is StreamState.STREAMING
         assert not pair.finished
         assert pair.step(10_000) == 597
         assert pair.finished
         assert pair.step() == 0
-    assert pair.sensor.health.state is State.CLOSED
+    assert pair.sensor.health.state is StreamState.CLOSED
 
 
 def test_steps_of_a_sensor_alone_are_its_samples(recording):
@@ -135,7 +135,7 @@ def test_a_replay_at_its_pace_has_no_steps(recording):
     with stream, pytest.raises(RuntimeError, match="speed=step"):
         stream.step()
     assert not stream.done.is_set()
-    assert stream.health.state is State.CLOSED
+    assert stream.health.state is StreamState.CLOSED
 
 
 def test_a_stopped_stream_is_quiet_while_the_other_goes_on(recording):
@@ -176,7 +176,7 @@ def test_whoever_gets_the_samples_may_stop_a_stepwise_replay(recording):
         assert stream.step(100) == 5
         assert stream.step() == 0
     assert len(given) == 5
-    assert stream.health.state is State.CLOSED
+    assert stream.health.state is StreamState.CLOSED
     assert not stream.done.is_set()
 
 
@@ -206,7 +206,7 @@ def test_poses_do_not_fill_the_gap_of_a_clock_that_jumped(tmp_path):
         pair.step(1000)
         assert pair.finished
     assert given == samples[:10]
-    assert pair.sensor.health.state is State.LOST
+    assert pair.sensor.health.state is StreamState.LOST
     assert "its times go from" in pair.sensor.health.findings[0]
 
 
@@ -305,7 +305,7 @@ def test_a_damaged_recording_says_so(recording):
         assert stream.done.wait(10)
     assert 0 < len(given) < 400
     assert given == wrench_samples(400)[: len(given)]
-    assert stream.health.state is State.CLOSED
+    assert stream.health.state is StreamState.CLOSED
     assert stream.health.findings
 
 
@@ -324,6 +324,6 @@ def test_a_file_that_cannot_be_read_on_is_lost(recording, monkeypatch):
     told = []
     with open_sensor(f"replay://{recording}?speed=1e6", lambda _: None, told.append) as stream:
         assert stream.done.wait(10)
-        assert stream.health.state is State.LOST
+        assert stream.health.state is StreamState.LOST
     assert told[-1].findings == (f"{recording}: the file cannot be read (input/output error): copy it.",)
     assert 0 < told[-1].samples < 50

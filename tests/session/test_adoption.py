@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import WrenchSample
-from contactbench.pipeline.devices.stream import Health, State
+from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.session import Session, SessionError
@@ -157,7 +157,7 @@ class Slow:
 
 
 def health():
-    return Health(State.STREAMING, (), 1, 100.0, 0.0, Counters(), 0)
+    return Health(StreamState.STREAMING, (), 1, 100.0, 0.0, Counters(), 0)
 
 
 def test_a_device_drops_samples_and_says_so(tmp_path):

@@ -11,7 +11,7 @@ import pytest
 
 from contactbench.pipeline.contact import Contact, ContactSolver, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_judge import Judge
+from contactbench.pipeline.study.hard_judge import CaseJudge
 
 LIMIT = replace(TouchModel(), torsion_arm=0.01, mesh_curved=False)
 
@@ -22,9 +22,9 @@ def drawn() -> hm.Drawn:
     return hm.press(*hm.places(body, 60, rng, "edge"), rng, pitch=0.002)
 
 
-def judge_of(model: TouchModel) -> tuple[ContactSolver, Judge]:
+def judge_of(model: TouchModel) -> tuple[ContactSolver, CaseJudge]:
     solver = ContactSolver(hm.bundled("t-shape", 500).probe(), WrenchNoise(), model=model)
-    return solver, Judge(solver)
+    return solver, CaseJudge(solver)
 
 
 def changed(contact: Contact, **fields: Any) -> Any:

@@ -11,7 +11,7 @@ from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, PoseTrack
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
@@ -302,12 +302,12 @@ def test_an_unplugged_sensor_comes_back_and_is_told_in_words(live):
     with emulator("sri", "tcp", script=script, signal=sine((5, 5, 5, 0.1, 0.1, 0.1))) as device:
         live.open(device.url, None)
         until(lambda: live.samples > 20)
-        assert trial_of(live).state is State.STREAMING
-        until(lambda: trial_of(live).state is State.LOST)
+        assert trial_of(live).state is StreamState.STREAMING
+        until(lambda: trial_of(live).state is StreamState.LOST)
         assert any("plug it in again" in words for words in trial_of(live).sentences)
         gone = live.samples
         until(lambda: live.samples > gone + 20)
-        assert trial_of(live).state is State.STREAMING
+        assert trial_of(live).state is StreamState.STREAMING
 
 
 def test_closing_while_samples_come_and_are_asked_for_waits_for_nobody(live):
@@ -341,7 +341,7 @@ def test_trial_measures_noise_and_margin(live):
     live.open(STEPWISE, STEPWISE)
     live.pair.step(1500)
     trial = trial_of(live)
-    assert (trial.state, trial.sentences) == (State.STREAMING, ())
+    assert (trial.state, trial.sentences) == (StreamState.STREAMING, ())
     assert trial.rate == pytest.approx(200, rel=0.01)
     assert trial.pose_rate == pytest.approx(50, rel=0.01)
     assert trial.noise[:3] == pytest.approx(0.05, rel=0.2)

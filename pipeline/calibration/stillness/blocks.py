@@ -164,7 +164,7 @@ def by_chance(freedom: float, risk: float) -> float:
     return float(chdtri(freedom, risk)) / freedom
 
 
-class SampleIntake:
+class StillnessIntake:
     """Cuts a stream of samples into blocks.
 
     The blocks follow one another from the first sample on; after a pause they start anew with the sample that

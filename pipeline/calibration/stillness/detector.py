@@ -19,7 +19,12 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from contactbench.pipeline.calibration.stillness.blocks import HeldCapture, SampleBlock, SampleIntake, Window
+from contactbench.pipeline.calibration.stillness.blocks import (
+    HeldCapture,
+    SampleBlock,
+    StillnessIntake,
+    Window,
+)
 from contactbench.pipeline.calibration.stillness.captures import (
     Capture,
     Rejected,
@@ -89,7 +94,7 @@ class StillnessDetector:
         self.model = model
         self.captures: list[Capture] = []
         self.rejected: list[Rejected] = []
-        self._intake = SampleIntake(rate_hz)
+        self._intake = StillnessIntake(rate_hz)
         self._rule = Yardstick(s, self._intake)
         self._blocks: deque[SampleBlock] = deque()  # the window
         self._unrests: deque[float] = deque()

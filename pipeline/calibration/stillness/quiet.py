@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from contactbench.pipeline.calibration.stillness.blocks import SampleBlock, SampleIntake, Window, by_chance
+from contactbench.pipeline.calibration.stillness.blocks import SampleBlock, StillnessIntake, Window, by_chance
 from contactbench.pipeline.calibration.stillness.captures import (
     LEAST,
     StillnessSettings,
@@ -47,7 +47,7 @@ class Yardstick:
         Of the captures.
     """
 
-    def __init__(self, settings: StillnessSettings, intake: SampleIntake) -> None:
+    def __init__(self, settings: StillnessSettings, intake: StillnessIntake) -> None:
         self._s, self._intake = settings, intake
         self._slopes = np.repeat([settings.slope_force, settings.slope_torque], 3)
         self._loudest = np.repeat([settings.loudest_force, settings.loudest_torque], 3)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class RegionStep:
+class RegionEdit:
     """
     One edit: a new list of regions, ranks renumbered by it, and facets that changed hands.
 
@@ -70,22 +70,22 @@ class RegionHistory:
     """
 
     def __init__(self, limit: int | None = None) -> None:
-        self._done: deque[RegionStep] = deque(maxlen=limit)
-        self._undone: list[RegionStep] = []
+        self._done: deque[RegionEdit] = deque(maxlen=limit)
+        self._undone: list[RegionEdit] = []
 
-    def push(self, step: RegionStep) -> None:
+    def push(self, step: RegionEdit) -> None:
         """Remember a step that was just done; what was undone before it is forgotten."""
         self._done.append(step)
         self._undone.clear()
 
-    def back(self) -> RegionStep | None:
+    def back(self) -> RegionEdit | None:
         """Return the step to undo, if there is one."""
         if not self._done:
             return None
         self._undone.append(self._done.pop())
         return self._undone[-1]
 
-    def forward(self) -> RegionStep | None:
+    def forward(self) -> RegionEdit | None:
         """Return the step to redo, if there is one."""
         if not self._undone:
             return None

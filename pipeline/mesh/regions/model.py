@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.history import RegionHistory, RegionStep
+from contactbench.pipeline.mesh.regions.history import RegionEdit, RegionHistory
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionSet,
@@ -306,21 +306,21 @@ class RegionModel:
 
     def _step(
         self, text: str, after: tuple[Region, ...], table: Ints | None, faces: Ints, new: Ints
-    ) -> RegionStep:
-        return RegionStep(text, self._regions, after, table, faces, self._labels[faces], new)
+    ) -> RegionEdit:
+        return RegionEdit(text, self._regions, after, table, faces, self._labels[faces], new)
 
     def _relist(self, text: str, regions: tuple[Region, ...]) -> None:
         check_list(regions)
         self._do(self._step(text, regions, None, _NO_FACES, _NO_FACES))
 
-    def _do(self, step: RegionStep) -> None:
+    def _do(self, step: RegionEdit) -> None:
         self._refuse_during_stroke()
         if step.before == step.after and np.array_equal(step.old, step.new):
             return
         self._history.push(step)
         self._apply(step)
 
-    def _apply(self, step: RegionStep) -> None:
+    def _apply(self, step: RegionEdit) -> None:
         step.redo(self._labels)
         self._regions = step.after
         self._emit(step)
@@ -332,10 +332,10 @@ class RegionModel:
         name = self._regions[stroke.rank - 1].name
         text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
         self._history.push(
-            RegionStep(text, self._regions, self._regions, None, faces, old, self._labels[faces])
+            RegionEdit(text, self._regions, self._regions, None, faces, old, self._labels[faces])
         )
 
-    def _emit(self, step: RegionStep) -> None:
+    def _emit(self, step: RegionEdit) -> None:
         faces = step.faces if step.table is None else None
         self._tell(RegionChange(faces, listed=step.before != step.after))
 

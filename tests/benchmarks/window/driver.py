@@ -13,7 +13,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 
 from contactbench.app.application import prepared
 from contactbench.app.errors import Faults
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.theme import use_theme
@@ -48,7 +48,7 @@ def own_home() -> Iterator[Path]:
 def shown_window() -> Iterator[MainWindow]:
     """Show a window as ``contactbench gui`` does; closed afterwards, with its session."""
     prepared()
-    settings, faults = Settings(), Faults()
+    settings, faults = WindowSettings(), Faults()
     use_theme("light")
     window = MainWindow(settings, faults)
     faults.install()

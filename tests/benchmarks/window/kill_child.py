@@ -17,7 +17,7 @@ from benchmarks.window.driver import rest, until
 from PySide6.QtCore import QEvent, QPointF, QTimer
 
 import contactbench.app.application
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
@@ -69,7 +69,7 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
     else:
         bench.undo.push(SetParameters(bench, {f"study.{step.value}": 1.0}, "set a number"))
         until(lambda: bench.desk.state.count > before, "the setting to be kept")
-    until(lambda: Settings().page_of(bench.desk.folder) == step.value, "the page to be remembered")
+    until(lambda: WindowSettings().page_of(bench.desk.folder) == step.value, "the page to be remembered")
 
 
 def look(window: MainWindow, bench: Bench) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QWidget
 
 from contactbench.app.application import prepared
 from contactbench.app.heatmap_viewer import HeatmapViewer
-from contactbench.app.settings import Settings
+from contactbench.app.settings import WindowSettings
 from contactbench.app.translation import load
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.durable import write_durably
@@ -94,7 +94,7 @@ class _Tour:
         """Return the pictures that are wanted, by name."""
         made: list[tuple[str, QPixmap]] = []
         if set(self._wanted) - {HEATMAP}:
-            self._window = window = MainWindow(Settings())
+            self._window = window = MainWindow(WindowSettings())
             self._place(window)
             if START in self._wanted:
                 made.append((START, self._taken(window)))

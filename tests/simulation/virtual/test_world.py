@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from waiting import until
 
-from contactbench.pipeline.devices.stream import State
+from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
@@ -24,8 +24,8 @@ def test_the_same_address_is_the_same_bench_on_one_clock():
         begin = time.monotonic()
         done = sensor.source.bench.turn_to(rpy=(0, 40, 0), seconds=0.3).result(2)
         until(lambda: wrenches and flanges and min(wrenches[-1].time, flanges[-1].time) > begin + 0.6)
-        assert sensor.health.state is State.STREAMING
-    assert told[-1].state is State.CLOSED
+        assert sensor.health.state is StreamState.STREAMING
+    assert told[-1].state is StreamState.CLOSED
     assert done.until - done.time == pytest.approx(0.3)
     assert begin - 0.1 < wrenches[-1].time - 0.5 < time.monotonic()
     assert flanges[-1].R_BE[0, 2] == pytest.approx(np.sin(np.radians(40)), abs=1e-4)
@@ -54,7 +54,7 @@ def test_stepwise_gives_the_same_every_time(tmp_path):
             assert pair.now() == pytest.approx(0.3)
             about = pair.about()
             assert pair.step(1) == 0
-        assert pair.sensor.health.state is State.CLOSED
+        assert pair.sensor.health.state is StreamState.CLOSED
         assert [device.rate for device in about.devices] == [1000.0, 50.0]
         assert [truth.time for truth in truths] == [sample.time for sample in wrenches]
         runs.append((wrenches, [sample.R_BE.tobytes() for sample in flanges]))
@@ -68,7 +68,7 @@ def test_a_script_that_fails_is_shown(tmp_path):
     stream = open_sensor(f"{HERE}&script={script}", lambda _: None)
     with stream:
         assert stream.done.wait(5)
-        assert stream.health.state is State.LOST
+        assert stream.health.state is StreamState.LOST
         assert "line 1: touch: marker 99" in stream.health.findings[0]
 
 
@@ -95,7 +95,7 @@ def test_who_makes_a_mistake_with_samples_leaves_nobody_waiting():
     with pair:
         for stream in (pair.sensor, pair.poses):
             assert stream.done.wait(5)
-            assert stream.health.state is State.LOST
+            assert stream.health.state is StreamState.LOST
             assert "ZeroDivisionError: mine" in stream.health.findings[0]
         with pytest.raises(InputError, match="closed"):
             pair.sensor.source.bench.release().result(1)
@@ -122,7 +122,7 @@ def test_who_makes_a_mistake_stepwise_hears_it_where_he_steps():
         with pytest.raises(ZeroDivisionError):
             pair.step(1)
         assert pair.poses.done.is_set()
-        assert pair.poses.health.state is State.LOST
+        assert pair.poses.health.state is StreamState.LOST
 
 
 def test_the_address_reads_back():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -56,6 +57,8 @@ class Loop:
         What arrives of a sample on its way from the sensor to the controller; None: nothing.
     switched_on : float
         How long before the scene began the sensor was switched on, s.
+    poses_late : float
+        How old the joints are that the controller is told, s; whole periods of it.
     """
 
     def __init__(
@@ -65,6 +68,7 @@ class Loop:
         sensor: SensorModel,
         line: Line | None = None,
         switched_on: float = WARM_S,
+        poses_late: float = 0.0,
     ) -> None:
         self.scene, self.controller, self.sensor = scene, controller, sensor
         self._line, self._on = line, switched_on
@@ -72,6 +76,7 @@ class Loop:
         self._period, self._rate = controller.settings.period, sensor.settings.rate
         self._periods = self._read = 0
         self._begin = scene.time
+        self._joints: deque[NDArray[np.float64]] = deque(maxlen=1 + round(poses_late / self._period))
         self._rows: list[dict[str, Any]] = []
 
     def step(self) -> ControlCommand:
@@ -93,7 +98,8 @@ class Loop:
             if sample is not None:
                 samples.append(sample)
         self.scene.advance(max(end - self.scene.time, 0.0))
-        here = self.scene.joints
+        self._joints.append(self.scene.joints)
+        here = self._joints[0]
         began, own = time.perf_counter(), time.thread_time()
         command = self.controller.step(self.scene.time, here, samples)
         took = time.perf_counter() - began, time.thread_time() - own
@@ -182,6 +188,7 @@ def run_loop(
     seconds: float,
     *,
     line: Line | None = None,
+    poses_late: float = 0.0,
     stop_after: float | None = None,
     watch: Watch | None = None,
 ) -> Trace:
@@ -190,7 +197,7 @@ def run_loop(
 
     Parameters
     ----------
-    scene, controller, sensor, line
+    scene, controller, sensor, line, poses_late
         As of `Loop`.
     seconds : float
         How long, s; it ends before, once the controller stands still for good.
@@ -208,7 +215,7 @@ def run_loop(
     """
     if not 0 < seconds <= _LONGEST_S:
         raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
-    loop = Loop(scene, controller, sensor, line)
+    loop = Loop(scene, controller, sensor, line, poses_late=poses_late)
     begin = scene.time
     while scene.time < begin + seconds - 1e-9:
         if stop_after is not None and scene.time - begin >= stop_after:

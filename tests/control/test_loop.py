@@ -112,3 +112,17 @@ def test_nothing_happened_is_said():
     made = rig()
     with pytest.raises(InputError, match="nothing happened"):
         Loop(made.scene, made.controller, made.sensor).trace()
+
+
+def test_late_poses_are_those_of_periods_before():
+    made, told = rig(), []
+    step = made.controller.step
+
+    def listening(now, joints, samples):
+        told.append((now, joints.copy(), made.scene.joints))
+        return step(now, joints, samples)
+
+    made.controller.step = listening
+    run_loop(made.scene, made.controller, made.sensor, 0.8, poses_late=0.1)
+    np.testing.assert_array_equal(told[-1][1], told[-6][2])
+    assert np.abs(told[-1][1] - told[-1][2]).max() > 0

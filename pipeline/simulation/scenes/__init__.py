@@ -21,7 +21,7 @@ from contactbench.pipeline.simulation.scenes.platform import MovedScene, Platfor
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 from contactbench.pipeline.simulation.scenes.press import PressScene
 from contactbench.pipeline.simulation.scenes.servo import ServoSettings
-from contactbench.pipeline.simulation.scenes.tissue import Tissue
+from contactbench.pipeline.simulation.scenes.tissue import Tissue, TissueCourse
 from contactbench.pipeline.simulation.scenes.touch import TouchScene
 
 __all__ = [
@@ -40,6 +40,7 @@ __all__ = [
     "Tip",
     "TipPress",
     "Tissue",
+    "TissueCourse",
     "TouchScene",
     "TrueSurface",
     "depth_for",

@@ -120,6 +120,7 @@ class MovedScene(TissueScene):
         PhysicsError
             See `PhysicsScene.step`.
         """
+        self._change_tissue()
         # Before `mj_step` they would be those of the step before, and none at all at the first.
         self.mujoco.mj_step1(self.model, self.data)
         self.control()

@@ -82,6 +82,7 @@ class PressScene(TissueScene):
 
     def control(self) -> None:
         """Pull the moved side to where it should be, with the forces that this takes."""
+        self._change_tissue()
         now = self.time
         wanted, speed = self.motion.at(now), self._speed(now)
         ahead = (self._speed(now + 1e-4) - self._speed(now - 1e-4)) / 2e-4

@@ -40,6 +40,42 @@ _HALF_HEIGHT_M = 0.06
 
 
 @dataclass(frozen=True)
+class TissueCourse:
+    """
+    How stiff tissue becomes while it is pressed: a rib that slides under, a bubble, tissue that creeps.
+
+    Attributes
+    ----------
+    times : tuple of float
+        s, of the scene, growing.
+    factors : tuple of float
+        Of the modulus and the damping at those times. Between two times the logarithm goes evenly; before the first and
+        after the last it rests.
+
+    Raises
+    ------
+    InputError
+        Times do not grow, factors are not positive, or there are not as many of both.
+    """
+
+    times: tuple[float, ...]
+    factors: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        times, factors = np.asarray(self.times), np.asarray(self.factors)
+        right = len(times) == len(factors) > 0 and np.isfinite(times).all() and np.isfinite(factors).all()
+        if not (right and (np.diff(times) > 0).all() and (factors > 0).all()):
+            raise InputError(
+                f"tissue: course of times {self.times} and factors {self.factors}: give as many of both, times that"
+                " grow, s, and factors above 0."
+            )
+
+    def at(self, time: float) -> float:
+        """Return the factor at a time, s."""
+        return float(np.exp(np.interp(time, self.times, np.log(self.factors))))
+
+
+@dataclass(frozen=True)
 class Tissue:
     """
     A soft flat phantom.
@@ -56,12 +92,15 @@ class Tissue:
         With gel on it, about 0.1; dry skin up to 0.6.
     half_size : float
         Of its square top, m.
+    course : TissueCourse, optional
+        How modulus and damping change; left out, they do not.
     """
 
     modulus: float = 3e6
     damping: float = 5e4
     friction: float = 0.3
     half_size: float = 0.1
+    course: TissueCourse | None = None
 
     def __post_init__(self) -> None:
         values = (self.modulus, self.damping, self.friction, self.half_size)
@@ -92,7 +131,8 @@ class TissueScene(PhysicsScene):
     ) -> None:
         super().__init__(spec, truth)
         self.area = area
-        self._make_springs(tissue)
+        self._tissue = tissue
+        self._make_springs()
         self._places = np.full((self.model.ngeom, 3), np.nan)
         self._places[self.model.geom_bodyid == self.model.body(PROBE).id] = places
 
@@ -131,14 +171,24 @@ class TissueScene(PhysicsScene):
         places = self._places[np.where(probe_second, pairs[:, 1], pairs[:, 0])]
         return places, forces @ R_WS, (contacts.pos[there] - p_WS) @ R_WS
 
-    def _make_springs(self, tissue: Tissue) -> None:
+    def _change_tissue(self) -> None:
+        """Have the tissue be as stiff as its course says of now."""
+        if self._tissue.course is not None:
+            self._springs_are(self._tissue.course.at(self.time))
+
+    def _make_springs(self) -> None:
         """Turn the tissue's figures into MuJoCo's: a contact at rest pushes with k r / R, R = (1 - d) / d A."""
-        model = self.model
+        model, tissue = self.model, self._tissue
         other, probe = model.body(OTHER).id, model.body(PROBE).id
         weight = float(model.body_invweight0[other, 0] + model.body_invweight0[probe, 0])
         scale = (1 - _SHARE) * weight * self.area
         # Any contact of a pair takes these from the phantom, whose priority is higher.
-        model.geom_solref[model.geom_bodyid == other] = [-tissue.modulus * scale, -tissue.damping * scale]
+        self._phantom = np.flatnonzero(model.geom_bodyid == other)
+        self._springs = np.array([-tissue.modulus * scale, -tissue.damping * scale])
+        self._springs_are(1.0 if tissue.course is None else tissue.course.at(0.0))
+
+    def _springs_are(self, factor: float) -> None:
+        self.model.geom_solref[self._phantom] = factor * self._springs
 
 
 def _torque(places: NDArray[np.float64], forces: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -65,6 +65,20 @@ class Admittance:
             self._sprung(error, dt)
         return (self.path - before) / dt
 
+    def hold_back(self, share: float, dt: float, mean: float) -> None:
+        """
+        Take back what a limit left out of the step before: else it would wind up.
+
+        Parameters
+        ----------
+        share : float
+            Of the motion that was done, 0 to 1.
+        dt, mean : float
+            Of that step, and what it returned.
+        """
+        self.path -= (1 - share) * mean * dt
+        self.speed *= share
+
     def _sprung(self, error: float, dt: float) -> None:
         """Solve M s'' + D s' + K s = e: around its rest at e / K, by the roots of the characteristic equation."""
         half, rest = self.damping / (2 * self.mass), error / self.stiffness

@@ -15,10 +15,13 @@ from contactbench.pipeline.control.command import ControlCommand, SensorMount
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.control.inverse import solve_step
+from contactbench.pipeline.control.pose_lag import PoseLag
 from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
 from contactbench.pipeline.control.states import ControlState, Safety
+from contactbench.pipeline.control.stiffness import StiffnessTrack
 from contactbench.pipeline.control.stiffness_probe import StiffnessProbe
 from contactbench.pipeline.control.surface import TissueSurface
+from contactbench.pipeline.control.swing import Swing
 from contactbench.pipeline.control.tare import Tare
 from contactbench.pipeline.control.tilt import Tilt
 from contactbench.pipeline.control.upright import Upright
@@ -43,6 +46,11 @@ _UNSURE = 0.25  # share of the tool's inertia
 _PRESS_N = 0.8  # about what the small press may add to the force
 # N/m per kg of tool: on softer tissue its own inertia looks like more depth than the force loop bears at full speed.
 _STIFF_PER_KG = 2000.0
+# Of the wanted force, and s: what is farther off for longer may be tissue of another stiffness; a jump in its speed is
+# met sooner.
+_DOUBTED, _DOUBTED_S = 0.1, 0.05
+_STILL, _WHOLE = 1e-4, 0.98  # m/s or rad/s; of a motion: more is all of it
+_WRONG = 0.5  # of the wanted force: as far off the other way, what leads is wrong
 _REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -93,6 +101,11 @@ class Controller:
         self._tare = Tare(settings.taring)
         self._probing = StiffnessProbe(settings.probing)
         self._probed = settings.probing == 0
+        self._stiffness = StiffnessTrack()
+        self._swing = Swing(settings.desired_force)
+        self._lag, self._sent_speed = PoseLag(), 0.0
+        self._wrong = 0.0  # s that the force has been off
+        self._driven = 0.0  # m/s, what the force loop asked for
         self._q = np.array(q, dtype=np.float64)
         self._sent = self._pose(self._q)  # where that is
         self._first_axis = self._sent[0][:, 2].copy()
@@ -178,6 +191,11 @@ class Controller:
         dt = self.settings.period
         here, follows = self._arrived(q_measured)
         R_BS, tip = self._pose(here)
+        if follows:
+            inward, was = self._sent[0][:, 2], tip if self._before is None else self._before[1]
+            self._lag.take(
+                self._sent_speed, float((tip - was) @ inward) / dt, float((self._sent[1] - tip) @ inward), dt
+            )
         self._inertia.moved(R_BS, tip - R_BS @ self.wanted_S)
         self._felt = self._inertia.wrench(R_BS, dt)
         sensed = self._intake.take(now, samples, R_BS, self._felt - self._tare.wrench)
@@ -195,19 +213,27 @@ class Controller:
             follows=follows,
             turned=math.acos(min(max(float(R_BS[:, 2] @ self._first_axis), -1.0), 1.0)),
             rising=self.surface.press(self.settings.desired_force).stiffness * self._moves,
+            swinging=self._swing.amplitude if self._swing.beyond else 0.0,
+            poses_late=self._lag.seconds,
             dt=dt,
         )
         if state is not before:
+            if self._swing.beyond and state is ControlState.HOLD:
+                self._probed = self.settings.probing == 0  # what was known of the tissue is wrong
             self._enter(before, state, force, None if follows else here)
             if (before, state) == (ControlState.APPROACH, ControlState.CONTACT) and not self._probed:
                 self._guess(force, float(moved @ R_then[:, 2]))
         self._learn(now, sensed, force, offset, moved, R_then, dt)
         R_cmd = self._sent[0]
-        twist = self._limited(self._twist(now, state, sensed, force, offset, R_cmd, dt))
+        wished = self._twist(now, state, sensed, force, offset, R_cmd, dt)
+        twist = self._limited(wished.copy())
         lever = R_cmd @ self._lever_S
         step = solve_step(self._arm, self._q, lever, twist, dt, self._speeds)
         self._speeds = (step.q - self._q) / dt
-        self._q, self._last, self._sent = step.q, step, self._pose(step.q)
+        left, self._sent = self._sent, self._pose(step.q)
+        self._sent_speed = float((self._sent[1] - left[1]) @ R_cmd[:, 2]) / dt
+        self._hold_back(wished, left, dt)
+        self._q, self._last = step.q, step
         self._travelled += abs(float(twist[:3] @ R_cmd[:, 2])) * step.share * dt
         change = self.safety.changes[-1] if len(self.safety.changes) > told else None
         return ControlCommand(step.q, state, change, twist, force, offset, sensed, step)
@@ -237,8 +263,7 @@ class Controller:
         return R_BS, p_BE_B + R_BE @ self._mount.p_ES_E + R_BS @ self.wanted_S
 
     def _offset(self, sensed: Sensed) -> NDArray[np.float64]:
-        point = None if sensed.contact is None else sensed.contact.point
-        return np.full(2, np.nan) if point is None else point[:2] - self.wanted_S[:2]
+        return np.full(2, np.nan) if sensed.point is None else sensed.point[:2] - self.wanted_S[:2]
 
     def _moved(self, now: float, sensed: Sensed, R_BS: NDArray[np.float64], tip: NDArray[np.float64]) -> Pose:
         """Return how the probe stood at the mean time of the readings: they are older than the joints."""
@@ -263,6 +288,8 @@ class Controller:
             self._tare.over = True  # from now on something may touch
         self._began_force = max(force, 0.0) if np.isfinite(force) else 0.0
         self._probing = StiffnessProbe(self.settings.probing)
+        self._stiffness.reset()
+        self._swing.reset()
 
     def _learn(
         self,
@@ -291,6 +318,8 @@ class Controller:
         faded = self._moves * math.exp(-self._unseen / _REMEMBERED_S)
         self._moves = max(abs(self.surface.speed_along(R_BS[:, 2], 0.0)), faded)
         self._unseen = 0.0
+        if self.state is ControlState.TRACK:
+            self._follow(sensed.time, float(tip @ R_BS[:, 2]), force, R_BS[:, 2], dt)
         if self.state is not ControlState.CONTACT or self._probed:
             return
         self._probing.take(sensed.time, float(tip @ R_BS[:, 2]), force)
@@ -307,8 +336,27 @@ class Controller:
 
     def _take(self, force: float, stiffness: float) -> None:
         """Take a stiffness, N/m; the force loop is slower on what is soft for so heavy a tool."""
-        self._calm = min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * float(self._intake.gravity.mass))))
+        self._calm = self._calm_on(stiffness)
         self.surface.learn(force, stiffness, self._calm)
+
+    def _follow(self, time: float, way: float, force: float, inward: NDArray[np.float64], dt: float) -> None:
+        """Follow the stiffness while it tracks, and slow the force loop down where the force swings."""
+        wanted = self.settings.desired_force
+        self._swing.take(wanted - force, dt)
+        if self.settings.variant is Variant.PLAIN:
+            return  # its gain is what it is, on any tissue
+        self._wrong = self._wrong + dt if abs(wanted - force) > _DOUBTED * wanted else 0.0
+        if self._wrong > _DOUBTED_S or self._swing.seen:
+            self._stiffness.doubt()
+        known = self.surface.press(force).stiffness
+        found = self._stiffness.take(time, way, force, known)
+        self._swing.explained(found / known)
+        self._calm = self._calm_on(found) if found != known else self._calm
+        self.surface.follow(force, found, self._calm * self._swing.share, inward)
+
+    def _calm_on(self, stiffness: float) -> float:
+        """Return the share of the force loop's speed on a stiffness, N/m: less on what is soft for so heavy a tool."""
+        return min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * float(self._intake.gravity.mass))))
 
     def _guess(self, force: float, where: float) -> None:
         """Guess the stiffness from how the force grew as it touched, rather too high: then it goes on gently."""
@@ -358,7 +406,9 @@ class Controller:
 
     def _press(self, now: float, force: float) -> float:
         """Return the speed of the small press that measures the stiffness, once the force is there."""
-        if self._probed or self.state is not ControlState.CONTACT:
+        if self.state is ControlState.TRACK and self.settings.variant is Variant.AWARE:
+            return self._stiffness.asking(self.surface.press(force).stiffness, self.settings.period)
+        if self._probed:
             return 0.0
         if self._ready(now, force):
             self._probing.begin(now)
@@ -373,15 +423,46 @@ class Controller:
         self, force: float, wanted: float, inward: NDArray[np.float64], lead: float, dt: float
     ) -> float:
         """Eq. 7 with its sign: pressed too little it goes in. Aware, it leads the tissue by its speed."""
-        if self.settings.variant is Variant.PLAIN:
-            return self._force.step(wanted - force, dt)
-        stiffness = self.surface.press(force).stiffness
+        plain = self.settings.variant is Variant.PLAIN
         # As Eq. 7, with the damping that gives the usual gain on what is touched.
-        scale = self.settings.force_damping * self.settings.force_gain / stiffness
+        damping = self.settings.force_damping * self.settings.force_gain
+        scale = 1.0 if plain else self._calm * damping / self.surface.press(force).stiffness
+        self._driven = self._force.step(self._swing.share * scale * (wanted - force), dt)
+        if self.state is ControlState.TRACK and force < self.settings.low_force:
+            # What is lost is not run after: where it was, or comes back, it would be hit.
+            self._force.reset()
+            return min(self._driven, self.settings.approach_speed)
         # Before the stiffness is measured, or while the force grows, tissue that gives way would seem to flee.
         known = self._probed and self.safety.elapsed > self.settings.ramp
-        led = self.surface.speed_along(inward, lead) if known or self.state is ControlState.TRACK else 0.0
-        return led + self._force.step(self._calm * (wanted - force) * scale, dt)
+        if plain or not (known or self.state is ControlState.TRACK):
+            return self._driven
+        led = self.surface.speed_along(inward, lead)
+        return led * self._swing.share * self._trusted(led, wanted - force) + self._driven
+
+    def _hold_back(self, wished: NDArray[np.float64], before: Pose, dt: float) -> None:
+        """Have what drives the motion know what limits left of it: of speed, acceleration, and joints."""
+        (R, tip), (R_before, tip_before) = self._sent, before
+        turn = R @ R_before.T
+        done = (
+            (tip - tip_before) / dt,
+            np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / (2 * dt),
+        )
+        shares = []
+        for part, reached in zip((wished[:3], wished[3:]), done, strict=True):
+            size2 = float(part @ part)
+            share = 1.0 if size2 < _STILL**2 else min(max(float(reached @ part) / size2, 0.0), 1.0)
+            shares.append(1.0 if share > _WHOLE else share)
+        if shares[0] < 1:
+            self._force.hold_back(shares[0], dt, self._driven)
+        if shares[1] < 1:
+            self._upright.hold_back(shares[1], dt)
+
+    def _trusted(self, led: float, error: float) -> float:
+        """Return how much of a lead, m/s inward, to believe: none where the force says the contrary, N too little."""
+        if led * error >= 0:
+            return 1.0
+        low, high = _DOUBTED * self.settings.desired_force, _WRONG * self.settings.desired_force
+        return min(max((high - abs(error)) / (high - low), 0.0), 1.0)
 
     def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:
         for part, most in ((slice(0, 3), self.settings.max_speed), (slice(3, 6), self.settings.max_turn)):

@@ -25,6 +25,7 @@ class Follower:
 
     def __init__(self, bandwidth: ArrayLike) -> None:
         self._bandwidth = np.array(bandwidth, dtype=np.float64)
+        self._share = 1.0
         self._x: NDArray[np.float64] | None = None
         self._v = self._a = np.zeros_like(self._bandwidth)
 
@@ -46,14 +47,20 @@ class Follower:
         x = self._x + self._v * dt + 0.5 * self._a * dt * dt
         v = self._v + self._a * dt
         if value is None:
-            fade = np.exp(-self._bandwidth * dt)
+            fade = np.exp(-self._share * self._bandwidth * dt)
             self._x, self._v, self._a = x, v * fade, self._a * fade * fade
             return
-        r = np.exp(-self._bandwidth * dt)
+        r = np.exp(-self._share * self._bandwidth * dt)
         error = value - x
         self._x = x + (1 - r**3) * error
         self._v = v + 1.5 * (1 - r) ** 2 * (1 + r) / dt * error
         self._a = self._a + (1 - r) ** 3 / dt**2 * error
+
+    def shift(self, by: NDArray[np.float64], share: float) -> None:
+        """Take the value for one that is off by (k,), at the same speed; go on with a share of the bandwidth."""
+        self._share = share
+        if self._x is not None:
+            self._x = self._x + by
 
     def speed(self, lead: float = 0.0) -> NDArray[np.float64]:
         """Return the speed (k,) in `lead` s from the newest value."""

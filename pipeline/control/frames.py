@@ -71,7 +71,7 @@ def frame_of(command: ControlCommand, loop: Loop) -> LoopFrame:
     scene, sensed = loop.scene, command.sensed
     R_BE, p_BE_B = arm_of(scene).flange_pose(scene.true_joints)
     phantom, normal = scene.surface()
-    point = None if sensed.contact is None else sensed.contact.point
+    point = sensed.point
     within, out = scene.angles()
     return LoopFrame(
         time_s=scene.time,

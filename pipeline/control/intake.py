@@ -13,6 +13,7 @@ import numpy as np
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.control.heed import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.contact.touch_model import TouchModel
     from contactbench.pipeline.devices.sample import WrenchSample
-    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.kernel import Contact, Reason
     from contactbench.pipeline.mesh import Probe
 
 _STUCK = 6  # equal readings; of a sensor with noise two are rare
@@ -39,6 +40,7 @@ class SensingFault(StrEnum):
     STUCK = "stuck"
     SATURATED = "saturated"
     CLOCK = "from a clock that went back"
+    UNHEALTHY = "unhealthy"  # a method says so of its readings
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,10 +49,14 @@ class Sensed:
 
     time: float  # mean time of the samples, s; of the newest good one where there is none now
     wrench: NDArray[np.float64]  # (6,) compensated, on the probe, S, N and N·m; NaN without a fresh sample
-    contact: Contact | None  # where it acts; None: too little force, or no method says
+    contact: (
+        Contact | None
+    )  # where it acts; None: too little force, no method says, or it is not to be turned by
     fault: SensingFault | None
     age: float  # s since the newest good sample
     count: int  # samples that the wrench is the mean of
+    reason: Reason | None = None  # of the contact, also of one that is not to be turned by
+    point: NDArray[np.float64] | None = None  # (3,) S, m: of a contact that is there
 
     @property
     def fresh(self) -> bool:
@@ -108,6 +114,7 @@ class SampleIntake:
         self._equal = 0
         self._outside = 0
         self._good = -np.inf
+        self._sure = SurePlace()
 
     @property
     def gravity(self) -> GravityModel:
@@ -206,11 +213,17 @@ class SampleIntake:
             fault = SensingFault.SATURATED
         if not rows or fault is not None:
             return Sensed(self._good, np.full(6, np.nan), None, fault, age, 0)
-        wrench = np.add.reduce(rows) / len(rows) + added
-        return Sensed(sum(times) / len(times), wrench, self._located(wrench), None, age, len(rows))
+        wrench, time = np.add.reduce(rows) / len(rows) + added, sum(times) / len(times)
+        contact = self._located(wrench)
+        if contact is None:
+            return Sensed(time, wrench, None, None, age, len(rows))
+        what = heed(contact)
+        if what in (Heed.HOLD, Heed.RETRACT):
+            fault = SensingFault.SATURATED if what is Heed.RETRACT else SensingFault.UNHEALTHY
+            return Sensed(time, np.full(6, np.nan), None, fault, age, 0, contact.reason)
+        point = self._sure.take(contact, time)
+        given = None if point is None else contact
+        return Sensed(time, wrench, given, None, age, len(rows), contact.reason, point)
 
     def _located(self, wrench: NDArray[np.float64]) -> Contact | None:
-        if float(wrench[:3] @ wrench[:3]) < self._from**2:
-            return None
-        contact = self._method.locate(wrench)
-        return contact if contact.accepted else None
+        return None if float(wrench[:3] @ wrench[:3]) < self._from**2 else self._method.locate(wrench)

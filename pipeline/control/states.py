@@ -17,6 +17,8 @@ saturation                                  any but safe          retract
 no fresh sample for `stale` s, or stuck     approach to track     hold; after `give_up` s retract
 ... and tissue that moves                   hold                  retract before it could have pressed to 80 %
 fresh samples again                         hold                  contact, or track again, if it touches; else approach
+force swings, whatever the gain             track                 hold for 0.3 s, then contact: the stiffness is
+                                                                  measured anew; after `attempts` retract
 force over `touch_force`                    approach              contact
 farther than `approach_travel`              approach              retract
 wanted force reached                        contact               track
@@ -25,6 +27,7 @@ place of contact lost for 0.3 s             track                 it no longer t
 ... for 2 s                                 track                 retract
 joint limit or singularity for 0.3 s        approach to track     retract
 arm not where it was sent for 0.06 s        approach to track     hold, and on from there; after `attempts` retract
+poses late by `following` for 0.2 s         approach to track     retract
 clock that goes back                        approach to track     as no fresh sample
 force or torque from any side over 80 %     any but safe          retract
 ... or over the limit within 0.08 s         any but safe          retract
@@ -59,6 +62,8 @@ _ALARM = 0.8  # of the largest force
 # as much again.
 _REACTION_S = 0.08
 _PRESSED = 1.5  # of the wanted force: who stands still does not give in
+_REST_S = 0.3  # that it stands still after a swing: what is pressed comes to rest
+_DELAYED_S = 0.2
 _LITTLE = 0.5  # of a step: less is no going on
 
 
@@ -112,6 +117,9 @@ class Safety:
         self._load_age = 0.0
         self._held_from = ControlState.APPROACH
         self._patience = settings.give_up
+        self._delayed = 0.0  # s that the poses have been late
+        self._rest = 0.0  # s to stand still, whatever is sensed
+        self._unsure = ""  # why there is no place
 
     def stop(self) -> None:
         """Have it end: it goes back."""
@@ -130,6 +138,8 @@ class Safety:
         follows: bool = True,
         turned: float = 0.0,
         rising: float = 0.0,
+        swinging: float = 0.0,
+        poses_late: float = 0.0,
     ) -> ControlState:
         """
         Decide what to do in this step.
@@ -154,6 +164,10 @@ class Safety:
             Between the probe's axis and the one that it began with, rad.
         rising : float
             How fast the force would grow if the probe stood still, at most, as far as is known, N/s.
+        swinging : float
+            Amplitude of a swing that a lower gain did not stop, N; 0: there is none.
+        poses_late : float
+            How far the arm seems to be behind its set-points, s.
         """
         self._now = now
         self.elapsed += dt
@@ -161,13 +175,24 @@ class Safety:
         if self.state is not ControlState.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
         late = self._late > _LATE_S
+        delayed = poses_late > self.settings.following + self.settings.servo_lag
+        self._delayed = self._delayed + dt if delayed else 0.0
         match self.state:
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
                 sensed.fault is not None
             ):
                 self._wait(f"the sensor is {sensed.fault.value}: nothing moves on old readings.", rising)
+            case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
+                self._delayed > _DELAYED_S
+            ):
+                late_ms = 1e3 * poses_late
+                self._to(
+                    ControlState.RETRACT, f"the poses are {late_ms:.0f} ms late: where it is cannot be known."
+                )
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if late:
                 self._behind(rising)
+            case ControlState.TRACK if swinging > 0:
+                self._swings(swinging, rising)
             case ControlState.APPROACH:
                 self._approach(force, travelled)
             case ControlState.CONTACT:
@@ -191,6 +216,7 @@ class Safety:
         if sensed.fresh:
             self._low = longer(self._low, force < self.settings.low_force)
             self._lost = longer(self._lost, sensed.contact is None)
+            self._unsure = "" if sensed.reason is None else f" ({sensed.reason.name.lower()})"
         self._late = longer(self._late, not follows)
         self._blocked = longer(self._blocked, last is not None and _blocked(last))
         self.turning = self._lost < _LOST_S
@@ -264,7 +290,9 @@ class Safety:
 
     def _track(self) -> None:
         if not self._again() and self._lost > _GIVEN_UP_S:
-            self._to(ControlState.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s.")
+            self._to(
+                ControlState.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s{self._unsure}."
+            )
 
     def _again(self) -> bool:
         if self._low < _LOW_S:
@@ -283,8 +311,24 @@ class Safety:
         else:
             self._wait("the arm is not where it was sent: nothing moves until it is.", rising)
 
+    def _swings(self, amplitude: float, rising: float) -> None:
+        self._attempts += 1
+        if self._attempts > self.settings.attempts:
+            self._to(
+                ControlState.RETRACT, f"the force swung {self._attempts} times, now by {amplitude:.1f} N."
+            )
+        else:
+            self._wait(
+                f"the force swings by {amplitude:.1f} N although the gain was lowered: it stands still.",
+                rising,
+            )
+            # On this tissue nothing is known any more.
+            self._held_from, self._rest = ControlState.CONTACT, _REST_S
+
     def _hold(self, sensed: Sensed, force: float) -> None:
         if sensed.fresh and self._late == 0:
+            if self.elapsed < self._rest:
+                return
             after = ControlState.CONTACT if force > self.settings.touch_force else ControlState.APPROACH
             if self._held_from is ControlState.TRACK and after is ControlState.CONTACT:
                 after = ControlState.TRACK  # all is known; and tissue that moves does not wait
@@ -296,7 +340,7 @@ class Safety:
 
     def _wait(self, reason: str, rising: float) -> None:
         """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
-        self._held_from = self.state
+        self._held_from, self._rest = self.state, 0.0
         room = _ALARM * self.settings.max_force - self._loads[0]
         time = room / rising - _REACTION_S if rising > 0 else math.inf
         self._patience = min(self.settings.give_up, max(time, 0.0))

@@ -70,7 +70,26 @@ class TissueSurface:
         found = self._foundation.modulus_of(force, stiffness)
         self.modulus = min(max(found, _SOFTEST), _STIFFEST)
         # From anew: with another depth the surface is elsewhere, it did not go there.
-        self._place = Follower(np.full(3, share * self._bandwidth))
+        self._place = Follower(np.full(3, self._bandwidth))
+        self._place.shift(np.zeros(3), share)
+
+    def follow(self, force: float, stiffness: float, share: float, inward: NDArray[np.float64]) -> None:
+        """
+        Take what changed while it tracks, without a jump of the surface.
+
+        Parameters
+        ----------
+        force, stiffness : float
+            N, N/m.
+        share : float
+            Of the bandwidth to follow it with.
+        inward : (3,)
+            The probe's axis, in B.
+        """
+        before = self.press(force).depth
+        found = self._foundation.modulus_of(force, stiffness)
+        self.modulus = min(max(found, _SOFTEST), _STIFFEST)
+        self._place.shift((before - self.press(force).depth) * inward, share)
 
     def forget(self) -> None:
         """Begin anew: the tissue was left."""

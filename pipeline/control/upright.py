@@ -37,6 +37,7 @@ class Upright:
             inertia = (damping[0] * settings.settling, damping[1] * settings.settling)
         self._turns = [Admittance(*gains) for gains in zip(inertia, damping, stiffness, strict=True)]
         self._leading = np.zeros(3)
+        self._means = [0.0, 0.0]
 
     def reset(self) -> None:
         """Begin at rest."""
@@ -68,11 +69,17 @@ class Upright:
             known = math.isfinite(x) and math.isfinite(y)
             here = np.array([x, y, 0.0]) if known else np.zeros(3)
             torques = (settings.desired_force * turn_of(here, _UP))[:2].tolist()
-        about_x, about_y = (turn.step(torque, dt) for turn, torque in zip(self._turns, torques, strict=True))
-        turning = np.array([about_x, about_y, 0.0])
+        self._means = [turn.step(torque, dt) for turn, torque in zip(self._turns, torques, strict=True)]
+        turning = np.array([*self._means, 0.0])
         if settings.variant is Variant.AWARE:
             turning += self._led(R_BS, lead, dt)
         return np.asarray(R_BS @ turning)
+
+    def hold_back(self, share: float, dt: float) -> None:
+        """Take back what a limit left out of the step before (s): `share` of it was done."""
+        for turn, mean in zip(self._turns, self._means, strict=True):
+            turn.hold_back(share, dt, mean)
+        self._leading *= share
 
     def _led(self, R_BS: NDArray[np.float64], lead: float, dt: float) -> NDArray[np.float64]:
         """Return the tissue's turning, in S, rad/s; smoothed, and ahead by as much as that is late."""

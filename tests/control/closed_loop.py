@@ -89,8 +89,8 @@ class Loop:
 
 
 def loop(name="t-shape", settings=None, *, motion=None, modulus=USUAL_MODULUS, friction=0.1, noise=(0.05, 0.0014),
-         bias=(0.0,) * 6, damping=1 / 60, seed=0, gap=0.002):  # fmt: skip
-    tissue = Tissue(modulus, modulus * damping, friction)
+         bias=(0.0,) * 6, damping=1 / 60, seed=0, gap=0.002, course=None):  # fmt: skip
+    tissue = Tissue(modulus, modulus * damping, friction, course=course)
     scene = PlatformScene(truth_of(name), payload=PAYLOAD, tissue=tissue, motion=motion, gap=gap, **QUICK)
     probe = model_of(name, 1000)
     intake = SampleIntake(probe, gravity(bias), WrenchNoise(0.05, 0.0014), Gates())

@@ -49,3 +49,22 @@ def test_an_error_that_is_no_number_moves_nothing(wrong):
     with pytest.raises(InputError, match="finite"):
         axis.step(*wrong)
     assert (axis.speed, axis.path) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 400.0])
+def test_what_a_limit_left_out_does_not_wind_up(stiffness):
+    free, held = (Admittance(10.0, 300.0, stiffness) for _ in range(2))
+    for _ in range(100):
+        free.step(50.0, 0.02)
+        held.hold_back(0.1, 0.02, held.step(50.0, 0.02))
+    assert abs(held.path) < 0.2 * abs(free.path)
+    # Once the error turns, it turns at once.
+    assert held.step(-50.0, 0.02) < 0
+
+
+def test_all_that_was_done_is_kept():
+    one, other = Admittance(10.0, 300.0), Admittance(10.0, 300.0)
+    for _ in range(10):
+        one.step(5.0, 0.02)
+        other.hold_back(1.0, 0.02, other.step(5.0, 0.02))
+    assert (one.path, one.speed) == (other.path, other.speed)

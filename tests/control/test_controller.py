@@ -13,6 +13,7 @@ from contactbench.pipeline.control.margins import loop_of, margins
 from contactbench.pipeline.control.settings import Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import TissueCourse
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 from contactbench.pipeline.study.marker_touches import model_of
 
@@ -60,6 +61,73 @@ def test_the_aware_variant_follows_better_than_the_plain_one():
         )
         off[variant] = np.abs(np.array(run.angles)[-50:, 0]).mean()
     assert off[Variant.AWARE] < 0.6 * off[Variant.PLAIN]
+
+
+RIB = TissueCourse((2.4, 2.7), (1.0, 6.0))
+
+
+def test_on_a_rib_the_force_does_not_swing_and_the_stiffness_is_known():
+    run = loop("linear", settings_for("linear"), course=RIB).run(4.2)
+    late = np.array(run.times) > 3.7
+    forces = np.array(run.forces)[late]
+    assert max(run.forces) < 12.0
+    assert np.abs(forces - 7.0).max() < 1.0
+    assert np.ptp(forces) < 0.9
+    assert run.controller.state is ControlState.TRACK
+    true = Foundation(model_of("linear", 1000)).at(7.0, 6 * USUAL_MODULUS).stiffness
+    assert run.controller.surface.press(7.0).stiffness == pytest.approx(true, rel=0.4)
+
+
+def test_without_the_press_that_asks_it_swings(monkeypatch):
+    # What the test before shows is no luck: this is the controller that measures the stiffness once.
+    monkeypatch.setattr(Controller, "_follow", lambda *_: None)
+    run = loop("linear", settings_for("linear"), course=RIB).run(4.2)
+    forces = np.array(run.forces)[np.array(run.times) > 3.7]
+    assert np.ptp(forces) > 1.3
+
+
+def test_a_swing_that_nothing_stops_makes_it_stand_still_and_measure_anew(monkeypatch):
+    monkeypatch.setattr(Controller, "_follow", swinging_from(2.0))
+    run = loop("t-shape").run(3.2)
+    told = [(each.after, each.reason) for each in run.controller.safety.changes]
+    held = next(k for k, (_, reason) in enumerate(told) if "although the gain was lowered" in reason)
+    assert [state for state, _ in told[held : held + 2]] == [ControlState.HOLD, ControlState.CONTACT]
+    assert max(run.forces) < 8.5
+
+
+def swinging_from(time):
+    """Return a `_follow` that sees a swing in what is none, once."""
+
+    def follow(controller, now, *_):
+        if now > time and not any(each.after is ControlState.HOLD for each in controller.safety.changes):
+            for k in range(60):
+                controller._swing.take(4.0 * np.sin(2 * np.pi * 3.0 * 0.02 * k), 0.02)
+
+    return follow
+
+
+def test_tissue_that_is_lost_is_not_run_after():
+    bubble = TissueCourse((2.4, 2.42), (1.0, 1e-3))
+    run = loop("convex", settings_for("convex"), course=bubble).until(ControlState.TRACK)
+    while run.controller.state is ControlState.TRACK:
+        run.step()
+    assert run.controller.state is ControlState.APPROACH
+    settings = run.controller.settings
+    lost = [c for c in run.commands if c.state is ControlState.TRACK and c.force < settings.low_force]
+    assert len(lost) >= 4
+    assert max(-c.twist[2] for c in lost) <= settings.approach_speed + 1e-9
+
+
+def test_limits_do_not_wind_up_the_force_loop():
+    # The tissue goes away faster than the probe may, for long; back at it, it must not be hit.
+    slow = settings_for(max_speed=0.004, approach_speed=0.003)
+    run = loop("t-shape", slow).until(ControlState.TRACK)
+    run.scene.motion = Ramp(np.array([0, 0, -0.0012, 0, 0, 0]), run.scene.time)
+    run.run(0.3)
+    assert np.abs(run.commands[-1].twist[:3]).max() <= 0.004 + 1e-12
+    assert abs(run.controller._force.speed) < 0.02
+    run.run(1.2)
+    assert max(run.forces[-50:]) < 7.6
 
 
 def test_what_a_calibration_leaves_is_taken_off_in_the_air():

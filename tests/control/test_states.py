@@ -9,6 +9,7 @@ from contactbench.pipeline.control.intake import Sensed, SensingFault
 from contactbench.pipeline.control.inverse import JointStep, MotionLimit
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.states import ControlState, Safety
+from contactbench.pipeline.kernel import Reason
 
 DT = 0.02
 SETTINGS = ControlSettings()
@@ -28,7 +29,7 @@ class Drive:
         for _ in range(max(round(seconds / DT), 1)):
             self.now += DT
             sensed = self.sensed(
-                force, **{k: v for k, v in what.items() if k in {"fault", "contact", "count"}}
+                force, **{k: v for k, v in what.items() if k in {"fault", "contact", "count", "reason"}}
             )
             self.safety.update(
                 what.get("now", self.now),
@@ -40,14 +41,16 @@ class Drive:
                 follows=what.get("follows", True),
                 turned=what.get("turned", 0.0),
                 rising=what.get("rising", 0.0),
+                swinging=what.get("swinging", 0.0),
+                poses_late=what.get("poses_late", 0.0),
                 dt=DT,
             )
         return self.safety.state
 
-    def sensed(self, force, fault=None, contact=CONTACT_FOUND, count=4):
+    def sensed(self, force, fault=None, contact=CONTACT_FOUND, count=4, reason=None):
         fresh = fault is None and count > 0
         wrench = np.array([0, 0, -force, 0, 0, 0]) if fresh else np.full(6, np.nan)
-        return Sensed(self.now, wrench, contact, fault, 0.0, count if fresh else 0)
+        return Sensed(self.now, wrench, contact, fault, 0.0, count if fresh else 0, reason)
 
     @property
     def reason(self):
@@ -262,3 +265,51 @@ def test_back_and_blocked_ends_where_it_is():
     assert drive(0.9, last=stuck) is ControlState.RETRACT
     assert drive(0.2, last=stuck) is ControlState.SAFE
     assert "no farther" in drive.reason
+
+
+def test_a_swing_makes_it_stand_still_then_measure_anew():
+    drive = Drive(ControlState.TRACK, replace(SETTINGS, attempts=1))
+    assert drive(swinging=3.2) is ControlState.HOLD
+    assert "swings by 3.2 N although the gain was lowered" in drive.reason
+    assert drive(0.26) is ControlState.HOLD, "it comes to rest first"
+    assert drive(0.06) is ControlState.CONTACT, "what was known of the tissue is wrong"
+    assert drive(1.0) is ControlState.TRACK
+    assert drive(swinging=3.2) is ControlState.RETRACT
+    assert "swung 2 times" in drive.reason
+
+
+def test_standing_still_after_a_swing_it_still_goes_back_from_what_pushes_or_is_stale():
+    drive = Drive(ControlState.TRACK)
+    assert drive(swinging=3.2) is ControlState.HOLD
+    assert drive(force=11.0) is ControlState.RETRACT
+    drive = Drive(ControlState.TRACK)
+    drive(swinging=3.2)
+    assert drive(SETTINGS.give_up + 3 * DT, fault=SensingFault.STALE) is ControlState.RETRACT
+
+
+@pytest.mark.parametrize("state", [ControlState.APPROACH, ControlState.CONTACT, ControlState.HOLD])
+def test_a_swing_is_one_of_tracking(state):
+    drive = Drive(state)
+    drive(force=7.0, swinging=3.0, probed=False)
+    assert all("swing" not in each.reason for each in drive.safety.changes)
+
+
+@pytest.mark.parametrize("state", WORKING)
+def test_late_poses_make_it_go_back(state):
+    drive = Drive(state)
+    force = 0.0 if state is ControlState.APPROACH else 7.0
+    assert drive(force=force, poses_late=0.045, probed=False) is state
+    assert drive(0.18, force=force, poses_late=0.1, probed=False) is state
+    assert drive(0.06, force=force, poses_late=0.1) is ControlState.RETRACT
+    assert "100 ms late" in drive.reason
+
+
+def test_an_arm_whose_lag_is_known_may_be_as_late():
+    drive = Drive(ControlState.TRACK, replace(SETTINGS, servo_lag=0.08))
+    assert drive(1.0, poses_late=0.1) is ControlState.TRACK
+
+
+def test_why_a_place_was_lost_is_said():
+    drive = Drive(ControlState.TRACK)
+    assert drive(2.1, contact=None, reason=Reason.TWO_TOUCHES) is ControlState.RETRACT
+    assert "not known for 2 s (two_touches)" in drive.reason

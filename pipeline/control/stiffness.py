@@ -1,0 +1,96 @@
+"""How stiff the tissue is while the probe tracks: asked by a small press where there is a doubt."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+import numpy as np
+
+_HZ = 6.25  # eight periods; tissue moves more slowly, and the servo is still with it
+_WINDOW_S = 0.31  # two periods of it
+_LEAST_ROWS = 12
+_ASKED_N = 0.15  # of the force, peak: six times the noise of a period
+_DOUBT_S = 0.7  # how long a doubt lasts: a window, and what it takes to go there
+_LEAST_M = 5e-7  # of the way's amplitude: less is what encoders and readings make of nothing
+_BAND = 2.5  # standard errors on either side of what a window shows
+_TAKEN = 0.5  # of the way there, in logarithms, in a period
+_MOST = 0.3  # of that way, in a period: a factor of 6 takes 0.12 s
+
+
+class StiffnessTrack:
+    """
+    Follows the stiffness of what is pressed; a quiet loop changes nothing.
+
+    Where the force is off, or swings, the tissue may have become another: then the probe presses in and out a little,
+    at one frequency w. Over a window force and way are fitted as a drift, a cubic in time for tissue that moves, and a
+    complex amplitude each, F and S. Of a spring and a damper F / S = k + i w d: the least squares of force over way of
+    Erickson, Weber and Sharf (2003), Contact stiffness and damping estimation for robotic systems, Int. J. Robotics
+    Research 22(1), with the press as an instrument, so that what else pushes does not spoil it.
+
+    What is believed goes to the nearer edge of a band around what the window shows, and stays where it is within: a
+    window without a press has a wide band, and says nothing.
+    """
+
+    def __init__(self) -> None:
+        self._rows: deque[tuple[float, float, float]] = deque()
+        self._doubt = 0.0  # s that it lasts yet
+        self._turn = 0.0  # of the small press, rad
+
+    def reset(self) -> None:
+        """Forget what was seen."""
+        self._rows.clear()
+        self._doubt = self._turn = 0.0
+
+    def doubt(self) -> None:
+        """Have it ask the tissue."""
+        self._doubt = _DOUBT_S
+
+    def asking(self, known: float, dt: float) -> float:
+        """Return the mean speed of the small press over the next dt (s), into the tissue, m/s; 0 without a doubt."""
+        self._doubt -= dt
+        if self._doubt <= 0:
+            self._turn = 0.0
+            return 0.0
+        before, self._turn = self._turn, self._turn + 2 * math.pi * _HZ * dt
+        return _ASKED_N / known * (math.sin(self._turn) - math.sin(before)) / dt
+
+    def take(self, time: float, way: float, force: float, known: float) -> float:
+        """
+        Take a period, and return the stiffness to go on with, N/m.
+
+        Parameters
+        ----------
+        time, way, force : float
+            s, m into the tissue, N; all at the time of the readings.
+        known : float
+            Stiffness that is believed now, N/m.
+        """
+        self._rows.append((time, way, force))
+        while time - self._rows[0][0] > _WINDOW_S + 1e-6:
+            self._rows.popleft()
+        if self._doubt <= 0 or len(self._rows) < _LEAST_ROWS:
+            return known
+        low, high = self._band()
+        nearest = min(max(known, low), high)
+        if nearest <= 0:  # what moves the force is the tissue
+            return known
+        return known * math.exp(min(max(_TAKEN * math.log(nearest / known), -_MOST), _MOST))
+
+    def _band(self) -> tuple[float, float]:
+        """Return between what the stiffness is, N/m, by the rows of the window."""
+        time, way, force = np.array(self._rows).T
+        t = (time - time[0]) / (_WINDOW_S / 2) - 1
+        turn = 2 * math.pi * _HZ * (time - time[0])
+        A = np.column_stack([np.ones_like(t), t, t * t, t**3, np.cos(turn), np.sin(turn)])
+        both = np.column_stack([way - way.mean(), force - force.mean()])
+        found, _, rank, _ = np.linalg.lstsq(A, both, rcond=None)
+        left = both - A @ found
+        S, F = found[4] + 1j * found[5]
+        size = abs(S)
+        if rank < A.shape[1] or size < _LEAST_M:
+            return 0.0, math.inf
+        stiffness = float((F / S).real)
+        noise = (left * left).sum(axis=0) / (len(t) - A.shape[1])
+        error = math.sqrt(2 / len(t) * (noise[1] + stiffness**2 * noise[0])) / size
+        return stiffness - _BAND * error, stiffness + _BAND * error

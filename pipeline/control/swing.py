@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 _SLOW_S = 0.3  # time constant of the mean that a swing is around
-_HALF_WAVE_S = (0.03, 0.26)  # of a loop that swings; tissue that moves is slower
+_HALF_WAVE_S = (0.015, 0.26)  # of a loop that swings; tissue that moves is slower
 _SEEN = 0.05  # of the wanted force: a half-wave of less is no swing
 _GROWN = 0.35  # of the wanted force: a half-wave of more is one that a lower gain did not stop
 _LOWERED = 0.65  # by each half-wave from the second on

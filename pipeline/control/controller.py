@@ -15,13 +15,13 @@ from contactbench.pipeline.control.command import ControlCommand, SensorMount
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.control.inverse import solve_step
+from contactbench.pipeline.control.oscillation import Swing
 from contactbench.pipeline.control.pose_lag import PoseLag
 from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
 from contactbench.pipeline.control.states import ControlState, Safety
 from contactbench.pipeline.control.stiffness import StiffnessTrack
 from contactbench.pipeline.control.stiffness_probe import StiffnessProbe
 from contactbench.pipeline.control.surface import TissueSurface
-from contactbench.pipeline.control.swing import Swing
 from contactbench.pipeline.control.tare import Tare
 from contactbench.pipeline.control.tilt import Tilt
 from contactbench.pipeline.control.upright import Upright

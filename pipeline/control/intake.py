@@ -13,7 +13,7 @@ import numpy as np
 from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.control.heed import Heed, SurePlace, heed
+from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status
 
 if TYPE_CHECKING:

@@ -23,6 +23,7 @@ BENCHMARKS = {
     "bundles": "bundle_fuzz:run",
     "calibration-doubt": "calibration_doubt:run",
     "control-safety": "control_safety:run",
+    "control-scenarios": "control_scenarios:run",
     "control-speed": "control_speed:run",
     "faults": "faults:run",
     "gravity": "gravity:run",

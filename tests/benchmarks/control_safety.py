@@ -16,7 +16,7 @@ from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue
+from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue, TissueCourse
 from contactbench.pipeline.study.control_rig import foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 
@@ -69,6 +69,7 @@ class Start:
     period: float  # m or rad, s, s
     begin: float  # m or rad, s, s
     faults: tuple[ScriptedFault, ...]
+    course: TissueCourse | None = None  # how the tissue changes
 
     @property
     def fault(self) -> str:
@@ -101,8 +102,8 @@ class End:
         return self.ended == ControlState.SAFE and self.peak <= OVER * self.limit
 
 
-def draw(number: int, seed: int = 0) -> Start:
-    """Draw a start; the same numbers give the same one."""
+def draw(number: int, seed: int = 0, *, changing: bool = False) -> Start:
+    """Draw a start; the same numbers give the same one, but for the tissue, which may change."""
     rng = np.random.default_rng([seed, number])
     axis = str(rng.choice(["z", "rx", "ry"]))
     most = 0.010 if axis == "z" else _TILT
@@ -122,7 +123,19 @@ def draw(number: int, seed: int = 0) -> Start:
         period=float(rng.uniform(*_PERIOD_S)),
         begin=float(rng.uniform(0.0, _STOP_S)),
         faults=() if kind is None else (_fault(kind, rng),),
+        course=_course(np.random.default_rng([seed, number, 1])) if changing else None,
     )
+
+
+def _course(rng: np.random.Generator) -> TissueCourse:
+    """Draw one to three changes, each to between a sixth and twelve times what it was at first."""
+    begins = np.sort(rng.uniform(0.5, _STOP_S, int(rng.integers(1, 4))))
+    times, factors = [0.0], [1.0]
+    for begin in begins.tolist():
+        start = max(begin, times[-1] + 0.05)
+        times += [start, start + float(rng.uniform(0.1, 0.6))]
+        factors += [factors[-1], float(np.exp(rng.uniform(np.log(1 / 6), np.log(12.0))))]
+    return TissueCourse(tuple(times), tuple(factors))
 
 
 def _fault(kind: FaultKind, rng: np.random.Generator) -> ScriptedFault:
@@ -150,7 +163,7 @@ def run_start(start: Start) -> End:
         start.probe,
         settings,
         start.number,
-        tissue=Tissue(modulus, modulus / 60, start.friction),
+        tissue=Tissue(modulus, modulus / 60, start.friction, course=start.course),
         motion=Placed.at_pose(motion, np.array([0.0, 0.0, 0.0, *start.tilt, 0.0])),
         gap=start.gap,
         coarse=True,
@@ -187,18 +200,28 @@ def run(
     runs: int = 1_000,
     *,
     seed: int = 0,
+    changing: bool = False,
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> StudyReport:
-    """Run many random starts, a fifth with each kind of fault and a fifth with none."""
+    """
+    Run many random starts, a fifth with each kind of fault and a fifth with none.
+
+    Parameters
+    ----------
+    changing : bool
+        Whether the tissue becomes stiffer or softer meanwhile, by up to twelve times within some tenths of a second.
+    """
     if not 1 <= runs <= 1_000_000:
         raise InputError(f"{runs} runs: give 1 to 1,000,000.")
     ends = []
-    for end in in_processes(run_start, [draw(number, seed) for number in range(runs)], workers):
+    for end in in_processes(
+        run_start, [draw(number, seed, changing=changing) for number in range(runs)], workers
+    ):
         ends.append(end)
         progress(len(ends), runs)
     ends.sort(key=lambda end: end.start.number)
-    return report_of(ends, {"runs": runs, "seed": seed})
+    return report_of(ends, {"runs": runs, "seed": seed, "changing": changing})
 
 
 def report_of(ends: list[End], settings: dict[str, object]) -> StudyReport:

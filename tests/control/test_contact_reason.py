@@ -1,4 +1,4 @@
-"""Every reason has its line in the table of `contactbench.pipeline.control.heed`."""
+"""Every reason has its line in the table of `contactbench.pipeline.control.contact_reason`."""
 
 from dataclasses import dataclass, field
 
@@ -7,8 +7,8 @@ import pytest
 from control.closed_loop import gravity
 
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control import heed as table
-from contactbench.pipeline.control.heed import HEED, NEAR_M, NEAR_S, Heed, SurePlace, heed
+from contactbench.pipeline.control import contact_reason as table
+from contactbench.pipeline.control.contact_reason import HEED, NEAR_M, NEAR_S, Heed, SurePlace, heed
 from contactbench.pipeline.control.intake import SampleIntake, SensingFault
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.kernel import Reason

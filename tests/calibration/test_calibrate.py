@@ -407,7 +407,7 @@ def test_fewer_than_three_poses_are_no_calibration(count):
 
 
 def test_what_is_not_seen_stays_unknown_without_noise():
-    for count in (4, 12, 200):
+    for count in (4, 60):
         tiny = PoseNoise(1e-9, 1e-9)
         assert off(calibrate(posed(spun(count), noise=tiny), tiny)).max() < 5
         assert off(calibrate(posed(spun(count), noise=EXACT))).max() < 5

@@ -164,7 +164,9 @@ def test_a_signal_ends_it_well(folder: Path, tmp_path: Path, kind: signal.Signal
         # Not communicate(): it does not see what readline() has read ahead.
         assert process.stderr is not None
         rest, said = process.stdout.read(), process.stderr.read()
-    assert process.returncode == ("could not be used" in said), said  # on a busy machine samples may come too late
+    assert process.returncode == ("could not be used" in said), (
+        said
+    )  # on a busy machine samples may come too late
     count = len(lines) + len(rest.splitlines())
     told = [json.loads(line) for line in (*lines, *rest.splitlines())]
     located = sum(row["health"] != ["silent"] for row in told)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import signal
@@ -38,6 +39,13 @@ def pytest_configure(config):  # noqa: ARG001 - the hook's name
     if number:
         os.environ["DISPLAY"] = f":{number}"
         os.environ["QT_QPA_PLATFORM"] = "xcb"
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _frozen():
+    """Take what is there before a file's tests for what stays: every later collection would walk through it."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_unconfigure(config):  # noqa: ARG001 - the hook's name

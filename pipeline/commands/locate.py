@@ -14,9 +14,6 @@ from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, s
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy as np
-    import numpy.typing as npt
-
     from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
     from contactbench.pipeline.contact.stream import LocateSummary, Locator
     from contactbench.pipeline.mesh import Probe
@@ -41,9 +38,6 @@ class MethodName(StrEnum):
     algorithm1 = "algorithm1"
     wrench_axis = "wrench_axis"
     iterative = "iterative"
-
-
-_UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch: 1 / 0.0254}
 
 
 @locate_app.command(
@@ -179,29 +173,23 @@ def _check_usage(out: Path, method: MethodName, track: bool) -> None:
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
 
 
-def _mount(values: Sequence[float], units: Units) -> npt.NDArray[np.float64]:
-    """T_SP (4, 4), metres, from x,y,z in units and rx,ry,rz in degrees: R_SP = Rz Ry Rx."""
-    import numpy as np
-    from scipy.spatial.transform import Rotation
-
-    T_SP = np.eye(4)
-    T_SP[:3, :3] = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()  # lower case: fixed axes
-    T_SP[:3, 3] = np.array(values[:3]) / _UNITS_PER_METRE[units]
-    return T_SP
-
-
 def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:
     """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
-    import warnings
-
-    from contactbench.pipeline.mesh import MeshWarning, load_probe
-    from contactbench.pipeline.mesh.load import read_mesh
+    from contactbench.pipeline.mesh.errors import MeshError
+    from contactbench.pipeline.mesh.load import read_mesh, settle
+    from contactbench.pipeline.mesh.units import METRES
+    from contactbench.pipeline.preparation.alignment.placement import from_angles
 
     read = read_mesh(path, "auto" if units is None else units.value)
-    T_SP = None if mount is None else _mount(mount, units or Units(read.units))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MeshWarning)  # said below, in the words it would have used
-        probe = load_probe(path, read.units, T_SP)
+    T_SP = None
+    if mount is not None:
+        over, under = METRES[read.units if units is None else units.value]
+        position_mm = [1000 * value * over / under for value in mount[:3]]
+        T_SP = from_angles(position_mm, mount[3:]).T_SP
+    try:
+        probe = settle(read, T_SP, path.stem)
+    except MeshError as error:
+        raise MeshError(f"{path}: {error}") from error
     sentences = [*read.notes, *probe.health.sentences]
     if T_SP is None and read.raw.settled:
         from contactbench.pipeline.mesh.sidecar import load_probe_file

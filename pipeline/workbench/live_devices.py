@@ -19,12 +19,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session import State
 
 SERIAL_PROTOCOLS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ)
-_SENSORS = frozenset({*SERIAL_PROTOCOLS, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL})
-_POSES = frozenset(
-    {Protocol.ELFIN, Protocol.UR, Protocol.STILL, Protocol.POSES, Protocol.REPLAY, Protocol.VIRTUAL}
-)
-# They give both: whoever has one of them for a sensor needs no other source.
-_BOTH = frozenset({Protocol.REPLAY, Protocol.VIRTUAL})
 
 
 @dataclass(frozen=True)
@@ -104,7 +98,7 @@ def problem_of(address: str, *, poses: bool = False) -> str:
         parsed = DeviceAddress.parse(address.strip())
     except AddressError as error:
         return str(error)
-    if parsed.protocol not in (_POSES if poses else _SENSORS):
+    if not (parsed.gives_poses if poses else parsed.gives_wrenches):
         return (
             f"{parsed.protocol} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
             if poses
@@ -115,4 +109,4 @@ def problem_of(address: str, *, poses: bool = False) -> str:
 
 def gives_poses(address: str) -> bool:
     """Whether a sensor's address also gives its orientation, as a virtual bench and most recordings do."""
-    return not problem_of(address) and DeviceAddress.parse(address.strip()).protocol in _BOTH
+    return not problem_of(address) and DeviceAddress.parse(address.strip()).gives_poses

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import native
 import pytest
 from benchmarks.bundle_fuzz import run
 
 from contactbench.pipeline.errors import InputError
 
-ROOT = Path(__file__).parents[2]
-BESIDE = Path(sys.executable).parent / "cmake"
-CMAKE = str(BESIDE) if BESIDE.exists() else shutil.which("cmake")
-BUILD = ROOT / "build/runtime"
 
-
-def built(*command: object) -> str:
+def out_of(*command: object) -> str:
     done = subprocess.run(
         [str(part) for part in command], capture_output=True, text=True, check=False, timeout=300
     )
@@ -29,21 +24,16 @@ def built(*command: object) -> str:
 
 @pytest.fixture(scope="module")
 def loader() -> Path:
-    if CMAKE is None:
-        pytest.skip("no cmake")
-    source = ROOT / "pipeline/kernel/runtime"
-    built(CMAKE, "-S", source, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
-    built(CMAKE, "--build", BUILD)
-    return BUILD / "contactbench-load_all"
+    return native.built() / "contactbench-load_all"
 
 
 def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
     # In a process of its own: the most memory that this one ever used says nothing of bundles.
     code = (
         "import json, sys; from pathlib import Path; from benchmarks.bundle_fuzz import run;"
-        " print(json.dumps(run(300, seed=7, cpp=Path(sys.argv[1])).to_json()))"
+        " print(json.dumps(run(150, seed=7, cpp=Path(sys.argv[1])).to_json()))"
     )
-    report = json.loads(built(sys.executable, "-c", code, loader))
+    report = json.loads(out_of(sys.executable, "-c", code, loader))
     tried, _, _, other, compared, wrong, slowest, largest = (each["measured"] for each in report["figures"])
     assert wrong == 0, report["notes"]
     assert slowest < 20.0  # none hangs; the command holds it to its target

@@ -54,15 +54,15 @@ def test_the_bound_is_smaller_for_more_poses():
 
 
 def test_bumped_poses_are_named_and_do_no_harm(monkeypatch):
-    figures = gravity.bumped_poses(40, 2)
+    figures = gravity.bumped_poses(20, 2)
     for named, alarms, _, ratio in (figures[:4], figures[4:]):
         assert named.measured == 100
-        assert alarms.measured <= 100 * 3 / 40  # 1 % is expected; 3 of 40 happen once in a hundred
-        assert ratio.measured < 1.2 + 3.5 / np.sqrt(2 * 40)
+        assert alarms.measured <= 100 * 2 / 20  # 1 % is expected; 2 of 20 happen once in fifty
+        assert ratio.measured < 1.2 + 3.5 / np.sqrt(2 * 20)
     monkeypatch.setattr(
         gravity, "calibrate", lambda poses, noise=None: replace(calibrate(poses, noise), rejected=())
     )
-    assert not gravity.bumped_poses(20, 2)[0].passed
+    assert not gravity.bumped_poses(8, 2)[0].passed
 
 
 def test_a_light_load_is_not_pulled_towards_the_sensor():

@@ -46,9 +46,9 @@ def test_the_files_that_are_changed_are_sound(folder, name):
 
 
 def test_a_series_of_changed_files(folder):
-    outcomes = [sound(make_case(1, number), folder) for number in range(300)]
-    assert outcomes.count("valid") > 12
-    assert outcomes.count("refused") > 150
+    outcomes = [sound(make_case(1, number), folder) for number in range(120)]
+    assert outcomes.count("valid") > 4
+    assert outcomes.count("refused") > 60
 
 
 def test_a_case_is_its_number():
@@ -81,14 +81,14 @@ def test_large_files_whose_counts_are_right(folder, name):
     assert kinds
 
 
-@settings(max_examples=150, derandomize=True, deadline=None)
+@settings(max_examples=60, derandomize=True, deadline=None)
 @given(name=st.sampled_from(NAMES), share=st.floats(0, 1))
 def test_truncated_anywhere(folder, name, share):
     data = sound_files()[name]
     sound(FuzzCase(suffix_of(name), "cut", data[: int(share * len(data))]), folder)
 
 
-@settings(max_examples=150, derandomize=True, deadline=None)
+@settings(max_examples=60, derandomize=True, deadline=None)
 @given(name=st.sampled_from(NAMES), data=st.binary(max_size=300))
 def test_random_bytes(folder, name, data):
     sound(FuzzCase(suffix_of(name), "random", data), folder)
@@ -143,7 +143,7 @@ def test_no_files_are_refused():
         mesh_fuzz.run(0)
 
 
-@settings(max_examples=200, derandomize=True, deadline=None)
+@settings(max_examples=100, derandomize=True, deadline=None)
 @given(
     vertices=st.lists(
         st.lists(st.one_of(st.floats(), st.integers(-2, 2)), min_size=3, max_size=3), min_size=1, max_size=8

@@ -134,6 +134,13 @@ def test_words_for_forces_name_the_axis(R_WS, words):
     assert re.search(words, first)
 
 
+def test_poses_that_wobble_are_as_alike_as_the_sensor_can_tell():
+    wobble = turns((0.02, 0, 0), (0, 0.03, 0), (-0.03, 0, 0))
+    sight = seen(wobble @ turns((0, 0, 0), (0, 0, 90), (0, 0, 200)))
+    assert sight.force_rank == 5
+    assert "same tilt" in sight.null_directions[0]
+
+
 def test_words_for_torques():
     assert "same direction in the sensor" in " ".join(
         seen(REFERENCE["four spun about the vertical"][0]).null_directions

@@ -45,6 +45,7 @@ def prepared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bench, "prepare_probe", copy)
+        patch.setattr(housing, "_CAD_FACETS", 10_000)
         yield
 
 

@@ -382,7 +382,7 @@ def test_a_sliver_that_folds_back_with_or_without_an_original():
 
 def test_an_original_with_a_part_inside_out_says_nothing_of_sides():
     bar, other = cube(), cube()
-    inverted = (0.3 * other[0] + [3, 0, 0], other[1][:, ::-1])
+    inverted = (0.3 * other[0] + [0.03, 0, 0], other[1][:, ::-1])
     outward = (inverted[0], other[1])
     found = check_soundness(*joined(bar, outward), joined(bar, inverted))
     assert found.sound

@@ -164,7 +164,9 @@ def test_a_signal_ends_it_well(folder: Path, tmp_path: Path, kind: signal.Signal
         # Not communicate(): it does not see what readline() has read ahead.
         assert process.stderr is not None
         rest, said = process.stdout.read(), process.stderr.read()
-    assert process.returncode == 0, said
+    assert process.returncode == ("could not be used" in said), (
+        said
+    )  # on a busy machine samples may come too late
     count = len(lines) + len(rest.splitlines())
     told = [json.loads(line) for line in (*lines, *rest.splitlines())]
     located = sum(row["health"] != ["silent"] for row in told)
@@ -184,7 +186,8 @@ def test_a_reader_that_goes_away_ends_it_quietly(folder: Path) -> None:
         process.stdout.readline()
         process.stdout.close()
         said = process.stderr.read()
-        assert process.wait(20) == 0, said
+        # On a busy machine samples may come too late: then it is 1, and said.
+        assert process.wait(20) == ("could not be used" in said), said
     assert "Traceback" not in said
     assert "standard output" in said
 

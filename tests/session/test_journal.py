@@ -1,11 +1,14 @@
 """The journal's bytes: cut anywhere, flipped anywhere, chained."""
 
+import os
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.session import frames
-from contactbench.pipeline.session.errors import JournalError
+from contactbench.pipeline.session.errors import JournalError, SessionError
+from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
 
 PAYLOADS = [frames.canonical({"n": n, "text": "µ" * n}) for n in range(6)]
 DATA = frames.encode_all(PAYLOADS)
@@ -77,3 +80,36 @@ def test_what_json_cannot_hold_is_refused():
         frames.canonical({"x": float("nan")})
     with pytest.raises(JournalError, match="put large data into a file"):
         frames.encode(b" " * (2**20 + 1), frames.GENESIS)
+
+
+def failed_writer(folder, monkeypatch):
+    """Make a journal, and a writer whose last write did not reach the disk."""
+    (folder / JOURNAL).write_bytes(DATA)
+    writer = JournalWriter(folder, frames.scan(DATA))
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", lambda _: (_ for _ in ()).throw(OSError(5, "the disk is gone")))
+        with pytest.raises(SessionError, match="not recorded"):
+            writer.append(PAYLOADS[0])
+    return writer
+
+
+def test_after_a_write_that_failed_all_is_refused_until_it_is_mended(tmp_path, monkeypatch):
+    writer = failed_writer(tmp_path, monkeypatch)
+    with pytest.raises(SessionError, match="a write has failed before"):
+        writer.append(PAYLOADS[0])
+    writer.mend()
+    writer.append(PAYLOADS[0])
+    writer.close()
+    assert (tmp_path / JOURNAL).read_bytes()[: len(DATA)] == DATA
+    assert len(frames.scan((tmp_path / JOURNAL).read_bytes()).frames) == len(PAYLOADS) + 1
+
+
+def test_a_journal_of_the_same_length_that_others_wrote_is_not_mended(tmp_path, monkeypatch):
+    writer = failed_writer(tmp_path, monkeypatch)
+    other = frames.encode_all([PAYLOADS[0].replace(b"0", b"9"), *PAYLOADS[1:]])
+    assert len(other) == len(DATA)
+    (tmp_path / JOURNAL).write_bytes(other)
+    with pytest.raises(SessionError, match="somebody else has changed the journal"):
+        writer.mend()
+    writer.close()
+    assert (tmp_path / JOURNAL).read_bytes() == other

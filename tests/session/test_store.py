@@ -294,7 +294,7 @@ def test_records_that_cannot_be_are_named(folder, change):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="kill is TerminateProcess there, the same by another name")
-def test_killed_at_twenty_moments_nothing_acknowledged_is_lost(tmp_path):
-    report = kill_writers(tmp_path / "s", 20, seed=5)
+def test_killed_at_ten_moments_nothing_acknowledged_is_lost(tmp_path):
+    report = kill_writers(tmp_path / "s", 10, seed=5)
     assert report.problems == ()
-    assert report.acknowledged > 20
+    assert report.acknowledged > 10

@@ -295,7 +295,7 @@ def test_it_can_be_stopped_and_tells_how_far_it_is():
 def test_a_real_probe(real_file):
     with pytest.warns(MeshWarning):
         probe = load_probe(real_file)
-    shell = make_shell(probe, alpha=probe.size / 100)
+    shell = make_shell(probe, alpha=probe.size / 40)
     assert shell.faults == ()
     if real_file.name.startswith("convex"):  # slivers where its parts cut each other are no reason to wrap it
         assert shell.how == "hull"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.simulation.scenes.tissue import FACE_DEPTH_M, spread
+from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

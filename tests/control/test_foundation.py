@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.simulation.scenes.tissue import spread
 from contactbench.pipeline.study.marker_touches import model_of
 
 

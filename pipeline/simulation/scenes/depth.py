@@ -9,7 +9,8 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes.tissue import BALL_M, FACE_DEPTH_M, PLACES, Tissue, spread
+from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
+from contactbench.pipeline.simulation.scenes.tissue import BALL_M, PLACES, Tissue
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -5,6 +5,7 @@ import pytest
 
 from contactbench import assets
 from contactbench.pipeline.contact import Reason, WrenchNoise
+from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
@@ -17,7 +18,6 @@ from contactbench.pipeline.simulation.scenes import (
     depth_for,
     hand_motion,
 )
-from contactbench.pipeline.simulation.scenes.tissue import spread
 
 _G = 9.80665
 

@@ -427,6 +427,12 @@ def test_wrong_files(bench):
         (["--place", "1,2,3,4,5,nan"], "--place needs 6 finite numbers"),
         (["--place", "1,2,3,4,5,east"], "--place needs 6 finite numbers"),
         (["--saturation", "1"], "--saturation needs 6 finite numbers"),
+        (["--patch", "round"], "--patch needs 2 finite numbers separated by commas, not 'round'"),
+        (["--patch", "5,0"], "error: Bed.curvature (200.0, 0.0)"),
+        (
+            ["--patch", "flat", "--method", "scan"],
+            "--patch works with --method contactbench only, not with scan",
+        ),
         (["--track", "--method", "scan"], "--track works with --method contactbench only, not with scan"),
         (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
         (["--torsion-arm", "-1"], "error: TouchModel.torsion_arm must be between 0 and 1000 m"),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
+    from contactbench.pipeline.contact.patch import PatchReader
     from contactbench.pipeline.contact.stream import LocateSummary, Locator
     from contactbench.pipeline.mesh import Probe
 
@@ -103,6 +104,14 @@ def locate(
             help="With --track: follow contacts that are sure only because of the regions of the mesh.",
         ),
     ] = True,
+    patch: Annotated[
+        str | None,
+        typer.Option(
+            metavar="flat|RX,RY",
+            help="What is touched is soft: tell where the middle of the patch is and how the force is shared. flat, or"
+            " the radii of the tissue along S's x and y, mm, 0 for flat.",
+        ),
+    ] = None,
     compensated: Annotated[
         bool,
         typer.Option(
@@ -123,7 +132,7 @@ def locate(
 
     Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named.
     """
-    _check_usage(out, method, track)
+    _check_usage(out, method, track, patch)
     placed = None if place is None else numbers(place, 6, "--place")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from contactbench.pipeline.contact import Gates, WrenchNoise
@@ -156,6 +165,7 @@ def locate(
             allow_nan=allow_nan,
             compensated=compensated,
             probe=surface,
+            patches=None if patch is None else _patches(surface, patch),
             progress=bar,
         )
     for sentence in summary.warnings:
@@ -166,7 +176,9 @@ def locate(
         raise typer.Exit(1)
 
 
-def _check_usage(out: Path, method: MethodName, track: bool) -> None:
+def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) -> None:
+    if patch is not None and method is not MethodName.contactbench:
+        raise typer.BadParameter(f"--patch works with --method contactbench only, not with {method.value}.")
     if track and method is not MethodName.contactbench:
         raise typer.BadParameter(f"--track works with --method contactbench only, not with {method.value}.")
     if as_json() and out == Path("-"):
@@ -202,6 +214,14 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
                 " `contactbench probe align`, or give --place."
             )
     return probe, [f"{path}: {sentence}" for sentence in sentences]
+
+
+def _patches(probe: Probe, text: str) -> PatchReader:
+    """Return what reads patches on tissue of radii, mm, along S's x and y; flat: 0, neither."""
+    from contactbench.pipeline.contact.patch import Bed, PatchReader
+
+    x, y = (0.0, 0.0) if text == "flat" else numbers(text, 2, "--patch")
+    return PatchReader(probe, Bed((1000 / x if x else 0.0, 1000 / y if y else 0.0)))
 
 
 def _model(torsion_arm: float | None, force: float | None, torque: float | None) -> TouchModel:

@@ -68,6 +68,7 @@ class ContactRows:
         answers: Answers,
         sigma_mm: npt.NDArray[np.float64],
         marks: npt.NDArray[np.uint8],
+        more: npt.NDArray[np.float64] | None = None,
     ) -> bytes:
         """
         Write one line per answer, columns as in `HEADER`.
@@ -82,6 +83,8 @@ class ContactRows:
             Largest standard deviation of each point, mm; NaN where there is none.
         marks : (n,) uint8
             What each lies on, a place in `MARKS`; beyond them: nothing is known.
+        more : (n, k) float64, optional
+            Columns behind those; NaN where there is no such number.
         """
         columns = (
             times,
@@ -94,6 +97,7 @@ class ContactRows:
             answers.misfits,
             answers.confidences,
             _MARK_TEXTS.take(marks),
+            *(() if more is None else more.T),
         )
         return csv_rows(*columns)
 

@@ -19,6 +19,7 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
 _PLACES = 1500
@@ -197,6 +198,22 @@ class PatchReader:
             area=patch[2],
             depth=patch[3],
         )
+
+    def rows(self, wrenches: NDArray[np.float64], answers: Batch) -> NDArray[np.float64]:
+        """
+        Return a row for each answer, (n, 11), of what `read` says of it.
+
+        Middle of the area in S, m; along x and y: offset from it, mm, with its sigma, and balance, with its sigma. NaN
+        where the contact was not accepted, or shows no patch.
+        """
+        out = np.full((len(wrenches), 11), np.nan)
+        points, covariances = answers.points, answers.covariances
+        for row in np.flatnonzero(answers.accepted):
+            patch = self.read(wrenches[row, :3], points[row], covariances[row])
+            if patch is not None:
+                mm = 1e3 * np.concatenate([patch.offset, patch.offset_sigma])
+                out[row] = np.concatenate([patch.centre_S, mm, patch.balance, patch.balance_sigma])
+        return out
 
     def _patch(
         self, F: NDArray[np.float64], p: NDArray[np.float64], modulus: float

@@ -9,7 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar, cast
 
 import numpy as np
 
@@ -26,10 +26,16 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from contactbench.pipeline.contact.patch import PatchReader
+    from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
 __all__ = ["LocateSummary", "WrenchFileError", "ahead", "locate_file", "refuse_overwriting", "whole_output"]
 
+PATCH_HEADER = (
+    b"centre_x,centre_y,centre_z,offset_x_mm,offset_y_mm,offset_sigma_x_mm,offset_sigma_y_mm"
+    b",balance_x,balance_y,balance_sigma_x,balance_sigma_y\n"
+)
 Progress = Callable[[int, int], None]
 _Block = TypeVar("_Block")
 _Done = TypeVar("_Done")
@@ -83,6 +89,7 @@ def locate_file(
     allow_nan: bool = False,
     compensated: bool = False,
     probe: Probe | None = None,
+    patches: PatchReader | None = None,
     progress: Progress | None = None,
     block_bytes: int = BLOCK_BYTES,
 ) -> LocateSummary:
@@ -114,6 +121,8 @@ def locate_file(
     probe : Probe, optional
         What is touched; that of the solver by default. Where it is given and no touch explains more than half of the
         rows with force, the usual mistakes are tried.
+    patches : PatchReader, optional
+        What each accepted contact says of the area that touches: columns `PATCH_HEADER` more. Some milliseconds a row.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
     block_bytes : int
@@ -140,12 +149,13 @@ def locate_file(
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         if not compensated:
             reader.refuse_raw()
-        write(HEADER)
+        write(HEADER if patches is None else HEADER.rstrip() + b"," + PATCH_HEADER)
         text = ContactRows()
         for rows, answers in ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             marks = mark(answers.faces)
-            write(text.encode(rows.times, answers, sigma_mm, marks))
+            more = None if patches is None else patches.rows(rows.wrenches, cast("Batch", answers))
+            write(text.encode(rows.times, answers, sigma_mm, marks, more))
             tally.add(answers.reasons, sigma_mm, marks)
             sample.add(rows.wrenches, answers.reasons)
             if progress is not None:

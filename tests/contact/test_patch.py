@@ -1,11 +1,15 @@
 """How a probe's face lies on soft tissue, told from one wrench: against beds made of other places, and the bench."""
 
+import csv
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.contact.patch import Bed, PatchReader
+from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study.marker_touches import model_of
@@ -133,6 +137,21 @@ def test_it_says_what_it_found():
     patch = PatchReader(block(0.02, 0.01), TRUE).read([0, 0, -FORCE], [0.004, 0.0, 0.05], 1e-8 * np.eye(3))
     assert patch.sentence.startswith("Centre of pressure of a patch of 8.3 cm²: +4.0 ± 0.1 mm along x")
     assert "the force is 35/65" in patch.sentence
+
+
+def test_a_file_of_contacts_gets_columns_more(tmp_path):
+    probe = block(0.02, 0.01)
+    source, out = tmp_path / "wrenches.csv", tmp_path / "contacts.csv"
+    wrench = np.concatenate([[0, 0, -FORCE], np.cross([0.004, 0, 0.05], [0, 0, -FORCE])])
+    lines = [",".join(map(repr, [float(t), *map(float, row)])) for t, row in enumerate((wrench, np.zeros(6)))]
+    source.write_text("\n".join(["t,fx,fy,fz,mx,my,mz", *lines, ""]))
+    locate_file(ContactSolver(probe), source, out, patches=PatchReader(probe, TRUE))
+    with out.open(newline="") as stream:
+        pressed_, free = csv.DictReader(stream)
+    assert float(pressed_["offset_x_mm"]) == pytest.approx(4, abs=0.1)
+    assert float(pressed_["balance_x"]) == pytest.approx(0.3, abs=0.02)
+    assert float(pressed_["centre_z"]) == pytest.approx(0.05)
+    assert {free[name] for name in ("centre_x", "offset_x_mm", "balance_x", "balance_sigma_y")} == {""}
 
 
 @pytest.mark.parametrize("tilt", [-0.03, 0.0, 0.05])

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.tissue import BALL_M, PLACES, Tissue
 
 if TYPE_CHECKING:

@@ -86,6 +86,10 @@ class SensorSettings:
         """Return the same sensor read at another rate, Hz."""
         return replace(self, rate=rate)
 
+    def silent(self) -> SensorSettings:
+        """Return the same sensor without noise and without steps."""
+        return replace(self, noise=_ZERO, resolution=_ZERO)
+
     def with_(self, reality: Reality, rng: np.random.Generator) -> SensorSettings:
         """
         Return the same sensor with what a real bench adds; warmth is no part of it: see `SensorModel.warm`.

@@ -24,6 +24,7 @@ BENCHMARKS = {
     "calibration-doubt": "calibration_doubt:run",
     "control-safety": "control_safety:run",
     "control-speed": "control_speed:run",
+    "day": "day:run",
     "faults": "faults:run",
     "gravity": "gravity:run",
     "live": "live.report:run",

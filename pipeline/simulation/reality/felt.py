@@ -62,12 +62,13 @@ class Felt:
 
     def of(self, moment: SceneMoment) -> SceneMoment:
         """Return a moment with what is felt in it; asked twice about the same time, it answers the same."""
+        contact, centre, more = moment.contact, moment.centroid_S, 0
         pressed = moment.contacts > 0
-        contact, centre = moment.contact, moment.centroid_S
-        more = 0
         if pressed:
             contact, centre, more = self._touched(contact, moment.point_S, moment.normal_S)
-        felt = contact + self._beside(moment.time, moment.R_WS, contact, centre, pressed=pressed)
+        place = centre if pressed else np.zeros(3)
+        rows = (np.array([moment.time]), moment.R_WS[None], contact[None], place[None], np.array([pressed]))
+        felt = contact + self._beside(*rows)[0]
         reading = moment.reading - moment.contact + felt
         return replace(
             moment, reading=reading, contact=contact, centroid_S=centre, contacts=moment.contacts + more
@@ -86,17 +87,16 @@ class Felt:
         points, normals : (n, 3)
             Where the tip touches, if it does.
         """
-        felt = np.empty((len(times), 6))
-        last: tuple[bytes, Array, Array] | None = None
-        for row, time in enumerate(np.asarray(times).tolist()):
-            contact, centre, pressed = contacts[row], points[row], bool(contacts[row].any())
-            if pressed:
-                key = contact.tobytes() + centre.tobytes()
+        pressed = contacts.any(axis=1)
+        contacts, centres = contacts.copy(), points.copy()
+        if self._pad is not None or self._reality.second:
+            last: tuple[bytes, Array, Array] | None = None
+            for row in np.flatnonzero(pressed):
+                key = contacts[row].tobytes() + points[row].tobytes()
                 if last is None or last[0] != key:  # a touch that is held is the same press
-                    last = (key, *self._touched(contact, centre, normals[row])[:2])
-                contact, centre = last[1:]
-            felt[row] = contact + self._beside(time, R_WS[row], contact, centre, pressed=pressed)
-        return felt
+                    last = (key, *self._touched(contacts[row], points[row], normals[row])[:2])
+                contacts[row], centres[row] = last[1:]
+        return contacts + self._beside(np.asarray(times), R_WS, contacts, centres, pressed)
 
     # ---- what touches ------------------------------------------------------------------------------
 
@@ -120,15 +120,19 @@ class Felt:
 
     # ---- what pulls --------------------------------------------------------------------------------
 
-    def _beside(self, time: float, R_WS: Array, contact: Array, point: Array, *, pressed: bool) -> Array:
-        wrench = np.zeros(6)
+    def _beside(
+        self, times: Array, R_WS: Array, contacts: Array, points: Array, pressed: NDArray[np.bool_]
+    ) -> Array:
+        """Return what is felt beside touch and weight, (n, 6)."""
+        wrenches = np.zeros((len(times), 6))
         if self._reality.cable:
-            wrench += self._cable(R_WS)
+            wrenches += self._cable(R_WS)
         if self._reality.mount:
-            wrench[3:] += self._yielded(R_WS.T @ self._weight_W, contact, point, pressed=pressed)
+            weights = R_WS.transpose(0, 2, 1) @ self._weight_W
+            wrenches[:, 3:] += self._yielded(weights, np.where(pressed[:, None], contacts, 0.0), points)
         if self._reality.hand:
-            wrench += self._hand(time, pressed=pressed)
-        return wrench
+            wrenches += np.where(pressed[:, None], self._hand(times), 0.0)
+        return wrenches
 
     def _cable(self, R_WS: Array) -> Array:
         """
@@ -138,35 +142,43 @@ class Felt:
         linear in e would vanish in the calibration, whose weight is any vector.
         """
         e = R_WS @ _LEAVES_S
-        if self._before is not None:
-            self._held = self._held + (e - self._before)
-            self._held *= min(1.0, _GIVES / max(float(np.linalg.norm(self._held)), 1e-12))
-        self._before = e
         way = self._free - e
-        way /= max(float(np.linalg.norm(way)), 1e-12)
-        F_W = (1 - e @ self._free) / 2 * way - self._reality.drag / _GIVES * self._held
-        F_S = self._reality.cable * (R_WS.T @ F_W)
-        return np.concatenate([F_S, np.cross(_TIED_S, F_S)])
+        way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-12)
+        F_W = ((1 - e @ self._free) / 2)[:, None] * way - self._reality.drag / _GIVES * self._dragged(e)
+        F_S = self._reality.cable * np.einsum("nij,ni->nj", R_WS, F_W)
+        return np.hstack([F_S, np.cross(_TIED_S, F_S)])
 
-    def _yielded(self, weight_S: Array, contact: Array, point: Array, *, pressed: bool) -> Array:
-        """Return the torque by which everything moves that presses a probe turned by ``c M``, to first order."""
-        turn = 1e-3 * self._reality.mount * (contact[3:] + np.cross(self._centre_S, weight_S))
-        torque = np.cross(np.cross(turn, self._centre_S), weight_S)
-        if pressed:
-            torque = torque + np.cross(np.cross(turn, point), contact[:3])
-        return np.asarray(torque)
+    def _dragged(self, e: Array) -> Array:
+        """Return z (n, 3), and remember the last."""
+        held = np.zeros_like(e)
+        if self._reality.drag == 0:
+            return held
+        before = e[0] if self._before is None else self._before
+        for row, step in enumerate(np.diff(e, axis=0, prepend=before[None])):
+            z = self._held + step
+            length = float(np.sqrt(z @ z))
+            self._held = held[row] = z if length <= _GIVES else z * (_GIVES / length)
+        self._before = e[-1]
+        return held
 
-    def _hand(self, time: float, *, pressed: bool) -> Array:
+    def _yielded(self, weights: Array, contacts: Array, points: Array) -> Array:
+        """Return the torques (n, 3) by which all that presses moves on a probe turned by ``c M``, to first order."""
+        turns = 1e-3 * self._reality.mount * (contacts[:, 3:] + np.cross(self._centre_S, weights))
+        torques = np.cross(np.cross(turns, self._centre_S), weights)
+        return np.asarray(torques + np.cross(np.cross(turns, points), contacts[:, :3]))
+
+    def _hand(self, times: Array) -> Array:
         """Return the pull of a hand: Ornstein-Uhlenbeck of 1 s, and a tremor."""
-        left = np.exp(-max(time - self._time, 0.0) / _HAND_S)
-        if left < 1:
-            self._pull = left * self._pull + np.sqrt(1 - left**2) * self._chance.standard_normal(3)
-            self._time = time
-        if not pressed:
-            return np.zeros(6)
-        tremor = _TREMOR * np.sqrt(2) * np.sin(2 * np.pi * _TREMOR_HZ * time + self._phases)
-        F = self._reality.hand / np.sqrt(3) * (self._pull + tremor)
-        return np.concatenate([F, np.cross(self._grip_S, F)])
+        pulls = np.empty((len(times), 3))
+        for row, time in enumerate(times.tolist()):
+            left = float(np.exp(-max(time - self._time, 0.0) / _HAND_S))
+            if left < 1:
+                self._pull = left * self._pull + np.sqrt(1 - left**2) * self._chance.standard_normal(3)
+                self._time = time
+            pulls[row] = self._pull
+        pulls += _TREMOR * np.sqrt(2) * np.sin(2 * np.pi * _TREMOR_HZ * times[:, None] + self._phases)
+        F = self._reality.hand / np.sqrt(3) * pulls
+        return np.hstack([F, np.cross(self._grip_S, F)])
 
 
 def _rest(rng: np.random.Generator) -> Array:

@@ -23,7 +23,7 @@ from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.demo.gravity import calibrate_folder, planned_poses
 from contactbench.pipeline.demo.housing import prepare_probe
 from contactbench.pipeline.demo.tape import write_tape
-from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool, orientations_in_use
+from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
 from contactbench.pipeline.demo.touches import TILTS
 from contactbench.pipeline.demo.verification import (
     BUNDLE,
@@ -38,6 +38,7 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, align_touches
 from contactbench.pipeline.preparation.steps import align_step
 from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.touch import draw_press

@@ -13,10 +13,9 @@ from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.demo.tool import orientations_in_use
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
-from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
 from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers

@@ -186,7 +186,8 @@ def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> Da
 
 def tape_length(tape: RealTape) -> int:
     """Return of how many readings the mean of a hold is."""
-    return tape.holds[0].stop - tape.holds[0].start
+    hold = tape.holds[0]
+    return int(hold.stop - hold.start)
 
 
 def _written(file: Path, tape: RealTape) -> None:

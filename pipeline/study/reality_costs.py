@@ -101,10 +101,13 @@ def run(
 
     sheets = []
     for mix in mixes:
-        rows = [_row("none", pressed(Reality()), pressed(Reality()))]
+        rows, squares = [_row("none", pressed(Reality()), pressed(Reality()))], 0.0
         for effect in mix.on:
             if effect not in _LATE:
                 alone = mix.only(effect, *_WITH.get(effect, ()))
+                if effect not in _WITH:  # what needs another holds that one's squares, too
+                    both = (MarkerPresses.joined(pressed(each)).rms for each in (alone, Reality()))
+                    squares += next(both) ** 2 - next(both) ** 2
                 label = " with ".join((f"{effect} {getattr(mix, effect):g}", *_WITH.get(effect, ())))
                 rows.append(
                     _row(
@@ -115,14 +118,11 @@ def run(
                     )
                 )
         rows.append(_row("together", pressed(mix), pressed(Reality())))
-        alone_squares = sum(
-            float(row[2]) * abs(float(row[2])) for row in rows[1:-1] if not str(row[0]).count("with")
-        )
         sheets.append(
             Sheet(
                 f"costs-{str(mix).replace(',', '_').replace('=', '-')}",
                 f"What the effects of {mix} cost; the squares of those alone add up to"
-                f" {np.sqrt(max(alone_squares, 0.0)):.2f} mm",
+                f" {np.sqrt(max(squares, 0.0)):.2f} mm",
                 _COLUMNS,
                 tuple(rows),
             )
@@ -159,8 +159,8 @@ def press_all(name: str, reality: Reality, seed: int) -> MarkerPresses:
     found = solver.locate_batch(np.ascontiguousarray(tape.compensated(model)))
     true = np.array([touch.point for touch in touches])
     told = markers(name)[[marker - 1 for marker, _ in places]]
-    away = (1e3 * np.linalg.norm(found.points - each, axis=1) for each in (true, told))
-    return MarkerPresses(*away, np.array(found.accepted))
+    from_truth, from_marker = (1e3 * np.linalg.norm(found.points - each, axis=1) for each in (true, told))
+    return MarkerPresses(from_truth, from_marker, np.array(found.accepted))
 
 
 @cache

@@ -190,7 +190,7 @@ class _Rows:
 
     def turn(self, before: Array, after: Array, seconds: float) -> None:
         count = self._count(seconds)
-        path = Slerp([0.0, 1.0], Rotation.from_matrix([before, after]))
+        path = Slerp([0.0, 1.0], Rotation.from_matrix(np.stack([before, after])))
         u = np.arange(1, count + 1) / count
         for R in path(u**3 * (10 + u * (6 * u - 15))).as_matrix():
             self._add(R)

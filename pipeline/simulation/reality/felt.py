@@ -87,7 +87,7 @@ class Felt:
         points, normals : (n, 3)
             Where the tip touches, if it does.
         """
-        pressed = contacts.any(axis=1)
+        pressed: NDArray[np.bool_] = np.asarray(contacts.any(axis=1))
         contacts, centres = contacts.copy(), points.copy()
         if self._pad is not None or self._reality.second:
             last: tuple[bytes, Array, Array] | None = None
@@ -96,7 +96,8 @@ class Felt:
                 if last is None or last[0] != key:  # a touch that is held is the same press
                     last = (key, *self._touched(contacts[row], points[row], normals[row])[:2])
                 contacts[row], centres[row] = last[1:]
-        return contacts + self._beside(np.asarray(times), R_WS, contacts, centres, pressed)
+        beside: Array = self._beside(np.asarray(times), R_WS, contacts, centres, pressed)
+        return contacts + beside
 
     # ---- what touches ------------------------------------------------------------------------------
 

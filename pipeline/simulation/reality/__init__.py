@@ -7,9 +7,9 @@ bench, beside the one that the program is told of; `Felt` is what the sensor fee
 """
 
 from contactbench.pipeline.simulation.reality.chance import chance
-from contactbench.pipeline.simulation.reality.felt import Felt
 from contactbench.pipeline.simulation.reality.line import LateLine
 from contactbench.pipeline.simulation.reality.pad import Pad, PadPress
+from contactbench.pipeline.simulation.reality.pulls import Felt
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe
 
 __all__ = ["Felt", "LateLine", "Pad", "PadPress", "RealProbe", "chance"]

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import PoseSample
 from contactbench.pipeline.simulation.reality.chance import chance
-from contactbench.pipeline.simulation.reality.felt import Felt
+from contactbench.pipeline.simulation.reality.pulls import Felt
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe, leaning
 from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.sensor_model import SensorModel

@@ -14,16 +14,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from contactbench.pipeline.commands.control import control_app
+from contactbench.pipeline.commands.options import RealityOption
 from contactbench.pipeline.console import Noun, answer, as_json, print_json, say
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
     from types import FrameType
 
     from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
@@ -54,6 +56,7 @@ def run(
     sensor: SensorOption = "paper",
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
+    reality: RealityOption = "ideal",
 ) -> None:
     """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
@@ -65,7 +68,7 @@ def run(
     from contactbench.pipeline.simulation.virtual.run import run_script
     from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
-    where = _address(probe, mesh, sensor, seed, rate, script)
+    where = _address(probe, mesh, sensor, seed, rate, script, reality)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))
     say(
         f"{ran.seconds:.2f} s of the bench: {ran.wrenches:,} wrenches, {ran.flanges:,} poses,"
@@ -97,6 +100,7 @@ def serve(
     sensor: SensorOption = "paper",
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
+    reality: RealityOption = "ideal",
     script: Annotated[Path | None, typer.Option(help="Timed commands to begin with.")] = None,
     pty: Annotated[bool, typer.Option("--pty", help="The sensor on a pseudo-terminal.")] = False,
     sri_port: Annotated[
@@ -114,7 +118,7 @@ def serve(
         raise typer.BadParameter("--pty and --sri-port contradict each other: give one.")
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
-    bench = _bench(_address(probe, mesh, sensor, seed, rate, script))
+    bench = _bench(_address(probe, mesh, sensor, seed, rate, script, reality))
     before = signal.signal(signal.SIGTERM, _interrupt)
     try:
         with ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served:
@@ -127,8 +131,44 @@ def serve(
         raise served.error
 
 
+@bench_app.command("reality", example="bench reality typical,cable=0.2")
+def show_reality(
+    mix: Annotated[
+        str | None, typer.Argument(metavar="[MIX|EFFECT=SIZE,...]", help="Show this beside the mixes.")
+    ] = None,
+) -> None:
+    """List what a real bench adds to the ideal one: each effect, its unit, its range, and its size in each mix.
+
+    The same text goes into an address, virtual://bench?reality=typical, and after --reality.
+    """
+    from contactbench.pipeline.reality import MIXES, Reality
+
+    mixes = MIXES if mix is None else {**MIXES, mix: Reality.parse(mix)}
+    answer({name: each.model_dump() for name, each in mixes.items()})
+    if not as_json():
+        _show_mixes(mixes)
+
+
+def _show_mixes(mixes: Mapping[str, Reality]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from contactbench.pipeline.reality import Reality
+
+    table = Table(box=None, pad_edge=False)
+    table.add_column("effect", no_wrap=True)
+    for name in ("range", *mixes):
+        table.add_column(name, justify="right", no_wrap=True)
+    table.add_column("unit: what it is", min_width=40)
+    for name, field in Reality.model_fields.items():
+        least, most = Reality.limits(name)
+        sizes = (f"{getattr(each, name):g}" for each in mixes.values())
+        table.add_row(name, f"{least:g} to {most:g}", *sizes, field.description)
+    Console().print(table)
+
+
 def _address(
-    probe: str, mesh: Path | None, sensor: str, seed: int, rate: float, script: Path | None
+    probe: str, mesh: Path | None, sensor: str, seed: int, rate: float, script: Path | None, reality: str
 ) -> DeviceAddress:
     """Return the address of the bench: its door checks what was given."""
     from urllib.parse import urlencode
@@ -142,6 +182,7 @@ def _address(
         "rate": rate,
         "speed": "step",
         **({} if script is None else {"script": str(script)}),
+        **({} if reality == "ideal" else {"reality": reality}),
     }
     return DeviceAddress.parse(f"virtual://bench?{urlencode(options)}")
 

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.console import Noun, answer, as_json, say
+from contactbench.pipeline.console import Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 demo_app = Noun()
+
+_WIDE = 250  # a number that is cut short is wrong
 
 
 @demo_app.command(example="demo --out my-demo")
@@ -18,21 +24,58 @@ def demo(
     probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Which probe.")] = "all",
     touches: Annotated[int, typer.Option(help="Drawn touches per probe, at least 10.")] = 1_000,
     seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
+    reality: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="MIX|EFFECT=SIZE,...",
+            help="A whole day on a bench with these effects instead, such as typical; may be repeated. `contactbench"
+            " bench reality` lists them.",
+        ),
+    ] = None,
+    seeds: Annotated[
+        int | None, typer.Option(help="Days on each such bench, with seeds from --seed on [1].")
+    ] = None,
 ) -> None:
     """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 
     Needs no hardware and no files. Writes recordings, meshes, contacts, reports, a runtime bundle, a
     table of errors and a picture. Exit code 1: the errors are larger than noise explains, a verification
     failed, or a bundle is refused.
+
+    With --reality: calibrate, prepare, align, verify, export and run on a bench that is not ideal, and
+    compare with the truth. Exit code 1: on a typical bench a figure misses its target.
     """
     from rich.console import Console
 
     from contactbench.pipeline.demo import PROBE_NAMES, run
 
-    report = run(out, PROBE_NAMES if probe == "all" else (probe,), touches, seed, say)
+    names = PROBE_NAMES if probe == "all" else (probe,)
+    if reality:
+        _days(out, reality, names, 1 if seeds is None else seeds, seed)
+        return
+    if seeds is not None:
+        raise InputError("--seeds goes with --reality: give a bench too, such as --reality typical.")
+    report = run(out, names, touches, seed, say)
     Console(stderr=as_json()).print(report.table())
     for sentence in report.sentences():
         say(sentence, "red" if "FAILED" in sentence else "")
     answer(report.to_json())
     if not report.verified:
+        raise typer.Exit(1)
+
+
+def _days(out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed: int) -> None:
+    from rich.console import Console
+
+    from contactbench.pipeline.demo.day import run_days
+    from contactbench.pipeline.reality import Reality
+
+    report = run_days(out, [Reality.parse(text) for text in reality], probes, seeds, seed, say)
+    tables = [report.table(), *(sheet.table() for sheet in report.sheets)]
+    if as_json():
+        show_tables(*tables)
+    for table in () if as_json() else tables:
+        Console(width=_WIDE).print(table)
+    answer(report.to_json())
+    if not report.passed:
         raise typer.Exit(1)

@@ -26,6 +26,16 @@ RobotPosesOption = Annotated[
     ),
 ]
 
+RealityOption = Annotated[
+    str,
+    typer.Option(
+        "--reality",
+        metavar="MIX|EFFECT=SIZE,...",
+        help="What it adds to the ideal bench: ideal, typical, harsh or tissue, effects with their sizes, or both, such"
+        " as typical,cable=0.2. `contactbench bench reality` lists them.",
+    ),
+]
+
 
 def written(given: OrientationSettings) -> Convention | None:
     """Return how orientations are written; None: as quaternions, if that is what there is.

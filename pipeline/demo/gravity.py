@@ -60,7 +60,7 @@ def weigh_on_bench(
         MuJoCo is missing, or a file cannot be written.
     """
     # What the robot is told is in its own base.
-    planned = tool.R_BW.T @ _planned()
+    planned = tool.R_BW.T @ planned_poses()
     tape, pushed = DemoTape(), int(rng.integers(POSES))
     spans: list[tuple[float, float]] = []
     scene = BenchScene(truth, payload=tool.payload, R_WS=planned[0], step=_STEP_S)
@@ -93,13 +93,14 @@ def weigh_by_formula(folder: Path, tool: DemoTool, rng: np.random.Generator) -> 
     tuple of str
         Names of the poses that were bumped.
     """
-    weighing = bump(weigh(tool.truth, _planned(), _POSE_NOISE, rng), 1 / POSES, rng)
+    weighing = bump(weigh(tool.truth, planned_poses(), _POSE_NOISE, rng), 1 / POSES, rng)
     write_poses(folder / "poses.csv", weighing.poses)
     return tuple(f"pose {index + 1}" for index in np.flatnonzero(weighing.bumped))
 
 
 @cache
-def _planned() -> NDArray[np.float64]:
+def planned_poses() -> NDArray[np.float64]:
+    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
     return plan_poses(POSES, by_hand()).R_WS
 
 

@@ -15,12 +15,14 @@ from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.demo.tool import DemoTool
     from contactbench.pipeline.simulation.scenes import PhysicsScene
+    from contactbench.pipeline.simulation.sensor_model import SensorReadings
 
 STEP_S = 1 / RATE_HZ
 _STARTED_NS = 1_700_000_000 * 10**9  # any day, but always the same: the same seed gives the same bytes
@@ -61,28 +63,36 @@ class DemoTape:
         """
         times = np.array(self.times)
         read = SensorModel(tool.settings, rng).read(WARM_S + times, np.array(self.readings))
-        part = file.with_name(f"{file.name}.tmp")
-        try:
-            part.unlink(missing_ok=True)  # recordings are never written over
-            with RecordingWriter(
-                part, _about(), clock=lambda: 0.0
-            ) as writer:  # no chunks by the host's clock
-                rows = zip(self.times, read.wrenches.tolist(), read.saturated, read.temperatures, strict=True)
-                for number, (time, wrench, saturated, kelvin) in enumerate(rows):
-                    status = Status.OVERRANGE if saturated else Status.OK
-                    force, torque = (wrench[0], wrench[1], wrench[2]), (wrench[3], wrench[4], wrench[5])
-                    # The pose first: a runtime takes the newest that it has heard.
-                    writer.flange(FlangeSample(time, tool.R_BW @ self.R_WS[number], np.full(3, np.nan)))
-                    writer.wrench(
-                        WrenchSample(time, force, torque, number, status, temperature=float(kelvin))
-                    )
-            part.replace(file)
-        except OSError as error:
-            raise InputError(
-                f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
-            ) from error
-        finally:
-            part.unlink(missing_ok=True)
+        write_tape(file, self.times, read, tool.R_BW @ np.array(self.R_WS))
+
+
+def write_tape(file: Path, times: Sequence[float], read: SensorReadings, R_BS: NDArray[np.float64]) -> None:
+    """
+    Write readings at times (n,), s, and the robot's poses (n, 3, 3), as an MCAP file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written; a file that was there is left as it was.
+    """
+    part = file.with_name(f"{file.name}.tmp")
+    try:
+        part.unlink(missing_ok=True)  # recordings are never written over
+        with RecordingWriter(part, _about(), clock=lambda: 0.0) as writer:  # no chunks by the host's clock
+            rows = zip(times, read.wrenches.tolist(), read.saturated, read.temperatures, strict=True)
+            for number, (time, wrench, saturated, kelvin) in enumerate(rows):
+                status = Status.OVERRANGE if saturated else Status.OK
+                force, torque = (wrench[0], wrench[1], wrench[2]), (wrench[3], wrench[4], wrench[5])
+                # The pose first: a runtime takes the newest that it has heard.
+                writer.flange(FlangeSample(time, R_BS[number], np.full(3, np.nan)))
+                writer.wrench(WrenchSample(time, force, torque, number, status, temperature=float(kelvin)))
+        part.replace(file)
+    except OSError as error:
+        raise InputError(
+            f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
+        ) from error
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _about() -> RecordingInfo:

@@ -23,7 +23,6 @@ WARM_S = 3600.0  # since the sensor was switched on: as long as one should wait 
 
 _MASS = (0.3, 0.8)  # kg
 _BASE_TILT = np.radians(0.5)
-_USE_TILT = np.radians(45.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,12 +55,3 @@ def draw_tool(rng: np.random.Generator) -> DemoTool:
     """Draw a load and biases."""
     tilt = Rotation.from_rotvec(_BASE_TILT * np.array([0.6, -0.8, 0.0])).as_matrix()
     return DemoTool(draw_load(rng, _MASS), R_BW=tilt)
-
-
-def orientations_in_use(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Draw R_WS (n, 3, 3) of a probe in use: pointing down, or tilted from that by up to 45 degrees."""
-    bearing, tilt = rng.uniform(0, 2 * np.pi, count), _USE_TILT * np.sqrt(rng.random(count))
-    axes = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(count)])
-    spin = Rotation.from_rotvec(np.outer(rng.uniform(0, 2 * np.pi, count), [0.0, 0.0, 1.0]))
-    down = Rotation.from_rotvec([np.pi, 0.0, 0.0])
-    return (Rotation.from_rotvec(tilt[:, None] * axes) * down * spin).as_matrix()

@@ -14,11 +14,12 @@ from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.demo.files import write_marked, write_recording, write_truth, write_wrenches
 from contactbench.pipeline.demo.tape import STEP_S, DemoTape
-from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S, orientations_in_use
+from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
+from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.scenes import TouchScene
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel

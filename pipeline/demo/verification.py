@@ -39,9 +39,9 @@ BUNDLE = "runtime"
 WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")
 
 # Touches are pressed with 8 to 10 N: noise and what the calibration leaves must not put one out of the window.
-_WINDOW_N = (7.5, 10.5)
+WINDOW_N = (7.5, 10.5)
 # Half a second is recorded once the tip rests: a tenth to see that, a quarter taken.
-_SAMPLES = 50
+SAMPLES = 50
 _OPERATOR = "contactbench demo"
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)  # the virtual sensor sits on the flange as it is
 _AT_ONCE = 1_000
@@ -169,7 +169,7 @@ def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
     try:
         exported = export_from_files(
             made["calibration"], made["probe"], inputs["verification"], folder / "report.html",
-            _settings(tool, made["probe"]), created=created,
+            export_settings(tool, made["probe"]), created=created,
         )  # fmt: skip
     except UnverifiedError as error:
         return replace(judged, refused=" ".join(error.reasons))
@@ -199,7 +199,7 @@ def _marked(name: str) -> MarkerSet:
 
 
 def _verify(folder: Path) -> Verification:
-    given = VerificationParameters(name="verification.json", windows=(_WINDOW_N,), samples=_SAMPLES)
+    given = VerificationParameters(name="verification.json", windows=(WINDOW_N,), samples=SAMPLES)
     found = verify_files({role: folder / file for role, file in _INPUTS.items()}, given)
     write_file(folder / given.name, found.to_bytes())
     return found
@@ -218,7 +218,8 @@ def _judged(found: Verification) -> CheckResult:
     )
 
 
-def _settings(tool: DemoTool, probe: Path) -> ExportSettings:
+def export_settings(tool: DemoTool, probe: Path) -> ExportSettings:
+    """Return how a bundle of the tool is exported."""
     usual = ControlSettings.for_probe(Foundation(load_probe_file(probe).probe))
     fx, fy, fz, mx, my, mz = tool.settings.limit.tolist()
     return ExportSettings(
@@ -237,7 +238,7 @@ def _settings(tool: DemoTool, probe: Path) -> ExportSettings:
 
 def _through(config: RuntimeConfig, folder: Path, found: Verification, judged: CheckResult) -> CheckResult:
     """Run the touches through the bundle, and compare its contacts with those that were verified."""
-    answers = _answers(config, folder / "touches.mcap")
+    answers = answers_of(config, folder / "touches.mcap")
     write_file(folder / "contacts.jsonl", b"".join(answer.line for answer in answers))
     sure = [answer for answer in answers if answer.contact is not None and answer.contact.accepted]
     judged = replace(judged, samples=len(answers), located=len(sure))
@@ -258,7 +259,8 @@ def _through(config: RuntimeConfig, folder: Path, found: Verification, judged: C
     )
 
 
-def _answers(config: RuntimeConfig, recording: Path) -> list[Answer]:
+def answers_of(config: RuntimeConfig, recording: Path) -> list[Answer]:
+    """Return what a bundle says of each sample of a recording."""
     answers: list[Answer] = []
 
     def keep(_: WrenchSample, answer: Answer) -> None:

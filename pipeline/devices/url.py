@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from urllib.parse import SplitResult
 
+    from contactbench.pipeline.reality import Reality
+
 
 class AddressError(InputError):
     """An address that names no device; the message names the part and the remedy."""
@@ -108,6 +110,15 @@ def _profile(text: str) -> str:
     return text
 
 
+def _reality(text: str) -> Reality:
+    from contactbench.pipeline.reality import Reality  # only a bench needs it
+
+    try:
+        return Reality.parse(text)
+    except InputError as error:
+        raise ValueError(str(error).removeprefix("reality: ").rstrip(".")) from None
+
+
 def _step(text: str) -> float:
     if text != "step":
         raise ValueError("give step, or leave it out for real time")
@@ -140,6 +151,7 @@ _BENCH: dict[str, Callable[[str], Any]] = {
     "seed": _whole(0, 10**15, "give a whole number of 0 or more"),
     "pose_rate": _number("Hz"),
     "script": _name,
+    "reality": _reality,
 }
 _SPEEDS: dict[Protocol, Callable[[str], float]] = {
     Protocol.VIRTUAL: _step,
@@ -191,6 +203,7 @@ class BenchOptions:
     seed: int = 0  # of the noise
     pose_rate: float = 50.0  # poses a second
     script: str | None = None  # file of timed commands
+    reality: Reality | None = None  # what it adds to the ideal bench; None: nothing
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ Range = tuple[float, float]
 
 _TOOL_LENGTH = (0.02, 0.15)  # m, of the centre of mass along the sensor's z axis
 _LEVER = 0.15  # m, at which a hand bumps the tool
+_USE_TILT = np.radians(45.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,3 +114,12 @@ def bump(weighing: Weighing, share: float, rng: np.random.Generator, force: Rang
     bumped = weighing.bumped.copy()
     bumped[chosen] = True
     return replace(weighing, poses=tuple(poses), bumped=bumped)
+
+
+def orientations_in_use(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Draw R_WS (n, 3, 3) of a probe in use: pointing down, or tilted from that by up to 45 degrees."""
+    bearing, tilt = rng.uniform(0, 2 * np.pi, count), _USE_TILT * np.sqrt(rng.random(count))
+    axes = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(count)])
+    spin = Rotation.from_rotvec(np.outer(rng.uniform(0, 2 * np.pi, count), [0.0, 0.0, 1.0]))
+    down = Rotation.from_rotvec([np.pi, 0.0, 0.0])
+    return (Rotation.from_rotvec(tilt[:, None] * axes) * down * spin).as_matrix()

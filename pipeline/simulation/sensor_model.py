@@ -1,4 +1,4 @@
-"""What a real force/torque sensor makes of a true wrench: noise, bias, drift, crosstalk, steps, range."""
+"""What a real force/torque sensor makes of a true wrench: noise, bias, drift, crosstalk, hysteresis, steps, range."""
 
 from __future__ import annotations
 
@@ -13,8 +13,13 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.reality import Reality
+
 _ZERO = np.zeros(6)
 _HIGHEST_RATE = 1000.0
+_FULL_SCALE = np.repeat([300.0, 12.0], 3)  # of a sensor without a limit, N and N·m
+_SLOPE = 0.1  # share of a change that the loop takes on until it is as wide as it gets
+_CREEP_S = 60.0
 
 
 def _six(force: float, torque: float) -> NDArray[np.float64]:
@@ -39,23 +44,32 @@ class SensorSettings:
     resolution: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
     # (6,) largest reading of either sign; a larger one is given as this, and marked
     limit: NDArray[np.float64] = field(default_factory=lambda: np.full(6, np.inf))
+    # (6,) width of the loop between loading and unloading, N and N·m
+    hysteresis: NDArray[np.float64] = field(default_factory=lambda: _ZERO.copy())
+    hysteresis_of_load: float = 0.0  # the same, as a share of the largest load since it was re-zeroed
+    creep: float = 0.0  # share of a load that is read in addition after minutes; time constant one minute
     rate: float = 200.0  # readings a second, up to 1000 Hz
     # temperature of the room, °C, which is also the temperature that `bias` belongs to
     ambient: float = 22.0
 
     def __post_init__(self) -> None:
-        for name, shape in (("noise", 6), ("bias", 6), ("drift", 6), ("resolution", 6), ("limit", 6)):
+        for name in ("noise", "bias", "drift", "resolution", "limit", "hysteresis"):
             value = np.array(getattr(self, name), dtype=np.float64)
             finite = np.isfinite(value).all() or (name == "limit" and not np.isnan(value).any())
-            if value.shape != (shape,) or not finite:
+            if value.shape != (6,) or not finite:
                 raise InputError(f"sensor model: {name}: give six finite numbers, not {value}.")
-            if name in ("noise", "resolution", "limit") and (value < 0).any():
+            if name in ("noise", "resolution", "limit", "hysteresis") and (value < 0).any():
                 raise InputError(f"sensor model: {name}: give numbers of 0 or more, not {value}.")
             object.__setattr__(self, name, value)
         crosstalk = np.array(self.crosstalk, dtype=np.float64)
         if crosstalk.shape != (6, 6) or not np.isfinite(crosstalk).all():
             raise InputError("sensor model: crosstalk: give six rows of six finite numbers.")
         object.__setattr__(self, "crosstalk", crosstalk)
+        if not (0 <= self.hysteresis_of_load <= 1 and 0 <= self.creep <= 1):
+            raise InputError(
+                f"sensor model: hysteresis of load {self.hysteresis_of_load}, creep {self.creep}: give shares from 0"
+                " to 1."
+            )
         if not 0 < self.rate <= _HIGHEST_RATE:
             raise InputError(
                 f"sensor model: rate {self.rate:g} Hz: give one above 0, up to {_HIGHEST_RATE:g}."
@@ -71,6 +85,30 @@ class SensorSettings:
     def at(self, rate: float) -> SensorSettings:
         """Return the same sensor read at another rate, Hz."""
         return replace(self, rate=rate)
+
+    def silent(self) -> SensorSettings:
+        """Return the same sensor without noise and without steps."""
+        return replace(self, noise=_ZERO, resolution=_ZERO)
+
+    def with_(self, reality: Reality, rng: np.random.Generator) -> SensorSettings:
+        """
+        Return the same sensor with what a real bench adds; warmth is no part of it: see `SensorModel.warm`.
+
+        Parameters
+        ----------
+        rng : numpy.random.Generator
+            Of the signs of the crosstalk: two sensors of a kind do not have the same.
+        """
+        signs = np.where(rng.random((6, 6)) < 0.5, -1.0, 1.0)
+        skewed = np.eye(6) + signs * (_skewed(reality.crosstalk / 100) - np.eye(6))
+        return replace(
+            self,
+            crosstalk=skewed @ self.crosstalk,
+            hysteresis=self.hysteresis
+            + reality.hysteresis / 100 * np.where(np.isfinite(self.limit), self.limit, _FULL_SCALE),
+            hysteresis_of_load=self.hysteresis_of_load + reality.hysteresis_of_load / 100,
+            creep=self.creep + reality.creep / 100,
+        )
 
 
 def _skewed(share: float) -> NDArray[np.float64]:
@@ -143,6 +181,7 @@ class SensorModel:
         self._rng = np.random.default_rng(seed)
         self._offset = settings.bias.copy()
         self._heat: list[tuple[float, float]] = [(0.0, settings.warm_up[0])]
+        self._loop = _Loop(settings)
 
     @property
     def bias(self) -> NDArray[np.float64]:
@@ -166,7 +205,9 @@ class SensorModel:
     def rezero(self, wrench: ArrayLike, time: float) -> None:
         """Make what it reads now its zero, as somebody does at the device: the true wrench (6,), and when."""
         drift = self.settings.drift * (self.temperature(time)[0] - self.settings.ambient)
-        self._offset = -self.settings.crosstalk @ np.asarray(wrench, dtype=np.float64) - drift
+        felt = self.settings.crosstalk @ np.asarray(wrench, dtype=np.float64)
+        self._offset = -felt - drift - self._loop.left
+        self._loop.most = np.abs(felt)
 
     def read(self, times: ArrayLike, wrenches: ArrayLike) -> SensorReadings:
         """
@@ -182,7 +223,7 @@ class SensorModel:
         true = np.atleast_2d(np.asarray(wrenches, dtype=np.float64))
         settings = self.settings
         temperatures = self.temperature(times)
-        given = true @ settings.crosstalk.T + self._offset
+        given = self._loop.read(times, true @ settings.crosstalk.T) + self._offset
         given += np.outer(temperatures - settings.ambient, settings.drift)
         given += settings.noise * self._rng.standard_normal(true.shape)
         stepped = settings.resolution > 0
@@ -191,3 +232,45 @@ class SensorModel:
         )
         saturated: NDArray[np.bool_] = np.any(np.abs(given) >= settings.limit, axis=1)
         return SensorReadings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)
+
+
+class _Loop:
+    """
+    What the elements remember: hysteresis and creep.
+
+    Hysteresis is a stop operator (Visintin 1994): z <- clip(z + 0.1 dx, -h, h) is taken off the load, so that a channel
+    reads 2 h more on the way down than on the way up. Creep is c' = (creep x - c) / 60 s.
+    """
+
+    def __init__(self, settings: SensorSettings) -> None:
+        self._half, self._of_load, self._creep = (
+            settings.hysteresis / 2,
+            settings.hysteresis_of_load / 2,
+            settings.creep,
+        )
+        self._on = bool(self._half.any() or self._of_load or self._creep)
+        self._before: tuple[float, NDArray[np.float64]] | None = None
+        self._z, self._c = _ZERO.copy(), _ZERO.copy()
+        self.most = _ZERO.copy()  # (6,) largest load since it was re-zeroed
+
+    @property
+    def left(self) -> NDArray[np.float64]:
+        """(6,) what is read in addition to the load."""
+        return self._c - self._z
+
+    def read(self, times: ArrayLike, felt: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what elements that feel (n, 6) at times (n,) give."""
+        if not self._on:
+            return felt
+        read = np.empty_like(felt)
+        # One at a time, because each remembers the last.
+        for row, (time, x) in enumerate(zip(np.atleast_1d(times).tolist(), felt, strict=True)):
+            since, before = (time, _ZERO) if self._before is None else self._before
+            self.most = np.maximum(self.most, np.abs(x))
+            half = self._half + self._of_load * self.most
+            self._z = np.clip(self._z + _SLOPE * (x - before), -half, half)
+            # Between two readings the load is taken to have been the later one.
+            self._c = self._c + (self._creep * x - self._c) * -np.expm1(-(time - since) / _CREEP_S)
+            self._before = (time, x)
+            read[row] = x + self.left
+        return read

@@ -130,19 +130,54 @@ def hard_cases(
     _finish(report, as_json=as_json)
 
 
-@study_app.command(example="study scenes --probe convex --period 2")
-def scenes(
-    probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
-    period: Annotated[float, typer.Option(help="Of the platform's motion, s.")] = 2.0,
+@study_app.command(example="study scene --probe convex --seeds 2")
+def scene(
+    probe: BundledOption = None,
+    seeds: Annotated[int, typer.Option(help="Benches, with seeds from --seed on.")] = 5,
+    seed: SeedOption = 0,
+    reality: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="MIX|EFFECT=SIZE,...", help="Mix to take apart; may be repeated [typical and harsh]."
+        ),
+    ] = None,
+    moving: Annotated[
+        bool, typer.Option("--moving", help="What the platform and the arm leave out instead.")
+    ] = False,
+    period: Annotated[float, typer.Option(help="With --moving: of the platform's motion, s.")] = 2.0,
+    out: MarkdownOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure what the platform and the arm scene leave out: servo, inertia, friction, time step, places."""
-    from contactbench.pipeline.study import scene_limits as study
+    """Measure what each effect of a real bench costs in mm: alone, and what a mix gains without it.
 
-    report = study.run(probe, period, progress=say)
-    say(report.markdown())
+    A gravity calibration, then presses on every marker, on benches with one effect each, with the whole mix, and
+    with the mix without one effect: the same benches and the same noise each time. With --moving instead: servo,
+    inertia, friction, time step and places of the platform and the arm scene.
+    """
+    if moving:
+        _moving(probe or ["convex"], period, as_json=as_json)
+        return
+    from contactbench.pipeline.reality import Reality
+    from contactbench.pipeline.study import reality_costs as study
+
+    mixes = [Reality.parse(text) for text in reality or ("typical", "harsh")]
+    report = study.run(mixes, probe, seeds=seeds, seed=seed, progress=say)
+    if out:
+        write_file(out, report.markdown().encode())
     if as_json:
         print_json(report.to_json())
+    else:
+        show_tables(*(sheet.table() for sheet in report.sheets))
+
+
+def _moving(probes: list[str], period: float, *, as_json: bool) -> None:
+    from contactbench.pipeline.study import scene_limits as study
+
+    for probe in probes:
+        report = study.run(probe, period, progress=say)
+        say(report.markdown())
+        if as_json:
+            print_json(report.to_json())
 
 
 # ---- sweeps, and pages of all studies --------------------------------------------------------------

@@ -19,14 +19,21 @@ if TYPE_CHECKING:
 # What each cause usually comes to, one standard deviation; the likelihood chooses the size in steps around it.
 _TURN, _SHIFT = np.radians(1.5), 0.0015  # rad and m of a probe on its sensor
 _WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS = 0.2, 0.2, 0.003, 0.010  # N, N, m, N·m
+_YIELD = 0.008  # rad/(N·m) of a mount
+_LOOP = np.repeat(
+    [0.06, 0.0024], 3
+)  # N and N·m that a sensor reads otherwise on its way up than on its way down
+_MIXED, _LEVER = 0.003, 0.05  # share of a channel that shows in another; m that goes with a share of a torque
 _HEIGHT = 0.0003  # m of the mesh at a marker, beyond what the marker itself says
 _SIZES = (0.1, 0.3, 1.0, 3.0)
 _SCALES = np.geomspace(0.3, 100.0, 50)  # of the noise
 _FLOOR = 5e-5  # m: nobody places a marker better
 _FEWEST_MARKERS = 5
 _PLACE = 0.001  # m of a marker along the surface
+_TIP = 0.002  # m: radius of a ball that is aimed at it
 _EVIDENCE = 4.0  # gain of log likelihood that is not chance
 CONFIRMED = 0.05  # share of a cause that is worth a word
+_RESTLESS = 1.5  # times the noise within touches: what scatters more between them is not noise
 _ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
 
 
@@ -45,6 +52,7 @@ class TouchEvidence:
     torques: Array  # (n,) located local torques, N·m
     noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
     theta: Array  # (12,) parameters of the calibration
+    measured: bool = False  # whether the noise is what was seen within the touches, not what somebody said
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
@@ -144,7 +152,9 @@ def explain(evidence: TouchEvidence) -> Explained:
             break
         best, scale, chosen[cause] = value, new_scale, size
     parts = _parts(y, Z, columns, chosen, scale)
-    shares = _shares(evidence.errors, parts)
+    # Noise that was measured within touches and is too little for what lies between them is not noise.
+    rest = ErrorCause.SENSOR if evidence.measured and scale > _RESTLESS else ErrorCause.NOISE
+    shares = _shares(evidence.errors, parts, rest)
     gains = {
         **dict.fromkeys(ErrorCause, 0.0),
         **{cause: max(float(gain), 0.0) for cause, gain in alone.items()},
@@ -163,7 +173,7 @@ def _rivals(
     evidence: TouchEvidence,
 ) -> tuple[ErrorCause, ...]:
     """Return the causes that might as well be the first one; one that adds to it is none."""
-    if first is ErrorCause.NOISE:
+    if first in (ErrorCause.NOISE, ErrorCause.SENSOR):
         return ()
     able = [cause for cause in gains if cause is not first and gains[cause] >= _EVIDENCE]
     close = [c for c in able if c not in chosen and gains[c] > gains[first] - _EVIDENCE]
@@ -212,6 +222,29 @@ def _mesh(evidence: TouchEvidence, _J: Array) -> Array:
     return columns
 
 
+def _mount(evidence: TouchEvidence, J: Array) -> Array:
+    """
+    Where the mount yields by ``c M``, the probe turns under all that presses and hangs: the torque grows.
+
+    By ``c [(M x p) x F + (M_c x s) x G]``, M of touch and weight together, M_c of the touch; G hangs at s. What the
+    weight does alone is in the calibration.
+    """
+    F, M = evidence.wrenches[:, :3], evidence.wrenches[:, 3:]
+    G, centre = np.einsum("nij,i->nj", evidence.R_WS, evidence.theta[:3]), evidence.theta[6:9]
+    turned = M + np.cross(centre, G)
+    grown = np.cross(np.cross(turned, evidence.points), F) + np.cross(np.cross(M, centre), G)
+    return np.asarray(_YIELD * J[:, :, 3:] @ grown[:, :, None])
+
+
+def _sensor(evidence: TouchEvidence, J: Array) -> Array:
+    """Return what a sensor makes of a load by a law: hysteresis by each channel's sign, crosstalk, and gains."""
+    W = evidence.wrenches
+    loops = J * (_LOOP * np.sign(W))[:, None, :]
+    scale = np.repeat([1.0, _LEVER], 3)
+    mixed = J[:, :, :, None] * _MIXED * (W[:, None, :] * (scale[:, None] / scale))[:, None]
+    return np.concatenate([loops, mixed.reshape(*J.shape[:2], 36)], axis=2)
+
+
 def _torsion(evidence: TouchEvidence, _J: Array) -> Array:
     """Return what a torque that is not about the normal does: the point moves along F x n, by k over |F|²."""
     F = evidence.wrenches[:, :3]
@@ -220,12 +253,19 @@ def _torsion(evidence: TouchEvidence, _J: Array) -> Array:
 
 
 def _places(evidence: TouchEvidence) -> Array:
-    """Where a marker is not where it is said to be, all its touches are off alike, along the surface."""
+    """
+    Where a marker is not where it is said to be, all its touches are off alike, along the surface.
+
+    A ball of radius r that leans touches beside its mark by ``-r F_t / |F|``.
+    """
     sides = across(evidence.normals)
     names, place = np.unique(evidence.markers, return_inverse=True)
-    columns = np.zeros((len(place), 3, 2 * len(names)))
+    columns = np.zeros((len(place), 3, 2 * len(names) + 1))
     columns[np.arange(len(place)), :, 2 * place] = _PLACE * sides[:, 0]
     columns[np.arange(len(place)), :, 2 * place + 1] = _PLACE * sides[:, 1]
+    F = evidence.wrenches[:, :3]
+    lean = F - np.einsum("nk,nk->n", F, evidence.normals)[:, None] * evidence.normals
+    columns[:, :, -1] = -_TIP * lean / np.linalg.norm(F, axis=1, keepdims=True)
     return columns
 
 
@@ -234,6 +274,8 @@ _COLUMNS = {
     ErrorCause.GRAVITY: _gravity,
     ErrorCause.MESH: _mesh,
     ErrorCause.TORSION: _torsion,
+    ErrorCause.MOUNT: _mount,
+    ErrorCause.SENSOR: _sensor,
 }
 
 
@@ -283,12 +325,12 @@ def _parts(
     return {cause: size * columns[cause] @ part for (cause, size), part in sizes}
 
 
-def _shares(errors: Array, parts: dict[ErrorCause, Array]) -> dict[ErrorCause, float]:
-    """Return the shares: the projection of the errors on what each cause most likely did."""
+def _shares(errors: Array, parts: dict[ErrorCause, Array], rest: ErrorCause) -> dict[ErrorCause, float]:
+    """Return the shares: the projection of the errors on what each cause most likely did; the rest is of `rest`."""
     shares = dict.fromkeys(ErrorCause, 0.0)
     total = float((errors**2).sum())
     if total > 0:
         shares |= {cause: max(float((done * errors).sum()) / total, 0.0) for cause, done in parts.items()}
-    shares[ErrorCause.NOISE] = max(1.0 - sum(shares.values()), 0.0)
+    shares[rest] += max(1.0 - sum(shares.values()), 0.0)
     whole = sum(shares.values())
     return {cause: share / whole for cause, share in shares.items()}

@@ -46,7 +46,19 @@ _REMEDIES = {
         "Press with a tip that can turn freely and does not grip, or keep to smaller angles: the torque at "
         "the contact is not about the surface's normal."
     ),
+    ErrorCause.MOUNT: (
+        "The probe turns against its sensor under load: tighten or stiffen its mount, then align and verify "
+        "again."
+    ),
+    ErrorCause.SENSOR: (
+        "Touches differ by more than the noise within them, in no way that a wrong weight, alignment, mesh or "
+        "marker would make: hysteresis or creep of the sensor, a cable that drags, or a hand at the handle. "
+        "More samples do not help; let the sensor rest between touches, lead the cable freely, and hold "
+        "nothing else."
+    ),
 }
+# What was told before there were others; those are listed where they are found.
+_LISTED = tuple(ErrorCause)[:6]
 
 
 def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -> ErrorDiagnosis:
@@ -65,6 +77,7 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
     shares = tuple(
         Share(cause, share, found.gains[cause])
         for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
+        if share > 0 or cause in _LISTED
     )
     remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
     return ErrorDiagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)

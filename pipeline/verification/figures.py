@@ -22,6 +22,8 @@ class ErrorCause(StrEnum):
     MESH = "mesh"
     TORSION = "torsion"
     MARKERS = "markers"
+    MOUNT = "mount"
+    SENSOR = "sensor"
 
 
 @dataclass(frozen=True)

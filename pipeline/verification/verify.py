@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -152,6 +152,7 @@ def verify(
             " it is the right recording, and that the calibration belongs to it."
         )
     evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples)
+    evidence = replace(evidence, measured=stated is None)
     if timed and len(evidence.errors):
         times = time_solves(placing, evidence.wrenches)
     figures, rate = _figures(touches, placed), rate_of(recording.times)

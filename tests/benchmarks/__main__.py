@@ -25,6 +25,7 @@ BENCHMARKS = {
     "control-safety": "control_safety:run",
     "control-scenarios": "control_scenarios:run",
     "control-speed": "control_speed:run",
+    "day": "day:run",
     "faults": "faults:run",
     "gravity": "gravity:run",
     "live": "live.report:run",

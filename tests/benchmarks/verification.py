@@ -48,12 +48,15 @@ _MARKERS, _TOUCHES, _PLACE_M = 17, 5, 0.0005
 # What is put in: the mount turned by 1.5 to 3 degrees and shifted by 1 to 2 mm; 20 to 50 g added after the calibration
 # (a cable, a cover) and a sensor that has drifted by 0.1 to 0.3 N and 5 to 10 N·mm; noise times five; a mesh of a
 # hundred facets; a tip that grips, with torque arms of 4 to 8 mm about the force; every fourth marker 1.5 to 3 mm from
-# where it is said to be.
+# where it is said to be; a mount that yields by 10 to 20 mrad/N·m; a sensor that reads 0.1 to 0.2 N and 4 to 8 N·mm
+# otherwise on its way up, in every channel.
 _TURN_DEG, _SHIFT_M = (1.5, 3.0), (0.001, 0.002)
 _ADDED_N, _DRIFT_N, _DRIFT_NM = (0.2, 0.5), (0.1, 0.3), (0.005, 0.010)
 _LOUDER = 5.0
 _GRIP_M = (0.004, 0.008)
 _EVERY, _AWAY_M = 4, (0.0015, 0.003)
+# A mount that yields, rad/(N·m); what a sensor reads otherwise on its way up than on its way down, N and N·m.
+_YIELDS, _LOOP_N, _LOOP_NM = (0.010, 0.020), (0.1, 0.2), (0.004, 0.008)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +153,12 @@ def bench(cause: ErrorCause | None, rng: np.random.Generator) -> Bench:
     )
     told = calibrate(weighing.poses, weighing.noise).model
     truth = _heavier(weighing.truth, rng) if cause is ErrorCause.GRAVITY else weighing.truth
+    if cause is ErrorCause.SENSOR:
+        loop = np.repeat([rng.uniform(*_LOOP_N), rng.uniform(*_LOOP_NM)], 3)
+        wrenches = wrenches - loop * np.sign(wrenches)
+    yields = rng.uniform(*_YIELDS) if cause is ErrorCause.MOUNT else 0.0
     noise = sensor_noise(_LOUDER if cause is ErrorCause.NOISE else 1.0)
-    recording = _read(wrenches, truth, noise, rng)
+    recording = _read(wrenches, truth, noise, rng, points, yields)
     facets = int(rng.integers(*_COARSE)) if cause is ErrorCause.MESH else _FACETS
     vertices, places = np.array(mesh(facets).vertices), true_markers()[0]
     if cause is ErrorCause.ALIGNMENT:
@@ -202,7 +209,12 @@ def draw_presses(points: Array, normals: Array, cause: ErrorCause | None, rng: n
 
 
 def _read(
-    wrenches: Array, truth: GravityModel, noise: WrenchNoise, rng: np.random.Generator
+    wrenches: Array,
+    truth: GravityModel,
+    noise: WrenchNoise,
+    rng: np.random.Generator,
+    points: Array,
+    yields: float = 0.0,
 ) -> TouchRecording:
     """Hold each touch, let go between them, and read it all with the load on."""
     n, each = len(wrenches), _HELD + _BETWEEN
@@ -210,12 +222,27 @@ def _read(
     bearing, tilt = rng.uniform(0, 2 * np.pi, n), _TILT * np.sqrt(rng.random(n))
     axes = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(n)])
     spin = Rotation.from_rotvec(np.outer(rng.uniform(0, 2 * np.pi, n), [0.0, 0.0, 1.0]))
-    R_WS = np.repeat((Rotation.from_rotvec(tilt[:, None] * axes) * down * spin).as_matrix(), each, axis=0)
+    held = (Rotation.from_rotvec(tilt[:, None] * axes) * down * spin).as_matrix()
+    if yields:
+        wrenches = _grown(wrenches, points, truth, held, yields)
+    R_WS = np.repeat(held, each, axis=0)
     pressed = np.tile(np.arange(each) >= _BETWEEN, n)[:, None]
     true = np.repeat(wrenches, each, axis=0) * pressed + truth.predict(R_WS)
     return TouchRecording(
         np.arange(n * each) / _RATE, add_noise(true, noise, rng), R_WS, np.zeros(n * each, dtype=bool)
     )
+
+
+def _grown(wrenches: Array, points: Array, truth: GravityModel, R_WS: Array, yields: float) -> Array:
+    """Return wrenches (n, 6) that press a probe whose mount yields by so many rad/(N·m), under its weight, too."""
+    F, M = wrenches[:, :3], wrenches[:, 3:]
+    G, centre = truth.gravity_W @ R_WS, truth.centre_of_mass_S
+    hung = np.cross(centre, G)
+    turned, hangs = (Rotation.from_rotvec(yields * each) for each in (M + hung, hung))
+    grown = np.cross(turned.apply(points) - points, F)
+    hangs_at = np.tile(centre, (len(F), 1))
+    grown += np.cross(turned.apply(hangs_at) - hangs.apply(hangs_at), G)
+    return np.hstack([F, M + grown])
 
 
 def _heavier(model: GravityModel, rng: np.random.Generator) -> GravityModel:

@@ -127,3 +127,25 @@ def test_serve_says_its_addresses_obeys_and_ends():
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=20)
         assert process.returncode == 0, errors
+
+
+def test_a_bench_that_is_not_ideal_is_recorded_with_what_it_was(tmp_path):
+    script = tmp_path / "a.jsonl"
+    script.write_text(SCRIPT, encoding="utf-8")
+    for name, mix in (("ideal", "ideal"), ("plain", None), ("real", "typical,cable=2")):
+        more = [] if mix is None else ["--reality", mix]
+        assert invoke("run", script, "--out", tmp_path / f"{name}.mcap", *more).exit_code == 0
+    assert (tmp_path / "ideal.mcap").read_bytes() == (tmp_path / "plain.mcap").read_bytes()
+    assert (tmp_path / "real.mcap").read_bytes() != (tmp_path / "plain.mcap").read_bytes()
+    (device, *_) = read_recording(tmp_path / "real.mcap").info.devices
+    assert "reality=typical,cable%3D2" in device.address
+
+
+def test_the_table_of_reality_has_every_effect_and_every_mix():
+    shown = invoke("reality")
+    assert shown.exit_code == 0
+    assert all(word in shown.stdout for word in ("cable", "pose_latency", "typical", "harsh", "mrad/N·m"))
+    told = json.loads(invoke("reality", "cable=2", "--json").stdout)
+    assert told["cable=2"]["cable"] == 2
+    assert told["ideal"]["scale"] == 1
+    assert invoke("reality", "cable=-2").exit_code == 2

@@ -160,7 +160,7 @@ def test_markers_off_the_probe_are_a_finding(
 
 @pytest.mark.usefixtures("no_report")
 def test_rejected_touches_are_listed(folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verification, "_WINDOW_N", (8.0, 9.5))
+    monkeypatch.setattr(verification, "WINDOW_N", (8.0, 9.5))
     result = check(folder, "convex", tool)
     assert result.rejected
     assert result.touches + len(result.rejected) == 2 * MARKERS

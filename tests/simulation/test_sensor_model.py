@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.sensor_model import PRESETS, SensorModel, SensorSettings, preset
 
 _TIMES = np.arange(4000) / 200.0
@@ -83,3 +84,68 @@ def test_a_sensor_that_cannot_be_is_refused(wrong: dict) -> None:
 def test_an_unknown_preset_is_refused_with_those_there_are() -> None:
     with pytest.raises(InputError, match="ideal, paper, noisy"):
         preset("perfect")
+
+
+# ---- what elements remember ----------------------------------------------------------------------
+
+
+def _cycle() -> np.ndarray:
+    up = np.linspace(0.0, 100.0, 200)
+    return np.concatenate([up, up[::-1]])[:, None] * np.array([1.0, 0, 0, 0, 0, 0])
+
+
+def test_a_loop_is_as_wide_as_the_data_sheet_says() -> None:
+    settings = SensorSettings(hysteresis=np.array([0.6, 0, 0, 0, 0, 0]))
+    x = _cycle()
+    read = SensorModel(settings).read(np.arange(len(x)) / 200, x).wrenches[:, 0]
+    assert read[200 + 99] - read[100] == pytest.approx(0.6)
+    assert abs(read - x[:, 0]).max() == pytest.approx(0.3)
+
+
+def test_a_loop_of_the_load_grows_with_it() -> None:
+    settings = SensorSettings(hysteresis_of_load=0.01)
+    x = _cycle()
+    for times in (1.0, 2.0):
+        read = SensorModel(settings).read(np.arange(len(x)) / 200, times * x).wrenches[:, 0]
+        assert read[-100] - times * x[-100, 0] == pytest.approx(0.5 * times)
+
+
+def test_creep_comes_to_63_percent_in_a_minute() -> None:
+    times = np.arange(0, 601, 1.0)
+    x = np.tile([10.0, 0, 0, 0, 0, 0], (len(times), 1))
+    read = SensorModel(SensorSettings(creep=0.01)).read(times, x).wrenches[:, 0] - 10.0
+    assert read[60] == pytest.approx(0.1 * (1 - np.exp(-1)), rel=1e-9)
+    assert read[-1] == pytest.approx(0.1, rel=1e-3)
+
+
+def test_how_many_are_read_together_changes_no_bit_of_what_it_remembers() -> None:
+    settings = replace(preset("paper"), hysteresis=np.full(6, 0.1), hysteresis_of_load=0.002, creep=0.01)
+    times, x = np.arange(60) / 200, np.random.default_rng(0).normal(size=(60, 6))
+    whole = SensorModel(settings, 3).read(times, x).wrenches
+    model = SensorModel(settings, 3)
+    parts = [model.read(times[k : k + 7], x[k : k + 7]).wrenches for k in range(0, 60, 7)]
+    np.testing.assert_array_equal(np.concatenate(parts), whole)
+
+
+def test_a_rezero_takes_what_it_remembers_with_it() -> None:
+    settings = SensorSettings(hysteresis=np.full(6, 0.2), creep=0.02)
+    model = SensorModel(settings)
+    x = np.tile(np.arange(6.0), (200, 1))
+    model.read(np.arange(200.0), x)
+    model.rezero(x[0], 199.0)
+    np.testing.assert_allclose(model.read(199.0, x[:1]).wrenches, 0.0, atol=1e-12)
+
+
+def test_what_a_real_bench_adds_is_the_sensors_share_of_it() -> None:
+    rng = np.random.default_rng(0)
+    same = preset("paper").with_(Reality(cable=1.0), rng)
+    np.testing.assert_array_equal(same.crosstalk, np.eye(6))
+    assert not same.hysteresis.any()
+    real = preset("paper").with_(
+        Reality(hysteresis=0.05, hysteresis_of_load=0.1, creep=0.2, crosstalk=1.0), rng
+    )
+    np.testing.assert_allclose(real.hysteresis, [0.15, 0.15, 0.15, 0.006, 0.006, 0.006])
+    assert (real.hysteresis_of_load, real.creep) == pytest.approx((0.001, 0.002))
+    off = np.abs(real.crosstalk - np.eye(6)) * np.outer([1, 1, 1, 20, 20, 20], [1, 1, 1, 0.05, 0.05, 0.05])
+    assert 0.004 < off.max() <= 0.01
+    np.testing.assert_array_equal(np.diag(real.crosstalk), np.ones(6))

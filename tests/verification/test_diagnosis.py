@@ -115,3 +115,25 @@ def test_single_touches_do_not_tell_markers_from_noise():
     evidence = touches(sides=True)
     places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
     assert diagnose(with_errors(evidence, places), within=False).first is ErrorCause.NOISE
+
+
+@pytest.mark.parametrize("cause", [ErrorCause.MOUNT, ErrorCause.SENSOR])
+def test_what_a_mount_and_a_sensor_make_of_a_load_is_named_with_its_remedy(cause):
+    found = [bench(cause, np.random.default_rng([21, t])).verified().diagnosis for t in range(3)]
+    assert all(each.first is cause for each in found)
+    remedy = {"mount": "stiffen its mount", "sensor": "More samples do not help"}[cause]
+    assert all(remedy in each.text for each in found)
+
+
+def test_noise_that_was_seen_within_touches_is_not_what_lies_between_them():
+    still = touches(sides=True, orientations=True)
+    once = with_errors(still, np.zeros((15, 3)))
+    louder = replace(once, errors=4.0 * once.errors)
+    assert explain(louder).first is ErrorCause.NOISE
+    assert explain(replace(louder, measured=True)).first is ErrorCause.SENSOR
+    assert explain(replace(once, measured=True)).first is ErrorCause.NOISE
+
+
+def test_what_is_not_found_of_the_newer_causes_is_not_listed():
+    found = bench(None, np.random.default_rng(5)).verified().diagnosis
+    assert {each.cause for each in found.shares} == set(list(ErrorCause)[:6])

@@ -21,7 +21,9 @@ from contactbench import assets
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import BenchScene, TrueSurface
+from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.simulation.reality import Felt, LateLine, RealProbe, chance
+from contactbench.pipeline.simulation.scenes import BenchScene, Payload, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (
     Bump,
@@ -44,7 +46,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.simulation.scenes import Payload, SceneMoment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 RATE, POSE_RATE = 200.0, 50.0
 FASTEST = 1000.0
@@ -71,6 +73,8 @@ class VirtualBench:
         How the sensor is mounted: turns components in the flange E into S. Both have the same origin.
     script : sequence of Timed
         Commands to do by themselves.
+    reality : Reality, optional
+        What it adds to the ideal bench; the probe is then what the program is told of, not what is there.
 
     Raises
     ------
@@ -89,6 +93,7 @@ class VirtualBench:
         payload: Payload | None = None,
         R_SE: ArrayLike | None = None,
         script: Sequence[Timed] = (),
+        reality: Reality | None = None,
     ) -> None:
         for what, value in (("rate", rate), ("pose rate", pose_rate)):
             if not 0 < value <= FASTEST:
@@ -101,8 +106,21 @@ class VirtualBench:
         self.markers = markers(probe) if isinstance(probe, str) else markers_on(probe)
         self.rate, self.pose_rate = rate, pose_rate
         self.R_SE = _mounting(R_SE)
+        self.reality, payload = reality or Reality(), payload or Payload()
+        self.real = RealProbe.of(truth, self.markers, self.reality, seed)
+        self._felt = Felt(self.reality, self.real, seed, payload) if self.reality.on else None
+        if self.reality.on:
+            settings = settings.with_(self.reality, chance(seed, "crosstalk"))
         self.sensor = SensorModel(settings.at(rate), seed)
-        self.scene = BenchScene(truth, payload=payload)
+        if self.reality.warming:
+            self.sensor.warm(self.reality.warming, 0.0)
+        self.scene = BenchScene(self.real.truth, payload=payload)
+        self._line: LateLine[tuple[WrenchSample, SceneMoment]] | None = None
+        if self.reality.latency or self.reality.jitter:
+            late, jitter = self.reality.latency / 1e3, self.reality.jitter / 1e3
+            self._line = LateLine(late, jitter, chance(seed, "jitter"))
+        # (time, R_WS) of the last steps, where poses are old when they are told
+        self._turned: deque[tuple[float, NDArray[np.float64]]] = deque()
         self.log: list[Done] = []
         self._script = deque(script)
         self._queue: deque[tuple[Command, Future[Done]]] = deque()
@@ -240,6 +258,9 @@ class VirtualBench:
     def _sample(
         self, wrenches: list[WrenchSample], flanges: list[FlangeSample], truths: list[SceneMoment]
     ) -> None:
+        self._carried(wrenches, truths)
+        if self.reality.pose_latency:
+            self._turned.append((self.time, self.scene.data.site("S").xmat.reshape(3, 3).copy()))
         wrench = self._step >= round(self._wrenches / (self.rate * self.scene.step_s))
         pose = self._step >= round(self._poses / (self.pose_rate * self.scene.step_s))
         if not (wrench or pose):
@@ -247,12 +268,31 @@ class VirtualBench:
         # The step counts exactly; the scene's own clock adds up rounding.
         truth = replace(self.scene.moment(), time=self.time)
         if wrench:
-            wrenches.append(self._read(truth))
-            truths.append(truth)
+            truth = truth if self._felt is None else self._felt.of(truth)
+            sample = self._read(truth)
+            if self._line is None:
+                wrenches.append(sample)
+                truths.append(truth)
+            else:
+                arrival = self._line.arrival(self.time)
+                self._line.send(arrival, (replace(sample, arrival=arrival), truth))
             self._wrenches += 1
         if pose:
-            flanges.append(FlangeSample(self.time, truth.R_WS @ self.R_SE, self._place.copy()))
+            flanges.append(FlangeSample(self.time, self._told(truth.R_WS) @ self.R_SE, self._place.copy()))
             self._poses += 1
+
+    def _carried(self, wrenches: list[WrenchSample], truths: list[SceneMoment]) -> None:
+        """Give what has arrived by now; what is under way at the end of the run is lost."""
+        for sample, truth in [] if self._line is None else self._line.due(self.time):
+            wrenches.append(sample)
+            truths.append(truth)
+
+    def _told(self, R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the orientation that is told now: where poses are late, that of a while ago."""
+        oldest = self.time - self.reality.pose_latency / 1e3
+        while len(self._turned) > 1 and self._turned[1][0] <= oldest + 1e-9:
+            self._turned.popleft()
+        return self._turned[0][1] if self._turned else R_WS
 
     def _read(self, truth: SceneMoment) -> WrenchSample:
         # One at a time: how many are read together must not change a bit of them.
@@ -318,7 +358,8 @@ class VirtualBench:
         elif isinstance(command, Warm):
             self.sensor.warm(command.kelvin, now)
         elif isinstance(command, SecretRezero):
-            self.sensor.rezero(self.scene.moment().reading, now)
+            now_there = replace(self.scene.moment(), time=now)
+            self.sensor.rezero((now_there if self._felt is None else self._felt.of(now_there)).reading, now)
         elif isinstance(command, End):
             self._ended = True
         return now
@@ -330,10 +371,10 @@ class VirtualBench:
         if command.marker is None:
             place = np.array(command.point_S)
         elif 1 <= command.marker <= len(self.markers):
-            place = self.markers[command.marker - 1]
+            place = self.real.targets[command.marker - 1]
         else:
             raise CommandError(f"touch: marker {command.marker}: there are 1 to {len(self.markers)}.")
-        self.scene.aim(place)
+        self.scene.aim(self.real.aimed(place, command.press))
         self.scene.press(command.press)
         self._slips.end()
         self._leaving = np.inf if command.seconds is None else now + command.seconds

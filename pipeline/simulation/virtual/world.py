@@ -189,5 +189,11 @@ def bench_at(address: DeviceAddress) -> VirtualBench:
     script = () if options.script is None else read_script(Path(options.script))
     rate = address.rate or 200.0
     return VirtualBench(
-        probe, options.sensor, seed=options.seed, rate=rate, pose_rate=options.pose_rate, script=script
+        probe,
+        options.sensor,
+        seed=options.seed,
+        rate=rate,
+        pose_rate=options.pose_rate,
+        script=script,
+        reality=options.reality,
     )

@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.scenes import Payload, PhysicsError
 from contactbench.pipeline.simulation.sensor_model import SensorSettings
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
@@ -230,3 +231,56 @@ def test_physics_that_comes_apart_ends_the_samples():
     bench.scene.data.qvel[0] = 1e20
     with pytest.raises(PhysicsError):
         bench.advance(0.1)
+
+
+# ---- a bench that is not ideal ---------------------------------------------------------------------
+
+
+def test_an_ideal_reality_changes_no_bit() -> None:
+    plain, ideal = VirtualBench(seed=5), VirtualBench(seed=5, reality=Reality())
+    for bench in (plain, ideal):
+        bench.touch(2, force=9.0, tilt=20.0)
+    ours, theirs = plain.advance(0.5), ideal.advance(0.5)
+    assert ours.wrenches == theirs.wrenches
+    assert all((a.reading == b.reading).all() for a, b in zip(ours.truths, theirs.truths, strict=True))
+
+
+def test_a_real_bench_gives_the_same_bytes_for_the_same_seed_and_others_for_another() -> None:
+    found = []
+    for seed in (5, 5, 6):
+        bench = VirtualBench(seed=seed, reality=MIXES["typical"])
+        bench.touch(2, force=9.0, tilt=20.0)
+        found.append(bench.advance(0.5).wrenches)
+    assert found[0] == found[1] != found[2]
+
+
+def test_a_late_line_gives_every_sample_once_in_order_and_as_late_as_it_says() -> None:
+    bench = VirtualBench(sensor="ideal", reality=Reality(latency=20, jitter=2))
+    samples = bench.advance(0.5).wrenches
+    assert [sample.sequence for sample in samples] == list(range(len(samples)))
+    late = [sample.arrived - sample.time for sample in samples]
+    assert min(late) >= 0.02
+    assert np.mean(late) == pytest.approx(0.022, abs=0.002)
+    assert 93 <= len(samples) <= 96
+
+
+def test_a_late_pose_is_the_one_of_a_while_ago() -> None:
+    now, late = VirtualBench(pose_rate=100.0), VirtualBench(pose_rate=100.0, reality=Reality(pose_latency=20))
+    turns = []
+    for bench in (now, late):
+        bench.turn_to(rpy=[0, 60, 0], seconds=1.0)
+        turns.append([sample.R_BE for sample in bench.advance(0.8).flanges])
+    for early, then in zip(turns[0][10:-2], turns[1][12:], strict=True):
+        np.testing.assert_allclose(then, early, atol=2e-3)
+    assert np.abs(turns[0][40] - turns[1][40]).max() > 0.01
+
+
+def test_the_truth_beside_a_wrench_is_what_is_felt() -> None:
+    bench = VirtualBench(sensor="ideal", reality=Reality(cable=1.0, seat=1.0))
+    bench.touch(3, force=9.0)
+    batch = bench.advance(0.6)
+    sample, truth = batch.wrenches[-1], batch.truths[-1]
+    np.testing.assert_allclose([*sample.force, *sample.torque], truth.reading)
+    assert truth.contacts > 0
+    np.testing.assert_allclose(truth.point_S, bench.real.targets[2], atol=2e-4)
+    assert np.linalg.norm(truth.point_S - bench.markers[2]) > 5e-4

@@ -1,0 +1,417 @@
+"""
+A whole day on a bench that is not ideal: calibrate, prepare, align, verify, export, run, and compare with the truth.
+
+Presses are taken at rest, where physics gives just the sums that `RealBench` takes; everything from the recordings on
+is what a user has: files, and the same steps.
+"""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contactbench import assets
+from contactbench.pipeline.calibration.files.calibration_file import creation_time
+from contactbench.pipeline.calibration.files.capture_file import capture_poses
+from contactbench.pipeline.calibration.files.pose_csv import write_poses
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.config.runtime.bench import export_from_files
+from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.gravity import calibrate_folder, planned_poses
+from contactbench.pipeline.demo.housing import prepare_probe
+from contactbench.pipeline.demo.tape import write_tape
+from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
+from contactbench.pipeline.demo.touches import TILTS
+from contactbench.pipeline.demo.verification import (
+    BUNDLE,
+    SAMPLES,
+    WINDOW_N,
+    answers_of,
+    export_settings,
+)
+from contactbench.pipeline.durable import make_folder, write_file
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
+from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, align_touches
+from contactbench.pipeline.preparation.steps import align_step
+from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.simulation.loads import orientations_in_use
+from contactbench.pipeline.simulation.reality.bench import RealBench
+from contactbench.pipeline.simulation.scenes import TipPress
+from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.real_causes import (
+    VERIFIED_S,
+    MarkedPresses,
+    told_floor,
+    true_causes,
+    true_floor,
+)
+from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
+from contactbench.pipeline.verification import Marker, MarkerSet
+from contactbench.pipeline.verification.result import VerificationParameters, verify_files
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.simulation.reality.bench import RealTape
+    from contactbench.pipeline.study.real_causes import TrueCauses
+    from contactbench.pipeline.verification import Verification
+
+    Array = NDArray[np.float64]
+
+_ALIGNED_S, _RUN_S = 5400.0, 10_800.0  # since the sensor was switched on; verified between them
+_ALIGNING_DEG = 10.0
+_RUN_TOUCHES = 60
+_RUN_N, _RUN_DEG, _RUN_TORSION_M = (3.0, 15.0), 30.0, 0.0003
+_HEAD_M, _LOWEST_NORMAL = 0.040, -0.3  # below the tip, and where a tip reaches
+_FAR_MM = 5.0
+_TYPICAL = "typical"
+
+
+@dataclass(frozen=True)
+class DayResult:
+    """One day on one bench."""
+
+    reality: str
+    probe: str
+    seed: int
+    weighed: str  # the calibration's verdict
+    weighing_cause: str  # what it says is behind its residuals
+    contact_error_mm: float  # by the calibration alone, as it says
+    aligned: bool  # whether the alignment by touches was taken
+    verified: bool  # whether the verification passed
+    marker_mean_mm: float | None  # as verification says it: from markers as they are told
+    told_cause: str | None
+    true_cause: str
+    true_share: float  # that it has of the squared errors
+    # what the model leaves, as an error of the contact, rms: as verification says, and as it is
+    told_floor_mm: float | None
+    true_floor_mm: float
+    # errors of the answers that were sure, from the true points; touches that were run, and what became of them
+    errors_mm: tuple[float, ...]
+    touches: int
+
+    @property
+    def sure(self) -> float:
+        """Share of the touches with an answer that is sure."""
+        return len(self.errors_mm) / self.touches
+
+    @property
+    def named(self) -> bool:
+        """Whether the cause that makes most of the errors was named first."""
+        return self.told_cause == self.true_cause
+
+
+def run_days(
+    out: Path,
+    realities: Sequence[Reality],
+    probes: Sequence[str] = assets.PROBE_NAMES,
+    seeds: int = 1,
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> StudyReport:
+    """
+    Do a day's work on each bench, with each probe, with each seed.
+
+    Writes a folder per bench, probe and seed: gravity.mcap, poses.csv, calibration.json, calibration.html; probe.ply,
+    probe.json; touches.mcap, markers.csv, verification.json, the bundle runtime/, run.mcap and run.csv, which has the
+    truth beside each answer. Beside them probes/ with what all days begin from, days.csv and days.md.
+
+    Parameters
+    ----------
+    seeds, seed : int
+        How many, and the first; at least 1 and 0.
+
+    Raises
+    ------
+    InputError
+        An argument is out of its range, or a file cannot be written.
+    """
+    if seeds < 1 or seed < 0:
+        raise InputError(f"--seeds {seeds}, --seed {seed}: give at least one seed, from 0 on.")
+    if unknown := [name for name in probes if name not in assets.PROBE_NAMES]:
+        raise InputError(
+            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
+        )
+    days = []
+    for name in probes:
+        progress(f"{name}: preparing the mesh")
+        made = out / "probes" / name
+        make_folder(made)
+        prepare_probe(made, name)
+        for reality in realities:
+            for number in range(seed, seed + seeds):
+                progress(f"{name}: a day on a bench that is {reality}, seed {number}")
+                folder = out / str(reality).replace(",", "_") / name / str(number)
+                make_folder(folder)
+                days.append(_day(folder, made, name, reality, number))
+    report = _report(days, seeds, seed)
+    write_csv(out / "days.csv", _COLUMNS, [_row(day) for day in days])
+    write_file(out / "days.md", report.markdown().encode())
+    return report
+
+
+def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> DayResult:
+    rng = np.random.default_rng([seed, assets.PROBE_NAMES.index(name), 4])
+    tool = draw_tool(rng)
+    bench = RealBench(name, reality, seed, tool, R_BW=tool.R_BW)
+    planned = tool.R_BW.T @ planned_poses()
+    _written(folder / "gravity.mcap", bench.weigh(planned))
+    write_poses(folder / "poses.csv", capture_poses(folder / "gravity.mcap").poses)
+    calibration, gravity = calibrate_folder(folder, tool.truth, ())
+    bench.warm()
+    bench.time = _ALIGNED_S
+    T, aligned = _aligned(folder, made, name, bench, tool, calibration, rng)
+    bench.time = VERIFIED_S
+    pressed, tape = _pressed(name, bench, rng)
+    _written(folder / "touches.mcap", tape)
+    found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3])
+    bench.time = _RUN_S
+    run = _run(folder, name, bench, tool, rng)
+    noise = np.diag(tool.noise().covariance) / tape_length(tape)
+    causes = true_causes(name, reality, seed, tool, planned, pressed, np.diag(noise), T)
+    return _result(
+        reality, name, seed, calibration, gravity.verdict, aligned, found, causes, tape, noise, run
+    )
+
+
+def tape_length(tape: RealTape) -> int:
+    """Return of how many readings the mean of a hold is."""
+    hold = tape.holds[0]
+    return int(hold.stop - hold.start)
+
+
+def _written(file: Path, tape: RealTape) -> None:
+    # A recording begins at its own zero; whole samples, as a device counts them.
+    times = np.round((tape.times - tape.times[0]) * RATE_HZ) / RATE_HZ
+    write_tape(file, times.tolist(), tape.readings, tape.told)
+
+
+def _aligned(
+    folder: Path,
+    made: Path,
+    name: str,
+    bench: RealBench,
+    tool: DemoTool,
+    calibration: Calibration,
+    rng: np.random.Generator,
+) -> tuple[Array, bool]:
+    """Press every marker, and move the probe where that says, if it is believed; return T_SS' (4, 4)."""
+    told = markers(name)
+    presses = [draw_press(rng, _ALIGNING_DEG) for _ in told]
+    tape = bench.press(
+        [bench.marked(number, press) for number, press in enumerate(presses, 1)],
+        orientations_in_use(len(told), rng),
+    )
+    content = load_probe_file(made / "probe.ply")
+    touches = MarkerTouches(told, tape.compensated(calibration.model))
+    left = 1 / np.sqrt(tape_length(tape))
+    found = align_touches(content.probe, touches, np.eye(4), tool.noise(left))
+    for file in ("housing.stl", "probe.json", "probe.ply"):
+        shutil.copyfile(made / file, folder / file)
+    if found.advice is not Advice.ADOPT:
+        return np.eye(4), False
+    save_probe_file(align_step(content, found.fitted, again=True), folder / "probe.ply")
+    return np.asarray(found.fitted.T_SP), True
+
+
+def _pressed(name: str, bench: RealBench, rng: np.random.Generator) -> tuple[MarkedPresses, RealTape]:
+    places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in TILTS]
+    presses = [draw_press(rng, tilt) for _, tilt in places]
+    R_WS = orientations_in_use(len(places), rng)
+    pressed = MarkedPresses([marker for marker, _ in places], presses, R_WS)
+    touches = [bench.marked(marker, press) for marker, press in zip(pressed.markers, presses, strict=True)]
+    return pressed, bench.press(touches, R_WS)
+
+
+def _verified(folder: Path, told: Array) -> Verification:
+    unknown = np.full(3, np.nan)
+    rows = tuple(Marker(str(number), point, unknown) for number, point in enumerate(told, 1))
+    write_file(folder / "markers.csv", MarkerSet(rows).to_bytes())
+    files = {
+        "recording": "touches.mcap",
+        "probe": "probe.ply",
+        "calibration": "calibration.json",
+        "markers": "markers.csv",
+    }
+    given = VerificationParameters(name="verification.json", windows=(WINDOW_N,), samples=SAMPLES)
+    found = verify_files({role: folder / file for role, file in files.items()}, given)
+    write_file(folder / given.name, found.to_bytes())
+    return found
+
+
+def _run(folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.random.Generator) -> list[float]:
+    """Run new touches through the bundle; return errors of sure answers, mm, and NaN for each other touch."""
+    exported = export_from_files(
+        folder / "calibration.json", folder / "probe.ply", folder / "verification.json", None,
+        export_settings(tool, folder / "probe.ply"), created=creation_time(), unverified=True,
+    )  # fmt: skip
+    exported.write(folder / BUNDLE)
+    touches = [bench.anywhere(place, _press(rng)) for place in _places(name, rng)]
+    tape = bench.press(touches, orientations_in_use(len(touches), rng))
+    _written(folder / "run.mcap", tape)
+    answers = answers_of(RuntimeConfig.load(folder / BUNDLE), folder / "run.mcap")
+    rows, errors = [], []
+    for touch, hold in zip(tape.touches, tape.holds, strict=True):
+        answer = answers[hold.stop - 1]
+        point = None if answer.contact is None else answer.contact.point
+        sure = answer.contact is not None and answer.contact.accepted and point is not None
+        off = np.nan if point is None else 1e3 * float(np.linalg.norm(point - touch.point))
+        errors.append(off if sure else np.nan)
+        where = [None] * 3 if point is None else np.asarray(point).tolist()
+        rows.append((answer.time, touch.press.force, *touch.point.tolist(), *where, answer.reason, off))
+    columns = ("t", "force", "true_x", "true_y", "true_z", "x", "y", "z", "reason", "error_mm")
+    write_csv(folder / "run.csv", columns, rows)
+    return errors
+
+
+def _press(rng: np.random.Generator) -> TipPress:
+    force = float(rng.uniform(*_RUN_N))
+    torsion = float(_RUN_TORSION_M * force * rng.standard_normal())
+    return TipPress(force, float(rng.uniform(0, _RUN_DEG)), float(rng.uniform(0, 360)), torsion)
+
+
+def _places(name: str, rng: np.random.Generator) -> Array:
+    """Draw places anywhere on the head that a tip reaches, (n, 3), as the mesh is told."""
+    surface = assets.surface(name)
+    points, normals, *_ = surface.sample(50 * _RUN_TOUCHES, rng)
+    head = (points[:, 2] > points[:, 2].max() - _HEAD_M) & (normals[:, 2] > _LOWEST_NORMAL)
+    return np.asarray(points[head][:_RUN_TOUCHES])
+
+
+def _result(
+    reality: Reality, name: str, seed: int, calibration: Calibration, verdict: str, aligned: bool,
+    found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, run: list[float],
+) -> DayResult:  # fmt: skip
+    off = true_floor(tape, tape.compensated(calibration.model), np.diag(noise))
+    told = None if found.model_error is None else 1e3 * told_floor(tape, found.model_error)
+    return DayResult(
+        reality=str(reality),
+        probe=name,
+        seed=seed,
+        weighed=verdict,
+        weighing_cause=calibration.causes[0].key if calibration.causes else "",
+        contact_error_mm=1e3 * calibration.contact_error,
+        aligned=aligned,
+        verified=not found.verdict.reasons,
+        marker_mean_mm=None if found.overall is None else found.overall.mean_mm,
+        told_cause=None if found.diagnosis is None else str(found.diagnosis.first),
+        true_cause=str(causes.first),
+        true_share=causes.share,
+        told_floor_mm=told,
+        true_floor_mm=1e3 * off,
+        errors_mm=tuple(error for error in run if np.isfinite(error)),
+        touches=len(run),
+    )
+
+
+# ---- the table -------------------------------------------------------------------------------------
+
+_COLUMNS = (
+    *(name for name in DayResult.__dataclass_fields__ if name not in ("errors_mm", "touches")),
+    "touches", "sure", "mean_mm", "p95_mm", "max_mm", "far",
+)  # fmt: skip
+
+
+def _row(day: DayResult) -> list[Any]:
+    values = asdict(replace(day, errors_mm=()))
+    fields = [values[name] for name in _COLUMNS[:-6]]
+    errors = np.array(day.errors_mm)
+    sizes = (None,) * 3 if not len(errors) else (
+        float(errors.mean()), float(np.percentile(errors, 95)), float(errors.max())
+    )  # fmt: skip
+    return [*fields, day.touches, day.sure, *sizes, int((errors > _FAR_MM).sum())]
+
+
+def _report(days: list[DayResult], seeds: int, seed: int) -> StudyReport:
+    figures: list[Figure] = []
+    rows: list[tuple[str | float | None, ...]] = []
+    for reality in dict.fromkeys(day.reality for day in days):
+        mine = [day for day in days if day.reality == reality]
+        figures += _figures(reality, mine)
+        rows += [
+            _summed([day for day in mine if day.probe == name])
+            for name in dict.fromkeys(d.probe for d in mine)
+        ]
+    sheet = Sheet("days", "The day", _HEADINGS, tuple(rows))
+    settings = {"seeds": seeds, "first seed": seed, "touches run": _RUN_TOUCHES}
+    return StudyReport("A day on a real bench", settings, tuple(figures), _NOTES, (sheet,))
+
+
+_NOTES = (
+    "Errors are from the true points, of sure answers to touches that were not used before; the spread is over days.",
+    "Floor: what the wrenches are off beyond noise, as an error of the contact, rms; told by verification over true.",
+)
+_HEADINGS = (
+    "bench", "probe", "days", "mean mm", "over days", "p95 mm", "max mm", "sure %", "sure, > 5 mm off %", "verified",
+    "aligned", "mean at markers mm", "floor told mm", "floor true mm", "ratio", "mostly", "named first",
+    "calibration says", "and adds mm",
+)  # fmt: skip
+
+
+def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
+    typical = reality == _TYPICAL
+    means = np.array([np.mean(day.errors_mm) for day in days if day.errors_mm])
+    errors = np.concatenate([day.errors_mm for day in days])
+    far = 100 * float((errors > _FAR_MM).sum()) / sum(day.touches for day in days)
+    spread = tuple(np.percentile(means, [5, 95]).tolist())
+    return [
+        Figure(reality, "mean error", float(errors.mean()), "mm", most=0.6 if typical else None, spread=spread,
+               worst=float(means.max())),
+        Figure(reality, "sure and more than 5 mm off", far, "%", most=0.2 if typical else None),
+        Figure(reality, "floor, told over true, rms of all days", _ratio(days), least=0.75 if typical else None,
+               most=1.25 if typical else None),
+    ]  # fmt: skip
+
+
+def _ratio(days: list[DayResult]) -> float:
+    known = [day for day in days if day.told_floor_mm is not None]
+    if not known:
+        return float("nan")
+    told, true = (
+        np.array([getattr(d, name) for d in known], float) for name in ("told_floor_mm", "true_floor_mm")
+    )
+    # Where there is nothing to find but noise, no ratio says anything.
+    return float(np.sqrt(np.mean(told**2) / np.mean(true**2))) if true.any() else float("nan")
+
+
+def _summed(days: list[DayResult]) -> tuple[str | float | None, ...]:
+    errors = np.concatenate([day.errors_mm for day in days])
+    means = [float(np.mean(day.errors_mm)) for day in days if day.errors_mm]
+    count = sum(day.touches for day in days)
+    at_markers = [day.marker_mean_mm for day in days if day.marker_mean_mm is not None]
+    told = [day.told_floor_mm for day in days if day.told_floor_mm is not None]
+    return (
+        days[0].reality,
+        days[0].probe,
+        len(days),
+        float(errors.mean()),
+        f"{min(means):.2f} to {max(means):.2f}",
+        float(np.percentile(errors, 95)),
+        float(errors.max()),
+        100 * len(errors) / count,
+        100 * float((errors > _FAR_MM).sum()) / count,
+        f"{sum(day.verified for day in days)} of {len(days)}",
+        f"{sum(day.aligned for day in days)} of {len(days)}",
+        float(np.mean(at_markers)) if at_markers else None,
+        float(np.sqrt(np.mean(np.square(told)))) if told else None,
+        float(np.sqrt(np.mean([day.true_floor_mm**2 for day in days]))),
+        _ratio(days),
+        _most([day.true_cause for day in days]),
+        f"{sum(day.named for day in days)} of {len(days)}",
+        _most([f"{day.weighed}, {day.weighing_cause}" for day in days]),
+        float(np.mean([day.contact_error_mm for day in days])),
+    )
+
+
+def _most(words: list[str]) -> str:
+    return max(dict.fromkeys(words), key=words.count)

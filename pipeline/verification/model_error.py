@@ -9,7 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.verification.causes import across, alignment_columns
+from contactbench.pipeline.verification.causes import across
 from contactbench.pipeline.verification.figures import ModelError
 
 if TYPE_CHECKING:
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 FEWEST_MARKERS = 6
-# How well a probe's place on its sensor is known, rad and m, 1 sigma: what it does is no error of the wrench.
-_TURN_KNOWN, _SHIFT_KNOWN = np.radians(0.3), 0.0003
 PLACEMENT_M = 0.0003  # in each direction of the surface: nobody hits a marker better by hand
 # One verification is one day and one run of the cable: nobody knows that the next ones are better than this.
 LEAST = 0.4  # times the default
@@ -146,8 +144,7 @@ class _Touched:
     # (n, 2, 6) how the contact moves along the surface with its wrench, in units of the default error
     J: Array
     known: Array  # (n, 2, 2) covariance by noise and placement
-    # (n, 2, 25) J, effects of what the calibration (12) and the alignment (6) leave, of unit variance, and the errors
-    columns: Array
+    columns: Array  # (n, 2, 19) J, effects of what the calibration leaves, of unit variance, and the errors
     starts: NDArray[np.intp]  # (g,) first touch of each marker
 
     @classmethod
@@ -160,15 +157,14 @@ class _Touched:
         values, vectors = np.linalg.eigh(model.covariance)
         root = vectors * np.sqrt(np.maximum(values, 0.0))
         left = J @ prediction_jacobian(rows.R_WS.transpose(0, 2, 1), model.vector) @ root
-        placed = alignment_columns(J, rows.wrenches) * np.repeat([_TURN_KNOWN, _SHIFT_KNOWN], 3)
         known = J @ rows.noise @ J.transpose(0, 2, 1) + PLACEMENT_M**2 * np.eye(2)
         starts = np.flatnonzero(np.diff(rows.markers, prepend=-1))
-        return cls(J * _DEFAULT, known, np.concatenate([J * _DEFAULT, left, placed, errors], axis=2), starts)
+        return cls(J * _DEFAULT, known, np.concatenate([J * _DEFAULT, left, errors], axis=2), starts)
 
     @property
     def size(self) -> float:
         """Times the default that the model's error would be if nothing else made the errors."""
-        return float(np.sqrt((self.columns[:, :, -1] ** 2).sum() / (self.J**2).sum()))
+        return float(np.sqrt((self.columns[:, :, 18] ** 2).sum() / (self.J**2).sum()))
 
     def draws(self, mixture: _Mixture) -> float:
         """Return as how many independent touches these count."""
@@ -178,7 +174,7 @@ class _Touched:
         return 1 / (mixture.common + mixture.marker * float((shares**2).sum()) + own / n)
 
     def products(self, scales: Array) -> tuple[Array, Array]:
-        """Return (k, g, 25, 25) by marker, and (k,) log det, with own errors of `scales` (k, 6)."""
+        """Return (k, g, 19, 19) by marker, and (k,) log det, with own errors of `scales` (k, 6)."""
         S, log = [], []
         for scale in scales:
             own = self.J * scale
@@ -220,18 +216,18 @@ def _weighed(touched: _Touched) -> tuple[Array, Array, Array]:
 
 def _shared(S: Array, scales: Array, mixture: _Mixture) -> Array:
     """Return the log likelihood (k,) of errors of `scales` (k, 6), without log det of the touches' own part."""
-    # What the touches of a marker share is integrated out, six numbers for each; then what all share, twenty-four.
+    # What the touches of a marker share is integrated out, six numbers for each; then what all share, eighteen.
     log_det = np.zeros(len(S))
     if mixture.marker:
         S, by_marker = _integrated(S, scales[:, None] * np.sqrt(mixture.marker))
         log_det += by_marker.sum(axis=1)
-    sigmas = np.hstack([scales * np.sqrt(mixture.common), np.ones((len(S), 18))])
+    sigmas = np.hstack([scales * np.sqrt(mixture.common), np.ones((len(S), 12))])
     S, by_all = _integrated(S.sum(axis=1), sigmas)
-    return -0.5 * np.asarray(log_det + by_all + S[:, -1, -1])
+    return -0.5 * np.asarray(log_det + by_all + S[:, 18, 18])
 
 
 def _integrated(S: Array, sigmas: Array) -> tuple[Array, Array]:
-    """Return what is left of products (..., 25, 25) without the first unknowns ~ N(0, sigmas²), and a log det."""
+    """Return what is left of products (..., 19, 19) without the first unknowns ~ N(0, sigmas²), and a log det."""
     count = sigmas.shape[-1]
     A = S[..., :count] * sigmas[..., None, :]
     inner = np.eye(count) + A[..., :count, :] * sigmas[..., :, None]

@@ -113,7 +113,9 @@ def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> 
     """Return which markers to look at: those that stand out, or all."""
     markers, rows = np.unique(evidence.markers, return_index=True)
     moved = found.moved[rows]
-    out = [int(each) for each in markers[moved > _MISPLACED * np.median(moved)]]
+    # What is a tenth of the largest is not what anybody looks for: a ball that leans moves all of them a little.
+    least = max(_MISPLACED * float(np.median(moved)), 0.1 * float(moved.max()))
+    out = [int(each) for each in markers[moved > least]]
     called = [names[each] if names else str(each + 1) for each in out]
     which = f" {', '.join(called)}" if called else ""
     return (

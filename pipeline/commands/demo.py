@@ -74,8 +74,9 @@ def _days(out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed
     tables = [report.table(), *(sheet.table() for sheet in report.sheets)]
     if as_json():
         show_tables(*tables)
-    for table in () if as_json() else tables:
-        Console(width=_WIDE).print(table)
+    else:
+        for table in tables:
+            Console(width=_WIDE).print(table)
     answer(report.to_json())
     if not report.passed:
         raise typer.Exit(1)

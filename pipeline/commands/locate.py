@@ -187,8 +187,7 @@ def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) 
 
 def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:
     """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
-    from contactbench.pipeline.mesh.errors import MeshError
-    from contactbench.pipeline.mesh.load import read_mesh, settle
+    from contactbench.pipeline.mesh.load import probe_of, read_mesh
     from contactbench.pipeline.mesh.units import METRES
     from contactbench.pipeline.preparation.alignment.placement import from_angles
 
@@ -198,10 +197,7 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
         over, under = METRES[read.units if units is None else units.value]
         position_mm = [1000 * value * over / under for value in mount[:3]]
         T_SP = from_angles(position_mm, mount[3:]).T_SP
-    try:
-        probe = settle(read, T_SP, path.stem)
-    except MeshError as error:
-        raise MeshError(f"{path}: {error}") from error
+    probe = probe_of(path, read, T_SP)
     sentences = [*read.notes, *probe.health.sentences]
     if T_SP is None and read.raw.settled:
         from contactbench.pipeline.mesh.sidecar import load_probe_file

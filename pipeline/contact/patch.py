@@ -135,6 +135,12 @@ class PatchReader:
         Nothing of the probe faces +z.
     """
 
+    # The columns of `rows`, as a table of contacts has them.
+    header = (
+        b"centre_x,centre_y,centre_z,offset_x_mm,offset_y_mm,offset_sigma_x_mm,offset_sigma_y_mm"
+        b",balance_x,balance_y,balance_sigma_x,balance_sigma_y\n"
+    )
+
     def __init__(self, probe: Probe, bed: Bed | None = None) -> None:
         self.bed = bed or Bed()
         places, _, self._area = spread(probe, _PLACES)

@@ -32,10 +32,6 @@ if TYPE_CHECKING:
 
 __all__ = ["LocateSummary", "WrenchFileError", "ahead", "locate_file", "refuse_overwriting", "whole_output"]
 
-PATCH_HEADER = (
-    b"centre_x,centre_y,centre_z,offset_x_mm,offset_y_mm,offset_sigma_x_mm,offset_sigma_y_mm"
-    b",balance_x,balance_y,balance_sigma_x,balance_sigma_y\n"
-)
 Progress = Callable[[int, int], None]
 _Block = TypeVar("_Block")
 _Done = TypeVar("_Done")
@@ -122,7 +118,7 @@ def locate_file(
         What is touched; that of the solver by default. Where it is given and no touch explains more than half of the
         rows with force, the usual mistakes are tried.
     patches : PatchReader, optional
-        What each accepted contact says of the area that touches: columns `PATCH_HEADER` more. Some milliseconds a row.
+        What each accepted contact says of the area that touches: its columns more. Some milliseconds a row.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
     block_bytes : int
@@ -149,7 +145,7 @@ def locate_file(
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         if not compensated:
             reader.refuse_raw()
-        write(HEADER if patches is None else HEADER.rstrip() + b"," + PATCH_HEADER)
+        write(HEADER if patches is None else HEADER.rstrip() + b"," + patches.header)
         text = ContactRows()
         for rows, answers in ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3

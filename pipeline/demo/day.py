@@ -20,11 +20,10 @@ from contactbench.pipeline.calibration.files.pose_csv import write_poses
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.demo.files import write_csv
-from contactbench.pipeline.demo.gravity import calibrate_folder, planned_poses
+from contactbench.pipeline.demo.gravity import calibrate_folder
 from contactbench.pipeline.demo.housing import prepare_probe
 from contactbench.pipeline.demo.tape import write_tape
 from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
-from contactbench.pipeline.demo.touches import TILTS
 from contactbench.pipeline.demo.verification import (
     BUNDLE,
     SAMPLES,
@@ -46,6 +45,7 @@ from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.real_causes import (
     VERIFIED_S,
     MarkedPresses,
+    planned_poses,
     told_floor,
     true_causes,
     true_floor,
@@ -172,7 +172,8 @@ def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> Da
     bench.time = _ALIGNED_S
     T, aligned = _aligned(folder, made, name, bench, tool, calibration, rng)
     bench.time = VERIFIED_S
-    pressed, tape = _pressed(name, bench, rng)
+    pressed = MarkedPresses.drawn(name, rng)
+    tape = bench.press(pressed.on(bench), pressed.R_WS)
     _written(folder / "touches.mcap", tape)
     found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3])
     bench.time = _RUN_S
@@ -222,15 +223,6 @@ def _aligned(
         return np.eye(4), False
     save_probe_file(align_step(content, found.fitted, again=True), folder / "probe.ply")
     return np.asarray(found.fitted.T_SP), True
-
-
-def _pressed(name: str, bench: RealBench, rng: np.random.Generator) -> tuple[MarkedPresses, RealTape]:
-    places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in TILTS]
-    presses = [draw_press(rng, tilt) for _, tilt in places]
-    R_WS = orientations_in_use(len(places), rng)
-    pressed = MarkedPresses([marker for marker, _ in places], presses, R_WS)
-    touches = [bench.marked(marker, press) for marker, press in zip(pressed.markers, presses, strict=True)]
-    return pressed, bench.press(touches, R_WS)
 
 
 def _verified(folder: Path, told: Array) -> Verification:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
@@ -14,12 +13,11 @@ from contactbench.pipeline.calibration import Calibration, GravityModel, Level, 
 from contactbench.pipeline.calibration.files.calibration_file import SourceFile, save_calibration
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
-from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.report.page import write_report
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.demo.tape import STEP_S, DemoTape
 from contactbench.pipeline.simulation.loads import bump, weigh
 from contactbench.pipeline.simulation.scenes import BenchScene
+from contactbench.pipeline.study.real_causes import POSES, planned_poses
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,7 +27,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.demo.tool import DemoTool
     from contactbench.pipeline.simulation.scenes import TrueSurface
 
-POSES = 9
 _HOLD_S = 2.5
 _TURN_RAD_S = pi / 2
 _STEP_S = 0.0025  # nothing is touched: what turns the wrist needs no finer step
@@ -96,12 +93,6 @@ def weigh_by_formula(folder: Path, tool: DemoTool, rng: np.random.Generator) -> 
     weighing = bump(weigh(tool.truth, planned_poses(), _POSE_NOISE, rng), 1 / POSES, rng)
     write_poses(folder / "poses.csv", weighing.poses)
     return tuple(f"pose {index + 1}" for index in np.flatnonzero(weighing.bumped))
-
-
-@cache
-def planned_poses() -> NDArray[np.float64]:
-    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
-    return plan_poses(POSES, by_hand()).R_WS
 
 
 def _turning_time(before: NDArray[np.float64], after: NDArray[np.float64]) -> float:

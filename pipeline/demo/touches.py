@@ -24,6 +24,7 @@ from contactbench.pipeline.simulation.scenes import TouchScene
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.real_causes import TILTS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 FACE, HEAD = "face", "head"
-TILTS = (0.0, 30.0)  # degrees between the force and the inward normal
 
 _HELD_S = 0.5  # seven time constants of the filter
 _PAUSE_S = 1.5

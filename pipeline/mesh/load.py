@@ -146,10 +146,7 @@ def load_probe(
     T_SP = None if mount is None else _rigid(mount)
     file = Path(path)
     read = read_mesh(file, units)
-    try:
-        probe = settle(read, T_SP, file.stem if name is None else name)
-    except MeshError as error:
-        raise MeshError(f"{file}: {error}") from error
+    probe = probe_of(file, read, T_SP, name)
     sentences = (*read.notes, *probe.health.sentences)
     if sentences:
         warnings.warn(f"{file}: " + " ".join(sentences), MeshWarning, stacklevel=2)
@@ -309,6 +306,16 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if np.abs(p_SP_S).max() > _FARTHEST_MOUNT_M:
         raise MeshError(f"mount moves the mesh by {p_SP_S.tolist()} m: give the translation in metres.")
     return T_SP
+
+
+def probe_of(
+    file: Path, read: MeshFile, T_SP: npt.NDArray[np.float64] | None = None, name: str | None = None
+) -> Probe:
+    """Settle what `read_mesh` gave of a file, under the file's name unless told otherwise; an error names the file."""
+    try:
+        return settle(read, T_SP, file.stem if name is None else name)
+    except MeshError as error:
+        raise MeshError(f"{file}: {error}") from error
 
 
 def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:

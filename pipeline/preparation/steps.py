@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.mesh import MeshError, MeshWarning
-from contactbench.pipeline.mesh.load import read_mesh, settle
+from contactbench.pipeline.mesh import MeshWarning
+from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell import Closing, make_shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
@@ -64,10 +64,7 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
         )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
-        try:
-            probe = settle(read, None, file.stem)
-        except MeshError as error:
-            raise MeshError(f"{file}: {error}") from error
+        probe = probe_of(file, read)
     notes = (*read.notes, *probe.health.sentences)
     found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
     reason = "" if read.guess is None else read.guess.reason

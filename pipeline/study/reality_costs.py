@@ -10,17 +10,14 @@ import numpy as np
 
 from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
-from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.marker_touches import model_of
-from contactbench.pipeline.study.real_causes import VERIFIED_S
+from contactbench.pipeline.study.real_causes import VERIFIED_S, MarkedPresses, planned_poses
 from contactbench.pipeline.study.report import Sheet, StudyReport
 
 if TYPE_CHECKING:
@@ -30,8 +27,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-POSES, FACETS = 9, 2_000
-TILTS = (0.0, 30.0)
+FACETS = 2_000
 # Quicker than a device, and as good as its filter: the mean of these readings leaves a fifth of the noise.
 _RATE_HZ, _READINGS = 50.0, 25
 _MASS_KG = (0.3, 0.8)
@@ -147,25 +143,19 @@ def press_all(name: str, reality: Reality, seed: int) -> MarkerPresses:
     rng = np.random.default_rng([seed, 23])
     loaded = LoadedSensor(draw_load(rng, _MASS_KG))
     bench = RealBench(name, reality, seed, loaded, rate=_RATE_HZ)
-    model = calibrate(bench.weigh(_planned()).poses()).model
+    model = calibrate(bench.weigh(planned_poses()).poses()).model
     bench.warm()
     bench.time = VERIFIED_S
-    places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in TILTS]
-    touches = [bench.marked(marker, draw_press(rng, tilt)) for marker, tilt in places]
-    tape = bench.press(touches, orientations_in_use(len(places), rng))
+    pressed = MarkedPresses.drawn(name, rng)
+    tape = bench.press(pressed.on(bench), pressed.R_WS)
     sigma = loaded.settings.noise / np.sqrt(_READINGS)
     uncertain = model.wrench_covariance(tape.means()[1]).mean(axis=0)
     solver = ContactSolver(model_of(name, FACETS), WrenchNoise(sigma[:3], sigma[3:], extra=uncertain))
     found = solver.locate_batch(np.ascontiguousarray(tape.compensated(model)))
-    true = np.array([touch.point for touch in touches])
-    told = markers(name)[[marker - 1 for marker, _ in places]]
+    true = np.array([touch.point for touch in tape.touches])
+    told = markers(name)[np.asarray(pressed.markers) - 1]
     from_truth, from_marker = (1e3 * np.linalg.norm(found.points - each, axis=1) for each in (true, told))
     return MarkerPresses(from_truth, from_marker, np.array(found.accepted))
-
-
-@cache
-def _planned() -> Array:
-    return plan_poses(POSES, by_hand()).R_WS
 
 
 def _row(

@@ -147,15 +147,11 @@ def load_surface(file: Path) -> Probe:
 
 
 def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
-    from contactbench.pipeline.mesh import MeshError
-    from contactbench.pipeline.mesh.load import read_mesh, settle
+    from contactbench.pipeline.mesh.load import probe_of, read_mesh
     from contactbench.pipeline.mesh.sidecar import load_probe_file
 
     read, aligned = read_mesh(file), True
-    try:
-        probe = settle(read, None, file.stem)
-    except MeshError as error:
-        raise MeshError(f"{file}: {error}") from error
+    probe = probe_of(file, read)
     said = [*read.notes, *probe.health.sentences]
     if read.guess is not None and not read.guess.certain:
         said.append("`contactbench probe prepare --units` writes a probe whose unit is certain.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -151,8 +151,7 @@ def verify(
             f"nothing in the recording touches the probe: |F| never reaches {settings.protocol.touch_N:g} N. Check that"
             " it is the right recording, and that the calibration belongs to it."
         )
-    evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples)
-    evidence = replace(evidence, measured=stated is None)
+    evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples, stated is None)
     if timed and len(evidence.errors):
         times = time_solves(placing, evidence.wrenches)
     figures, rate = _figures(touches, placed), rate_of(recording.times)
@@ -282,6 +281,7 @@ def _evidence(
     noise: WrenchNoise,
     model: GravityModel,
     samples: int,
+    measured: bool,
 ) -> TouchEvidence:
     pairs = [
         (t.located, t.placed.marker)
@@ -301,6 +301,7 @@ def _evidence(
         torques=np.array([each.torque for each, _ in pairs]),
         noise=noise.covariance / samples,
         theta=model.vector,
+        measured=measured,
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,19 +10,17 @@ from benchmarks.trials import in_processes, share
 
 from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
-from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.real_causes import (
     EFFECTS,
     VERIFIED_S,
     MarkedPresses,
+    planned_poses,
     told_floor,
     true_causes,
     true_floor,
@@ -44,9 +41,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-POSES, FACETS = 9, 2_000
+FACETS = 2_000
 _MASS_KG = (0.3, 0.8)
-_TILTS = (0.0, 30.0)
 _WINDOW_N, _SAMPLES, _HELD = (7.5, 10.5), 50, 100
 _SHARES = (0.6, 0.9)  # of the squared errors, that the dominant cause has
 _STEPS, _SLACK = 2, 0.1
@@ -110,21 +106,15 @@ def draw_day(job: tuple[int, int]) -> DrawnDay:
     rng = np.random.default_rng([seed, 22, number])
     name = assets.PROBE_NAMES[int(rng.integers(len(assets.PROBE_NAMES)))]
     loaded, bench_seed = LoadedSensor(draw_load(rng, _MASS_KG)), int(rng.integers(2**31))
-    places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in _TILTS]
-    pressed = MarkedPresses(
-        [marker for marker, _ in places],
-        [draw_press(rng, tilt) for _, tilt in places],
-        orientations_in_use(len(places), rng),
-    )
+    pressed = MarkedPresses.drawn(name, rng)
     causes = _Causes(name, bench_seed, loaded, pressed)
     reality, raised = _drawn(rng, causes)
     true = causes.of(reality)
     bench = RealBench(name, reality, bench_seed, loaded)
-    model = calibrate(bench.weigh(_planned()).poses()).model
+    model = calibrate(bench.weigh(planned_poses()).poses()).model
     bench.warm()
     bench.time = VERIFIED_S
-    touches = [bench.marked(m, p) for m, p in zip(pressed.markers, pressed.presses, strict=True)]
-    tape = bench.press(touches, pressed.R_WS)
+    tape = bench.press(pressed.on(bench), pressed.R_WS)
     recording = TouchRecording(tape.times, tape.readings.wrenches, tape.told, tape.readings.saturated)
     protocol = ProtocolSettings(windows=(_WINDOW_N,), samples=_SAMPLES)
     probe = model_of(name, FACETS)
@@ -154,12 +144,9 @@ class _Causes:
         return np.diag(self.loaded.settings.noise**2) / _HELD
 
     def of(self, reality: Reality) -> TrueCauses:
-        return true_causes(self.name, reality, self.seed, self.loaded, _planned(), self.pressed, self.noise)
-
-
-@cache
-def _planned() -> Array:
-    return plan_poses(POSES, by_hand()).R_WS
+        return true_causes(
+            self.name, reality, self.seed, self.loaded, planned_poses(), self.pressed, self.noise
+        )
 
 
 def _drawn(rng: np.random.Generator, causes: _Causes) -> tuple[Reality, str]:

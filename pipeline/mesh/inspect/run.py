@@ -21,7 +21,7 @@ from contactbench.pipeline.mesh.inspect.shape import (
     measure_slivers,
 )
 from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, look
-from contactbench.pipeline.mesh.load import read_mesh, settle
+from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
@@ -82,10 +82,7 @@ def inspect(
     file = Path(source)
     read = read_mesh(file, units)
     work.reach(0.1)
-    try:
-        probe = settle(read, None, file.stem)
-    except MeshError as error:
-        raise MeshError(f"{file}: {error}") from error
+    probe = probe_of(file, read)
     counts = FileCounts(
         len(read.raw.vertices),
         len(read.raw.faces),

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))
 USUAL_NOISE = PoseNoise(0.05, 0.002)
 
-# Of poses that are this nearly as good as the best one, the nearest is taken.
+# Of poses that are this nearly as good as the best one, the one most unlike those before is taken.
 _NEARLY = 1.05
 _QUIETEST = np.repeat([1e-5, 1e-7], 3)  # N and N·m: finer than any sensor, coarse enough to invert
 _UNDETERMINED = 0.05  # m
@@ -79,7 +79,8 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
 
     Every candidate's reading would add its information to the calibration's; the covariance that would be
     left is carried to the contact points of the calibration's task, and the worst 1 sigma counts. Among
-    candidates within five per cent of the best, the nearest one is taken.
+    candidates within five per cent of the best, the one is taken in which the weight pulls least as it did in
+    any pose before: a cable or a play of the mount, which no covariance knows, then shows in the residuals.
 
     Parameters
     ----------
@@ -98,7 +99,8 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     A = calibration.task.parameter_sensitivity(theta)
     errors = _errors_with(calibration.covariance, J, A)
     settled = errors.min() < _UNDETERMINED
-    chosen = _nearest_good(errors if settled else _ignorance(calibration.covariance, J), reachable)
+    taken = np.array([np.asarray(reachable.down_W) @ pose.R_WS for pose in calibration.poses])
+    chosen = _newest_good(errors if settled else _ignorance(calibration.covariance, J), reachable, taken)
     before, after = calibration.contact_error, float(errors[chosen])
     sentence = f"Next: {_how(reachable, chosen)}. {_gain(before, after)}"
     return Suggestion(
@@ -257,12 +259,14 @@ def _exchange(
 # ---- moves -------------------------------------------------------------------------------------
 
 
-def _nearest_good(errors: NDArray[np.float64], reachable: Reachable) -> int:
-    """Return the nearest candidate that is nearly as good as the best one and can be reached."""
+def _newest_good(errors: NDArray[np.float64], reachable: Reachable, taken: NDArray[np.float64]) -> int:
+    """Return the candidate least like the poses before that is nearly as good as the best and can be reached.
+
+    `taken` (n, 3) is where down was in S: all that a weight tells of a pose.
+    """
     good = errors <= _NEARLY * errors.min()
-    in_turn = np.lexsort(
-        (np.where(good, reachable.travel, errors), ~good)
-    )  # good ones by travel, then by error
+    likeness = (np.asarray(reachable.down_W) @ reachable.R_WS @ taken.T).max(axis=1)
+    in_turn = np.lexsort((np.where(good, likeness, errors), ~good))  # good ones by likeness, then by error
     for index in in_turn.tolist():
         if reachable.obstacle(None, index) is None:
             return int(index)

@@ -121,8 +121,7 @@ class Proposal:
     """A pose to take next."""
 
     R_WS: NDArray[np.float64]  # (3, 3)
-    sentence: str  # How to hold the sensor, and what it gains
-    error_after: float  # Predicted share of the calibration in the contact error with it, m
+    sentence: str  # How to hold the sensor, and what it gains once there is a calibration
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +177,7 @@ def solve(
         proposal = None
     else:
         words = suggestion.sentence.removeprefix("Next: ")
-        proposal = Proposal(suggestion.R_WS, _capital(words), suggestion.error_after)
+        proposal = Proposal(suggestion.R_WS, _capital(words))
     return Solved(calibration, proposal, findings(poses, calibration, settings))
 
 
@@ -204,15 +203,10 @@ def _planned(
         return None
     down = np.array(settings.down_W)
     taken = [down @ pose.R_WS for pose in read]  # where down is in S: all that a weight can tell
-    for number, (R_WS, error) in enumerate(zip(planned.R_WS, planned.errors.tolist(), strict=True), 1):
+    for R_WS in planned.R_WS:
         if all(float(down @ R_WS @ there) < np.cos(np.radians(20.0)) for there in taken):
-            gain = (
-                f" After all {len(planned.R_WS)} planned poses the calibration will add about"
-                f" {1e3 * planned.error:.2g} mm to a contact point."
-                if number == 1
-                else ""
-            )
-            return Proposal(R_WS, f"{_capital(describe(R_WS, settings.down_W))}.{gain}", error)
+            # No forecast: before there are residuals nobody knows the noise, and a figure would be wrong tenfold.
+            return Proposal(R_WS, f"{_capital(describe(R_WS, settings.down_W))}.")
     return None
 
 

@@ -14,11 +14,13 @@ from contactbench.pipeline.calibration import Calibration, GravityModel, Level, 
 from contactbench.pipeline.calibration.fit import parameter_covariance
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.reachable import by_robot
-from contactbench.pipeline.calibration.suggest import plan_error, plan_poses
+from contactbench.pipeline.calibration.reachable import by_hand, by_robot
+from contactbench.pipeline.calibration.suggest import plan_error, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.reality import MIXES
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.loads import Weighing, bump, draw_load, weigh
+from contactbench.pipeline.simulation.loads import LoadedSensor, Weighing, bump, draw_load, weigh
+from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.timing import time_calls
 
@@ -43,6 +45,7 @@ def run(
         ("a light load", light_load),
         ("sets of poses that do not show everything", blind_sets),
         ("plans", plans),
+        ("forecasts of one more pose", forecasts),
         ("time", speed),
     ):
         progress(say)
@@ -208,6 +211,30 @@ def plans(trials: int, seed: int) -> list[Figure]:
         figures += [
             Figure(subject, "error over the median of 1,000 random plans", planned / usual, most=0.85),
             Figure(subject, "error over that of six faces of a cube", planned / faces, most=1.0),
+        ]
+    return figures
+
+
+def forecasts(trials: int, seed: int) -> list[Figure]:
+    """Follow the suggestions on benches, and compare what each promises with what the pose then brings."""
+    figures = []
+    for name in ("ideal", "typical"):
+        ratios, low = [], []
+        for number in range(min(20, trials // 20)):
+            load = draw_load(np.random.default_rng([seed, 6, number]), (0.3, 0.8))
+            bench = RealBench("convex", MIXES[name], seed + number, LoadedSensor(load))
+            reach = by_hand(300)
+            poses = bench.weigh(plan_poses(3, reach).R_WS).poses()
+            while len(poses) < 9:
+                told = suggest_pose(calibrate(poses), reach)
+                poses += bench.weigh(told.R_WS[None]).poses()
+                ratios.append(calibrate(poses).contact_error / told.error_after)
+            low.append(sum(-pose.R_WS[2, 2] > np.cos(np.radians(38)) for pose in poses[:6]))
+        subject = f"one more pose, {name} bench"
+        within = float(np.mean([0.5 <= ratio <= 2 for ratio in ratios]))
+        figures += [
+            Figure(subject, "forecasts of the error right within a factor of two", within, least=0.9),
+            Figure(subject, "of the first six poses within 38° of down, most", float(max(low)), most=3),
         ]
     return figures
 

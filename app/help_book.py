@@ -8,7 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Qt, QUrl
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QImage, QKeySequence, QShortcut, QTextCursor, QTextDocument
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -34,7 +34,6 @@ PAGES = (
     TUTORIAL, "start", "devices", "gravity", "probe", "regions", "verify", "export", "motion", "heatmap",
 )  # fmt: skip
 _MARGIN_PX, _LIST_PX = 16, 190
-_NOTHING = QT_TRANSLATE_NOOP("HelpBook", "No page has these words.")
 
 
 @dataclass(frozen=True)
@@ -67,10 +66,10 @@ def page(name: str, language: str) -> HelpPage:
 class _Browser(QTextBrowser):
     """Shows a page; its pictures are never wider than there is room."""
 
-    def loadResource(self, kind: int, name: QUrl) -> Any:
+    def loadResource(self, kind: int, name: QUrl | str) -> Any:
         if kind != QTextDocument.ResourceType.ImageResource.value:
             return super().loadResource(kind, name)
-        image = QImage(str(files("contactbench.app") / "help" / "pictures" / Path(name.path()).name))
+        image = QImage(str(files("contactbench.app") / "help" / "pictures" / Path(QUrl(name).path()).name))
         room = self.viewport().width() - 3 * _MARGIN_PX
         if image.isNull() or image.width() <= room:
             return image
@@ -100,7 +99,7 @@ class HelpBook(ShowDialog):
         self.list = QListWidget()
         self.list.setAccessibleName(self.tr("Pages"))
         self.list.setFixedWidth(_LIST_PX)
-        self.none = QLabel(QCoreApplication.translate("HelpBook", _NOTHING), wordWrap=True)
+        self.none = QLabel(self.tr("No page has these words."), wordWrap=True)
         self.none.hide()
         self.view = _Browser(openExternalLinks=True)
         self.view.document().setDocumentMargin(_MARGIN_PX)

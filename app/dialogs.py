@@ -1,12 +1,11 @@
-"""Dialogs that only show something: a help page, the log, the keys that there are."""
+"""Dialogs that only show something: the log, the keys that there are."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QFontDatabase, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QDialog,
@@ -15,16 +14,11 @@ from PySide6.QtWidgets import (
     QPlainTextEdit,
     QTableWidget,
     QTableWidgetItem,
-    QTextBrowser,
     QVBoxLayout,
 )
 
-from contactbench.app.translation import in_use
-
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
-
-_MARGIN_PX = 16
 
 
 class ShowDialog(QDialog):
@@ -58,41 +52,14 @@ class ShowDialog(QDialog):
 
 
 class TextDialog(ShowDialog):
-    """
-    Shows text, which can be copied.
+    """Shows plain lines, which can be copied."""
 
-    Parameters
-    ----------
-    title, text : str
-    parent : QWidget, optional
-    markdown : bool
-        Whether the text is Markdown; plain lines otherwise.
-    """
-
-    def __init__(
-        self, title: str, text: str, parent: QWidget | None = None, *, markdown: bool = False
-    ) -> None:
+    def __init__(self, title: str, text: str, parent: QWidget | None = None) -> None:
         super().__init__(title, (720, 560), parent)
-        self.view: QTextBrowser | QPlainTextEdit
-        if markdown:
-            self.view = QTextBrowser(openExternalLinks=True)
-            self.view.setMarkdown(text)
-            self.view.document().setDocumentMargin(_MARGIN_PX)
-        else:
-            self.view = QPlainTextEdit(text, readOnly=True)
-            self.view.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.view = QPlainTextEdit(text, readOnly=True)
+        self.view.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.view.setAccessibleName(title)
         self.fill(self.view)
-
-
-def page_text(name: str) -> str:
-    """Return a help page, Markdown, in the language of the window where there is one."""
-    folder = files("contactbench.app") / "help"
-    for file in (f"{name}.{in_use()}.md", f"{name}.md"):
-        page = folder / file
-        if page.is_file():
-            return page.read_text(encoding="utf-8")
-    return QCoreApplication.translate("Help", "There is no help on this page yet.")
 
 
 # ---- keys ------------------------------------------------------------------------------------------

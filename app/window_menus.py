@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
 from contactbench.app.bench import Weight
-from contactbench.app.dialogs import CheatSheet, TextDialog, page_text
+from contactbench.app.dialogs import CheatSheet, TextDialog
+from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
 from contactbench.pipeline.workbench.steps import Step
@@ -114,6 +115,7 @@ class Menus(QObject):
         self.help_here = self._add(menu, self.tr("&This page"), self.show_help, _KEY.HelpContents)
         self.help_here.setIcon(icon("help"))
         self.help_here.setShortcut("F1")
+        self._add(menu, self.tr("&Tutorial"), partial(self.show_help_page, TUTORIAL))
         self._add(menu, self.tr("&Shortcuts"), self.show_shortcuts, "Ctrl+/")
         self._add(menu, self.tr("&Log"), self.show_log)
         about = self._add(menu, self.tr("&About contactbench"), self.show_about)
@@ -131,8 +133,18 @@ class Menus(QObject):
         """Show the help on what is looked at."""
         step = self._window.pages.step
         name = "start" if step is None else step.value
-        title = self.tr("Help") if step is None else self._window.steps.name_of(step)
-        TextDialog(title, page_text(name), self._window, markdown=True).open()
+        self.show_help_page(name)
+
+    def show_help_page(self, name: str) -> None:
+        """Show a page of the help beside the window."""
+        book = self._window.findChild(HelpBook)
+        if book is None:
+            book = HelpBook(name, self._window)
+        else:
+            book.turn_to(name)
+        book.show()
+        book.raise_()
+        book.activateWindow()
 
     def show_shortcuts(self) -> None:
         """Show all keys."""

@@ -37,6 +37,7 @@ BENCHMARKS = {
     "regions": "preparation.regions:run",
     "reproduce-dynamic": "reproduce.dynamic:run",
     "reproduce-filter": "reproduce.filter:run",
+    "reproduce-mixes": "reproduce.mixes:run",
     "reproduce-static": "reproduce.static:run",
     "runtime": "runtime:run",
     "sessions": "session_crash:run",

@@ -1,0 +1,116 @@
+"""Which effects of a real bench, and how large, would give the errors that the paper measured."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from benchmarks.trials import in_processes
+
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.reality import Reality
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
+from contactbench.pipeline.simulation.reality.bench import RealBench
+from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, model_of
+from contactbench.pipeline.study.real_causes import VERIFIED_S, planned_poses
+from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+# What Cao et al. 2023 measured with their probes: mean and standard deviation, mm.
+PAPER = {
+    ("t-shape", PERPENDICULAR): (0.94, 0.49),
+    ("t-shape", IN_PLANE): (1.6, 0.6),
+    ("t-shape", ACROSS): (2.0, 0.5),
+    ("linear", PERPENDICULAR): (1.28, 0.44),
+    ("convex", PERPENDICULAR): (0.91, 0.24),
+}
+# A loop of the sensor, a stylus with a round tip and a mount that yields; found on the seeds 0 to 7.
+MIX = "hysteresis=0.06,tip=3,mount=20"
+FACETS = 2_000
+_MASS_KG, _RATE_HZ, _READINGS = (0.3, 0.8), 20.0, 50
+_WITHIN = 0.2
+_NOTE = (
+    "Other mixes fit as well: five means cannot tell thirteen effects apart. The sizes are what they would have to be,"
+    " not what they were."
+)
+
+
+def run(
+    mix: str = MIX,
+    *,
+    seeds: int = 10,
+    seed: int = 10,
+    workers: int | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> StudyReport:
+    """
+    Press every marker as the paper did, on benches with each effect of a mix alone, and with all of them.
+
+    Parameters
+    ----------
+    mix : str
+        As `Reality.parse` reads it.
+    seeds, seed : int
+        Benches, and the first's.
+    """
+    if seeds < 2 or seed < 0:
+        raise InputError(f"{seeds} seeds, seed {seed}: give at least 2 seeds and a first one of at least 0.")
+    whole, numbers = Reality.parse(mix), range(seed, seed + seeds)
+    benches = {
+        "none": Reality(),
+        **{f"{each} alone": whole.only(each) for each in whole.on},
+        f"{whole}": whole,
+    }
+    rows = [("the paper", *(f"{mean:g} ± {sd:g}" for mean, sd in PAPER.values()))]
+    for label, reality in benches.items():
+        progress(label)
+        jobs = [(cell, reality, number) for cell in PAPER for number in numbers]
+        found = list(in_processes(press_cell, jobs, workers))
+        cells = [found[start : start + seeds] for start in range(0, len(found), seeds)]
+        joined = [np.concatenate(cell) for cell in cells]
+        rows.append((label, *(f"{each.mean():.2f} ± {each.std():.2f}" for each in joined)))
+    figures = [
+        Figure.of(
+            f"{name}, {angle}",
+            "mean error over the paper's",
+            [off.mean() / mean for off in cell],
+            least=1 - _WITHIN,
+            most=1 + _WITHIN,
+        )
+        for ((name, angle), (mean, _)), cell in zip(PAPER.items(), cells, strict=True)
+    ]
+    columns = ("effects", *(f"{name}, {angle}, mm" for name, angle in PAPER))
+    sheet = Sheet("mixes", "Distance from the marker, mean ± SD", columns, tuple(rows))
+    about = {"mix": f"{whole}", "seeds": seeds, "first seed": seed}
+    return StudyReport("A mix that gives the paper's errors", about, tuple(figures), (_NOTE,), (sheet,))
+
+
+def press_cell(job: tuple[tuple[str, str], Reality, int]) -> NDArray[np.float64]:
+    """Calibrate on one bench, press every marker at one angle an hour later; distances from the markers, mm."""
+    (name, angle), reality, seed = job
+    tilt, azimuth = ANGLES[angle]
+    rng = np.random.default_rng([seed, 23])
+    loaded = LoadedSensor(draw_load(rng, _MASS_KG))
+    bench = RealBench(name, reality, seed, loaded, rate=_RATE_HZ)
+    model = calibrate(bench.weigh(planned_poses()).poses()).model
+    bench.warm()
+    bench.time = VERIFIED_S
+    places = markers(name)
+    R_WS = orientations_in_use(len(places), rng)
+    presses = [replace(draw_press(rng, tilt), azimuth=azimuth) for _ in places]
+    tape = bench.press([bench.marked(number, press) for number, press in enumerate(presses, 1)], R_WS)
+    sigma = loaded.settings.noise / np.sqrt(_READINGS)
+    uncertain = model.wrench_covariance(tape.means()[1]).mean(axis=0)
+    solver = ContactSolver(model_of(name, FACETS), WrenchNoise(sigma[:3], sigma[3:], extra=uncertain))
+    found = solver.locate_batch(np.ascontiguousarray(tape.compensated(model)))
+    off = 1e3 * np.linalg.norm(found.points - places, axis=1)
+    return np.asarray(off[np.isfinite(off)])

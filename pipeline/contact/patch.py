@@ -17,9 +17,11 @@ from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.kernel import Batch, Contact, RuntimeContact
     from contactbench.pipeline.mesh import Probe
 
     Array = NDArray[np.float64]
@@ -57,6 +59,26 @@ class Bed:
     curvature: tuple[float, float] = (0.0, 0.0)
     modulus: float = 3e6
     factor: float = 3.0
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """
+        Read a shape: ``flat``, or the radii of curvature along S's x and y, mm, ``RX,RY``, 0 for flat.
+
+        Raises
+        ------
+        InputError
+            It is neither, or curved beyond what a bed may be.
+        """
+        if text.strip() == "flat":
+            return cls()
+        try:
+            x, y = (float(each) for each in text.split(","))
+        except ValueError:
+            raise InputError(
+                f"patch {text[:40]!r}: give flat, or the radii of what is touched along S's x and y, mm, such as 80,0."
+            ) from None
+        return cls((1000 / x if x else 0.0, 1000 / y if y else 0.0))
 
     def __post_init__(self) -> None:
         if len(self.curvature) != 2 or not np.all(np.abs(self.curvature) <= _MOST_CURVED):
@@ -106,15 +128,17 @@ class Patch:
     @property
     def sentence(self) -> str:
         """What it says, in words."""
+        x, y = 1e3 * self.offset
+        dx, dy = 1e3 * self.offset_sigma
+        (tx, ty), (sx, sy) = np.degrees(self.lean), np.degrees(self.lean_sigma)
         sides = [
             f"{50 * (1 - share):.0f}/{50 * (1 + share):.0f} ± {50 * sigma:.0f} % along {axis}"
             for axis, share, sigma in zip("xy", self.balance, self.balance_sigma, strict=True)
         ]
-        x, y = 1e3 * self.offset
-        dx, dy = 1e3 * self.offset_sigma
         return (
-            f"Centre of pressure of a patch of {1e4 * self.area:.1f} cm²: {x:+.1f} ± {dx:.1f} mm along x and"
-            f" {y:+.1f} ± {dy:.1f} mm along y from its middle; the force is {sides[0]} and {sides[1]}."
+            f"The point is the centre of pressure of a patch of {1e4 * self.area:.1f} cm²: {x:+.1f} ± {dx:.1f} mm along"
+            f" x and {y:+.1f} ± {dy:.1f} mm along y from its middle; it is pressed at a tilt of {tx:+.1f} ± {sx:.1f}°"
+            f" along x and {ty:+.1f} ± {sy:.1f}° along y; the force is {sides[0]} and {sides[1]}."
         )
 
 
@@ -317,3 +341,34 @@ class PatchReader:
         sums = np.arange(1, len(gaps) + 1) * gaps - np.cumsum(gaps)  # at the depth of each gap
         count = max(int(np.searchsorted(sums, wanted)), 1)
         return float((wanted + gaps[:count].sum()) / count)
+
+
+class LivePatch:
+    """
+    What a stream's contacts say of the patch, a few times a second: to read one costs milliseconds.
+
+    Call it beside the stream, not in its thread.
+    """
+
+    def __init__(self, reader: PatchReader, every: float = 0.1) -> None:
+        self._reader, self._every = reader, every
+        self._time = -np.inf
+        self._told: Patch | None = None
+
+    def read(self, time: float, force: ArrayLike, contact: Contact | RuntimeContact | None) -> Patch | None:
+        """
+        Return the patch of a contact at a time of the stream, s; the one before, where that is still new.
+
+        Parameters
+        ----------
+        force : (3,) array_like
+            S, N.
+        contact : contact, optional
+            None, or one without a point or not accepted: nothing is told.
+        """
+        if contact is None or not contact.accepted or contact.point is None or contact.covariance is None:
+            self._told = None
+        elif not 0 <= time - self._time < self._every:
+            self._time = time
+            self._told = self._reader.read(force, contact.point, contact.covariance)
+        return self._told

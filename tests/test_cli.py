@@ -427,7 +427,7 @@ def test_wrong_files(bench):
         (["--place", "1,2,3,4,5,nan"], "--place needs 6 finite numbers"),
         (["--place", "1,2,3,4,5,east"], "--place needs 6 finite numbers"),
         (["--saturation", "1"], "--saturation needs 6 finite numbers"),
-        (["--patch", "round"], "--patch needs 2 finite numbers separated by commas, not 'round'"),
+        (["--patch", "round"], "error: patch 'round': give flat, or the radii"),
         (["--patch", "5,0"], "error: Bed.curvature (200.0, 0.0)"),
         (
             ["--patch", "flat", "--method", "scan"],

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
-    from contactbench.pipeline.contact.patch import PatchReader
     from contactbench.pipeline.contact.stream import LocateSummary, Locator
     from contactbench.pipeline.mesh import Probe
 
@@ -104,14 +104,7 @@ def locate(
             help="With --track: follow contacts that are sure only because of the regions of the mesh.",
         ),
     ] = True,
-    patch: Annotated[
-        str | None,
-        typer.Option(
-            metavar="flat|RX,RY",
-            help="What is touched is soft: tell where the middle of the patch is and how the force is shared. flat, or"
-            " the radii of the tissue along S's x and y, mm, 0 for flat.",
-        ),
-    ] = None,
+    patch: PatchOption = None,
     compensated: Annotated[
         bool,
         typer.Option(
@@ -136,6 +129,7 @@ def locate(
     placed = None if place is None else numbers(place, 6, "--place")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from contactbench.pipeline.contact import Gates, WrenchNoise
+    from contactbench.pipeline.contact.patch import Bed, PatchReader
     from contactbench.pipeline.contact.stream import locate_file, refuse_overwriting
 
     refuse_overwriting(out, probe)
@@ -165,7 +159,7 @@ def locate(
             allow_nan=allow_nan,
             compensated=compensated,
             probe=surface,
-            patches=None if patch is None else _patches(surface, patch),
+            patches=None if patch is None else PatchReader(surface, Bed.parse(patch)),
             progress=bar,
         )
     for sentence in summary.warnings:
@@ -210,14 +204,6 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
                 " `contactbench probe align`, or give --place."
             )
     return probe, [f"{path}: {sentence}" for sentence in sentences]
-
-
-def _patches(probe: Probe, text: str) -> PatchReader:
-    """Return what reads patches on tissue of radii, mm, along S's x and y; flat: 0, neither."""
-    from contactbench.pipeline.contact.patch import Bed, PatchReader
-
-    x, y = (0.0, 0.0) if text == "flat" else numbers(text, 2, "--patch")
-    return PatchReader(probe, Bed((1000 / x if x else 0.0, 1000 / y if y else 0.0)))
 
 
 def _model(torsion_arm: float | None, force: float | None, torque: float | None) -> TouchModel:

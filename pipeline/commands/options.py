@@ -36,6 +36,16 @@ RealityOption = Annotated[
     ),
 ]
 
+PatchOption = Annotated[
+    str | None,
+    typer.Option(
+        "--patch",
+        metavar="flat|RX,RY",
+        help="What is touched is soft: the point is a centre of pressure; tell where the middle of the patch is, how it"
+        " is tilted and how the force is shared. flat, or the radii of the tissue along S's x and y, mm, 0 for flat.",
+    ),
+]
+
 
 def written(given: OrientationSettings) -> Convention | None:
     """Return how orientations are written; None: as quaternions, if that is what there is.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
 from contactbench.pipeline.console import Noun, say
 
@@ -19,9 +20,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.contact.patch import PatchReader
+    from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.devices.stream import Health
+    from contactbench.pipeline.kernel import RuntimeContact
     from contactbench.pipeline.recording import RecordingInfo
-    from contactbench.pipeline.runtime import Run
+    from contactbench.pipeline.runtime import Answer, Run
     from contactbench.pipeline.runtime.outlet import OutletTarget
     from contactbench.pipeline.streams import Pair
 
@@ -30,6 +34,7 @@ run_app = Noun()
 _LOOK_S = 0.05
 _STEPS = 500  # samples between looks at Ctrl-C
 _SETTLED_S = 2.0  # a rate is known after that
+_PATCH_S = 1.0  # a line about the patch in so long
 
 
 @run_app.command(
@@ -55,6 +60,7 @@ def run(
     udp: Annotated[
         str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a datagram.")
     ] = None,
+    patch: PatchOption = None,
     seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
     unverified: Annotated[
         bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
@@ -77,12 +83,14 @@ def run(
     sensor or the poses (health); while nothing comes, ten lines a second say silent. While nothing
     touches the probe, the sensor's zero is watched; each contact says what is known of it (zero):
     confirmed, with its age; off, which is an alarm; doubtful, where something may touch the probe; or
-    unknown. Contacts are never corrected by it. An output that is too slow loses contacts, and says how
-    many; it never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be
-    used, a stream failed, or a replay could not be read to its end; 2: the bundle is refused, or an
-    output failed.
+    unknown. Contacts are never corrected by it. With --patch a line a second, on standard error, says
+    how the probe lies on what it presses; the contacts are the same. An output that is too slow loses
+    contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came, more than
+    5 % of them could not be used, a stream failed, or a replay could not be read to its end; 2: the
+    bundle is refused, or an output failed.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.contact.patch import Bed, PatchReader
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime import Outlet, OutputError, Run
     from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
@@ -92,6 +100,7 @@ def run(
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
     config = RuntimeConfig.load(bundle)
     check_runnable(config, unverified=unverified)
+    patches = None if patch is None else PatchLines(PatchReader(config.probe, Bed.parse(patch)))
     runner: Run
     # Said in the main thread: a terminal that hangs must not hang the sensor.
     changes: queue.SimpleQueue[tuple[str, Health]] = queue.SimpleQueue()
@@ -111,11 +120,12 @@ def run(
         targets = _targets(out, mcap, udp, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
         live = pair.player is None
-        runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None)
+        keep = None if patches is None else patches.take
+        runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None, on_answer=keep)
         _say_begin(config, pair)
         with responsive(), runner, pair:
-            _wait(pair, runner, config, lambda: _say_changes(changes, told), seconds, ended)
-    _say_changes(changes, told)
+            _wait(pair, runner, config, lambda: _say_changes(changes, told, patches), seconds, ended)
+    _say_changes(changes, told, patches)
     told.end()
     _say_end(config, pair, runner)
     for outlet in outlets:
@@ -155,6 +165,30 @@ def _standard_output() -> int:
 
     sys.stdout.flush()
     return os.dup(sys.stdout.fileno())
+
+
+class PatchLines:
+    """Says how the probe lies on what it presses: contacts come in the sensor's thread, words in the main one."""
+
+    def __init__(self, reader: PatchReader) -> None:
+        from contactbench.pipeline.contact.patch import LivePatch
+
+        self._live, self._said_at = LivePatch(reader), -math.inf
+        self._newest: RuntimeContact | None = None
+
+    def take(self, _: WrenchSample, found: Answer) -> None:
+        """Take a contact; it is only kept."""
+        self._newest = found.contact
+
+    def say_new(self) -> None:
+        """Say what the newest contact tells, once a second."""
+        contact, self._newest = self._newest, None
+        if contact is None or contact.wrench is None:
+            return
+        patch = self._live.read(contact.time, contact.wrench[:3], contact)
+        if patch is not None and not 0 <= contact.time - self._said_at < _PATCH_S:
+            self._said_at = contact.time
+            _say(f"{contact.time:.1f} s: {patch.sentence}")
 
 
 # ---- while it runs -----------------------------------------------------------------------------
@@ -225,7 +259,11 @@ def _say_rate(config: RuntimeConfig, pair: Pair) -> None:
         _say(words, "yellow")
 
 
-def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]], told: Changes) -> None:
+def _say_changes(
+    changes: queue.SimpleQueue[tuple[str, Health]], told: Changes, patches: PatchLines | None
+) -> None:
+    if patches is not None:
+        patches.say_new()
     with suppress(queue.Empty):
         while True:
             told.tell(*changes.get_nowait())

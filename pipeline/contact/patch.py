@@ -17,15 +17,20 @@ from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from numpy.typing import ArrayLike, NDArray
 
-    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.kernel import Batch, Contact, RuntimeContact
     from contactbench.pipeline.mesh import Probe
+
+    Array = NDArray[np.float64]
 
 _PLACES = 1500
 _FEWEST = 6  # places in contact: fewer are a point, and a point does not lean
 _STEEPEST = np.radians(10.0)  # standard deviation of the lean: beyond, the patch tells nothing of it
 _STEPS, _NEAR = 60, 1e-7  # m, of the centre of pressure
+_HALVINGS = 12
 _NUDGE = 2e-4  # m, to see how the patch follows the centre of pressure
 _ROUNDS = 3  # the line of action is nearly upright: the height is settled after two
 _MOST_CURVED = 100.0  # 1/m, a ball of 10 mm
@@ -54,6 +59,26 @@ class Bed:
     curvature: tuple[float, float] = (0.0, 0.0)
     modulus: float = 3e6
     factor: float = 3.0
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """
+        Read a shape: ``flat``, or the radii of curvature along S's x and y, mm, ``RX,RY``, 0 for flat.
+
+        Raises
+        ------
+        InputError
+            It is neither, or curved beyond what a bed may be.
+        """
+        if text.strip() == "flat":
+            return cls()
+        try:
+            x, y = (float(each) for each in text.split(","))
+        except ValueError:
+            raise InputError(
+                f"patch {text[:40]!r}: give flat, or the radii of what is touched along S's x and y, mm, such as 80,0."
+            ) from None
+        return cls((1000 / x if x else 0.0, 1000 / y if y else 0.0))
 
     def __post_init__(self) -> None:
         if len(self.curvature) != 2 or not np.all(np.abs(self.curvature) <= _MOST_CURVED):
@@ -103,15 +128,17 @@ class Patch:
     @property
     def sentence(self) -> str:
         """What it says, in words."""
+        x, y = 1e3 * self.offset
+        dx, dy = 1e3 * self.offset_sigma
+        (tx, ty), (sx, sy) = np.degrees(self.lean), np.degrees(self.lean_sigma)
         sides = [
             f"{50 * (1 - share):.0f}/{50 * (1 + share):.0f} ± {50 * sigma:.0f} % along {axis}"
             for axis, share, sigma in zip("xy", self.balance, self.balance_sigma, strict=True)
         ]
-        x, y = 1e3 * self.offset
-        dx, dy = 1e3 * self.offset_sigma
         return (
-            f"Centre of pressure of a patch of {1e4 * self.area:.1f} cm²: {x:+.1f} ± {dx:.1f} mm along x and"
-            f" {y:+.1f} ± {dy:.1f} mm along y from its middle; the force is {sides[0]} and {sides[1]}."
+            f"The point is the centre of pressure of a patch of {1e4 * self.area:.1f} cm²: {x:+.1f} ± {dx:.1f} mm along"
+            f" x and {y:+.1f} ± {dy:.1f} mm along y from its middle; it is pressed at a tilt of {tx:+.1f} ± {sx:.1f}°"
+            f" along x and {ty:+.1f} ± {sy:.1f}° along y; the force is {sides[0]} and {sides[1]}."
         )
 
 
@@ -150,6 +177,7 @@ class PatchReader:
         self._gaps = (
             float(places[:, 2].max()) - places[:, 2] + 0.5 * self._xi**2 @ np.array(self.bed.curvature)
         )
+        self._rows = np.column_stack([np.ones(len(places)), self._xi])
 
     def read(self, force: ArrayLike, point: ArrayLike, covariance: ArrayLike) -> Patch | None:
         """
@@ -170,21 +198,21 @@ class PatchReader:
         found = self._patch(F, p, self.bed.modulus)
         if found is None:
             return None
-        rows, patch = found
+        rows, patch, near = found
         # How all that is said follows the centre of pressure, and the modulus that is only nearly known.
         spread_by = []
         for axis, sigma in enumerate(np.sqrt(np.diag(C)[:2])):
             moved = p.copy()
             moved[axis] += _NUDGE
-            other = self._patch(F, moved, self.bed.modulus)
+            other = self._patch(F, moved, self.bed.modulus, near)
             if other is None:
                 moved[axis] -= 2 * _NUDGE
-                other = self._patch(F, moved, self.bed.modulus)
+                other = self._patch(F, moved, self.bed.modulus, near)
             if other is None:
                 return None
             spread_by.append((other[0] - rows) * sigma / _NUDGE)
         softer, harder = (
-            self._patch(F, p, self.bed.modulus * f) for f in (1 / self.bed.factor, self.bed.factor)
+            self._patch(F, p, self.bed.modulus * f, near) for f in (1 / self.bed.factor, self.bed.factor)
         )
         by_modulus = [abs(other[0] - rows) for other in (softer, harder) if other is not None]
         if by_modulus:
@@ -222,17 +250,28 @@ class PatchReader:
         return out
 
     def _patch(
-        self, F: NDArray[np.float64], p: NDArray[np.float64], modulus: float
-    ) -> tuple[NDArray[np.float64], tuple[NDArray[np.float64], NDArray[np.float64], float, float]] | None:
-        """Offset, lean and balance in one row (6,), and centre of pressure, middle, area and depth."""
+        self, F: Array, p: Array, modulus: float, near: Array | None = None
+    ) -> tuple[Array, tuple[Array, Array, float, float], Array] | None:
+        """
+        Solve for one contact, from the depth and lean `near` by (3,), if they are known.
+
+        Returns
+        -------
+        row : (6,)
+            Offset, lean and balance.
+        patch : tuple
+            Centre of pressure, middle, area and depth.
+        x : (3,)
+            Depth and lean.
+        """
         wanted = -F[2] / (modulus * self._area)  # sum of the depths, m
-        at = p[:2] - self._middle
+        at, x = p[:2] - self._middle, near
         # The pressures act on the face, whose height the line of action is followed to.
         for _ in range(_ROUNDS):
-            solved = self._solve(wanted, at)
+            solved = self._solve(wanted, at, x)
             if solved is None:
                 return None
-            deep, lean = solved
+            deep, x = solved
             height = float(deep @ self._places[:, 2]) / wanted
             at = (p + (height - p[2]) / F[2] * F)[:2] - self._middle
         inside = deep > 0
@@ -244,51 +283,57 @@ class PatchReader:
         beyond = np.clip((self._xi - middle) / (0.5 * np.sqrt(self._area)), -1.0, 1.0)
         balance = deep @ beyond / wanted
         pressure_S = np.array([*(at + self._middle), height])
-        row = np.concatenate([at - middle, lean, balance])
-        return row, (
+        row = np.concatenate([at - middle, x[1:], balance])
+        patch = (
             pressure_S,
             np.array([*(middle + self._middle), centre[2]]),
             float(inside.sum() * self._area),
             float(deep.max()),
         )
+        return row, patch, x
 
-    def _solve(
-        self, wanted: float, at: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-        """Return the depths of all places (n,), and the lean (2,); None where no lean has its pressure there."""
-        rows = np.column_stack([np.ones(len(self._xi)), self._xi])
-        x = np.array([self._depth_of(wanted), 0.0, 0.0])
-        targets = wanted * np.array([1.0, *at])
-        misfit = np.inf
+    def _solve(self, wanted: float, at: Array, near: Array | None) -> tuple[Array, Array] | None:
+        """Return the depths of all places (n,), and depth and lean (3,); None where no lean has its pressure there."""
+        targets, found = wanted * np.array([1.0, *at]), None
+        # What there is to find is one point (the potential is convex); to begin beside it is only quicker.
+        if near is not None:
+            found = self._descend(targets, near)
+        if found is None:
+            found = self._descend(targets, np.array([self._depth_of(wanted), 0.0, 0.0]))
+        return found if found is not None and found[0].max() < FACE_DEPTH_M else None
+
+    def _descend(self, targets: Array, x: Array) -> tuple[Array, Array] | None:
+        """Return depths (n,), and depth and lean (3,), by Newton steps from `x`; None: they lead nowhere."""
+        wanted, at = targets[0], targets[1:] / targets[0]
+        deep = np.maximum(self._rows @ x - self._gaps, 0.0)
         for _ in range(_STEPS):
-            deep = np.maximum(rows @ x - self._gaps, 0.0)
-            error = rows.T @ deep - targets
+            error = self._rows.T @ deep - targets
             misfit = float(np.abs(error[1:] - at * error[0]).max()) / wanted
             if misfit < _NEAR and abs(error[0]) < 1e-6 * wanted:
-                return (deep, x[1:]) if deep.max() < FACE_DEPTH_M else None
-            inside = rows[deep > 0]
+                return deep, x
+            inside = self._rows[deep > 0]
             jacobian = inside.T @ inside
             if len(inside) < 3 or np.linalg.cond(jacobian) > 1e14:
                 return None
             step = np.linalg.solve(jacobian, error)
-            x = x - self._damped(rows, x, step, targets) * step
+            x, deep = self._stepped(x, deep, step, targets, float(step @ error))
         return None
 
-    def _damped(
-        self,
-        rows: NDArray[np.float64],
-        x: NDArray[np.float64],
-        step: NDArray[np.float64],
-        targets: NDArray[np.float64],
-    ) -> float:
-        """Return the share of a step that makes the potential least among halvings: it is convex, so one is found."""
-
-        def potential(share: float) -> float:
+    def _stepped(
+        self, x: Array, deep: Array, step: Array, targets: Array, slope: float
+    ) -> tuple[Array, Array]:
+        """Return depth and lean, and depths, after the largest halving of a step that lowers the potential enough."""
+        before = 0.5 * float(deep @ deep) - float(targets @ x)
+        share = 1.0
+        for _ in range(_HALVINGS):
             there = x - share * step
-            return float(0.5 * (np.maximum(rows @ there - self._gaps, 0.0) ** 2).sum() - targets @ there)
-
-        shares = 0.5 ** np.arange(12)
-        return float(min(shares, key=potential))
+            deep = np.maximum(self._rows @ there - self._gaps, 0.0)
+            after = 0.5 * float(deep @ deep) - float(targets @ there)
+            # Armijo (1966); near the end the change is below what the sums resolve.
+            if after <= before - 1e-4 * share * slope + 1e-12 * abs(before):
+                break
+            share *= 0.5
+        return there, deep
 
     def _depth_of(self, wanted: float) -> float:
         """Return the depth, m, at which the depths of all places without a lean add up to what is wanted, m."""
@@ -296,3 +341,34 @@ class PatchReader:
         sums = np.arange(1, len(gaps) + 1) * gaps - np.cumsum(gaps)  # at the depth of each gap
         count = max(int(np.searchsorted(sums, wanted)), 1)
         return float((wanted + gaps[:count].sum()) / count)
+
+
+class LivePatch:
+    """
+    What a stream's contacts say of the patch, a few times a second: to read one costs milliseconds.
+
+    Call it beside the stream, not in its thread.
+    """
+
+    def __init__(self, reader: PatchReader, every: float = 0.1) -> None:
+        self._reader, self._every = reader, every
+        self._time = -np.inf
+        self._told: Patch | None = None
+
+    def read(self, time: float, force: ArrayLike, contact: Contact | RuntimeContact | None) -> Patch | None:
+        """
+        Return the patch of a contact at a time of the stream, s; the one before, where that is still new.
+
+        Parameters
+        ----------
+        force : (3,) array_like
+            S, N.
+        contact : contact, optional
+            None, or one without a point or not accepted: nothing is told.
+        """
+        if contact is None or not contact.accepted or contact.point is None or contact.covariance is None:
+            self._told = None
+        elif not 0 <= time - self._time < self._every:
+            self._time = time
+            self._told = self._reader.read(force, contact.point, contact.covariance)
+        return self._told

@@ -99,6 +99,7 @@ class DayResult:
     # errors of the answers that were sure, from the true points; touches that were run, and what became of them
     errors_mm: tuple[float, ...]
     touches: int
+    far_unsaid: int  # sure answers that are far off, and by more than twice what they say
 
     @property
     def sure(self) -> float:
@@ -177,11 +178,11 @@ def _day(folder: Path, made: Path, name: str, reality: Reality, seed: int) -> Da
     _written(folder / "touches.mcap", tape)
     found = _verified(folder, markers(name) @ T[:3, :3].T + T[:3, 3])
     bench.time = _RUN_S
-    run = _run(folder, name, bench, tool, rng)
+    errors, said = _run(folder, name, bench, tool, rng)
     noise = np.diag(tool.noise().covariance) / tape_length(tape)
     causes = true_causes(name, reality, seed, tool, planned, pressed, np.diag(noise), T)
     return _result(
-        reality, name, seed, calibration, gravity.verdict, aligned, found, causes, tape, noise, run
+        reality, name, seed, calibration, gravity.verdict, aligned, found, causes, tape, noise, errors, said
     )
 
 
@@ -241,8 +242,10 @@ def _verified(folder: Path, told: Array) -> Verification:
     return found
 
 
-def _run(folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.random.Generator) -> list[float]:
-    """Run new touches through the bundle; return errors of sure answers, mm, and NaN for each other touch."""
+def _run(
+    folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """Run new touches; return errors of sure answers, NaN for each other touch, and standard deviations told, mm."""
     exported = export_from_files(
         folder / "calibration.json", folder / "probe.ply", folder / "verification.json", None,
         export_settings(tool, folder / "probe.ply"), created=creation_time(), unverified=True,
@@ -252,18 +255,23 @@ def _run(folder: Path, name: str, bench: RealBench, tool: DemoTool, rng: np.rand
     tape = bench.press(touches, orientations_in_use(len(touches), rng))
     _written(folder / "run.mcap", tape)
     answers = answers_of(RuntimeConfig.load(folder / BUNDLE), folder / "run.mcap")
-    rows, errors = [], []
+    rows, errors, said = [], [], []
     for touch, hold in zip(tape.touches, tape.holds, strict=True):
         answer = answers[hold.stop - 1]
         point = None if answer.contact is None else answer.contact.point
         sure = answer.contact is not None and answer.contact.accepted and point is not None
         off = np.nan if point is None else 1e3 * float(np.linalg.norm(point - touch.point))
+        covariance = None if answer.contact is None else answer.contact.covariance
+        sigma = np.nan if covariance is None else 1e3 * float(np.sqrt(np.trace(covariance)))
         errors.append(off if sure else np.nan)
+        said.append(sigma)
         where = [None] * 3 if point is None else np.asarray(point).tolist()
-        rows.append((answer.time, touch.press.force, *touch.point.tolist(), *where, answer.reason, off))
-    columns = ("t", "force", "true_x", "true_y", "true_z", "x", "y", "z", "reason", "error_mm")
+        rows.append(
+            (answer.time, touch.press.force, *touch.point.tolist(), *where, answer.reason, off, sigma)
+        )
+    columns = ("t", "force", "true_x", "true_y", "true_z", "x", "y", "z", "reason", "error_mm", "sigma_mm")
     write_csv(folder / "run.csv", columns, rows)
-    return errors
+    return np.array(errors), np.array(said)
 
 
 def _press(rng: np.random.Generator) -> TipPress:
@@ -282,7 +290,7 @@ def _places(name: str, rng: np.random.Generator) -> Array:
 
 def _result(
     reality: Reality, name: str, seed: int, calibration: Calibration, verdict: str, aligned: bool,
-    found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, run: list[float],
+    found: Verification, causes: TrueCauses, tape: RealTape, noise: Array, errors: Array, said: Array,
 ) -> DayResult:  # fmt: skip
     off = true_floor(tape, tape.compensated(calibration.model), np.diag(noise))
     told = None if found.model_error is None else 1e3 * told_floor(tape, found.model_error)
@@ -301,27 +309,29 @@ def _result(
         true_share=causes.share,
         told_floor_mm=told,
         true_floor_mm=1e3 * off,
-        errors_mm=tuple(error for error in run if np.isfinite(error)),
-        touches=len(run),
+        errors_mm=tuple(errors[np.isfinite(errors)].tolist()),
+        touches=len(errors),
+        far_unsaid=int(((errors > _FAR_MM) & (errors > 2 * said)).sum()),
     )
 
 
 # ---- the table -------------------------------------------------------------------------------------
 
+_OF_RUN = ("touches", "sure", "mean_mm", "p95_mm", "max_mm", "far", "far_unsaid")
 _COLUMNS = (
-    *(name for name in DayResult.__dataclass_fields__ if name not in ("errors_mm", "touches")),
-    "touches", "sure", "mean_mm", "p95_mm", "max_mm", "far",
-)  # fmt: skip
+    *(name for name in DayResult.__dataclass_fields__ if name not in ("errors_mm", "touches", "far_unsaid")),
+    *_OF_RUN,
+)
 
 
 def _row(day: DayResult) -> list[Any]:
     values = asdict(replace(day, errors_mm=()))
-    fields = [values[name] for name in _COLUMNS[:-6]]
+    fields = [values[name] for name in _COLUMNS[: -len(_OF_RUN)]]
     errors = np.array(day.errors_mm)
     sizes = (None,) * 3 if not len(errors) else (
         float(errors.mean()), float(np.percentile(errors, 95)), float(errors.max())
     )  # fmt: skip
-    return [*fields, day.touches, day.sure, *sizes, int((errors > _FAR_MM).sum())]
+    return [*fields, day.touches, day.sure, *sizes, int((errors > _FAR_MM).sum()), day.far_unsaid]
 
 
 def _report(days: list[DayResult], seeds: int, seed: int) -> StudyReport:
@@ -341,12 +351,14 @@ def _report(days: list[DayResult], seeds: int, seed: int) -> StudyReport:
 
 _NOTES = (
     "Errors are from the true points, of sure answers to touches that were not used before; the spread is over days.",
+    "Sure: no other place explains the wrench as well; how near this one is, the answer's covariance says.",
+    "Not to say so: to be off by more than twice the standard deviation that the answer's covariance tells.",
     "Floor: what the wrenches are off beyond noise, as an error of the contact, rms; told by verification over true.",
 )
 _HEADINGS = (
-    "bench", "probe", "days", "mean mm", "over days", "p95 mm", "max mm", "sure %", "sure, > 5 mm off %", "verified",
-    "aligned", "mean at markers mm", "floor told mm", "floor true mm", "ratio", "mostly", "named first",
-    "calibration says", "and adds mm",
+    "bench", "probe", "days", "mean mm", "over days", "p95 mm", "max mm", "sure %", "sure, > 5 mm off %",
+    "and did not say so %", "verified", "aligned", "mean at markers mm", "floor told mm", "floor true mm", "ratio",
+    "mostly", "named first", "calibration says", "and adds mm",
 )  # fmt: skip
 
 
@@ -355,11 +367,13 @@ def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
     means = np.array([np.mean(day.errors_mm) for day in days if day.errors_mm])
     errors = np.concatenate([day.errors_mm for day in days])
     far = 100 * float((errors > _FAR_MM).sum()) / sum(day.touches for day in days)
+    unsaid = 100 * sum(day.far_unsaid for day in days) / sum(day.touches for day in days)
     spread = tuple(np.percentile(means, [5, 95]).tolist())
     return [
         Figure(reality, "mean error", float(errors.mean()), "mm", most=0.6 if typical else None, spread=spread,
                worst=float(means.max())),
         Figure(reality, "sure and more than 5 mm off", far, "%", most=0.2 if typical else None),
+        Figure(reality, "the same, and by more than twice what they say", unsaid, "%"),
         Figure(reality, "floor, told over true, rms of all days", _ratio(days), least=0.75 if typical else None,
                most=1.25 if typical else None),
     ]  # fmt: skip
@@ -392,6 +406,7 @@ def _summed(days: list[DayResult]) -> tuple[str | float | None, ...]:
         float(errors.max()),
         100 * len(errors) / count,
         100 * float((errors > _FAR_MM).sum()) / count,
+        100 * sum(day.far_unsaid for day in days) / count,
         f"{sum(day.verified for day in days)} of {len(days)}",
         f"{sum(day.aligned for day in days)} of {len(days)}",
         float(np.mean(at_markers)) if at_markers else None,

@@ -17,6 +17,7 @@ from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count
+from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.preparation.alignment import from_transform
 from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
 
@@ -135,10 +136,8 @@ def _housing(name: str) -> bytes:
     outside = Probe.from_arrays(vertices, faces)
     tip = float(vertices[:, 2].max())
     front = faces[vertices[faces][:, :, 2].min(axis=1) > _BACK]
-    normals = np.zeros_like(vertices)
-    for corner in range(3):
-        np.add.at(normals, faces[:, corner], outside.normals * outside.areas[:, None])
-    inner = vertices - _WALL * normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = vertex_normals(outside.normals * outside.areas[:, None], faces, len(vertices))
+    inner = vertices - _WALL * normals
     a, b = _edge_of(front).T
     edge = [
         np.stack(quad, axis=1)

@@ -23,6 +23,25 @@ def cross_products(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> N
     return np.cross(b - a, c - a)
 
 
+def vertex_normals(
+    area_vectors: NDArray[np.float64], faces: NDArray[np.int32], count: int
+) -> NDArray[np.float64]:
+    """
+    Return unit normals of vertices, (count, 3): of the sum of their facets' area vectors (Gouraud 1971).
+
+    Parameters
+    ----------
+    area_vectors : (m, 3)
+        Normals of the facets times their areas, in any unit.
+    count : int
+        Of the vertices; one without a facet gets zeros.
+    """
+    normals = np.zeros((count, 3))
+    for corner in range(3):
+        np.add.at(normals, faces[:, corner], area_vectors)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+
+
 def six_volumes(
     vertices: NDArray[np.float64], faces: NDArray[np.int32], label: NDArray[np.int64]
 ) -> NDArray[np.float64]:

@@ -25,9 +25,9 @@ PLACEMENT_M = 0.0003  # in each direction of the surface: nobody hits a marker b
 # One verification is one day and one run of the cable: nobody knows that the next ones are better than this.
 LEAST = 0.4  # times the default
 _LARGE = 3.0  # times the default
-# A bench that is believed to be better than it is answers wrongly and is sure of it; one that is believed to be worse
-# says "ambiguous" more often. So it is the upper end that is told, but not so far up that few markers make a good
-# bench useless.
+# A bench that is believed to be better than it is answers wrongly, and says less than it is off; one that is believed
+# to be worse tells a wider spread, in which a region's odds draw contacts further to it. So it is the upper end that is
+# told, but not so far up that few markers make a good bench useless.
 _SAFE, _BOUND = 0.8, 0.95
 _DEFAULT = np.repeat([DEFAULT_FORCE_N, DEFAULT_TORQUE_NM], 3)
 _RATIO_SIGMA = np.log(3.0)  # of torque over force: markers at one lever arm do not tell it

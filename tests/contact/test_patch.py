@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.contact.footprint import spread
-from contactbench.pipeline.contact.patch import Bed, PatchReader
+from contactbench.pipeline.contact.patch import Bed, LivePatch, PatchReader
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
@@ -135,8 +135,43 @@ def test_a_bed_that_makes_no_sense_is_refused(given, words):
 
 def test_it_says_what_it_found():
     patch = PatchReader(block(0.02, 0.01), TRUE).read([0, 0, -FORCE], [0.004, 0.0, 0.05], 1e-8 * np.eye(3))
-    assert patch.sentence.startswith("Centre of pressure of a patch of 8.3 cm²: +4.0 ± 0.1 mm along x")
+    assert patch.sentence.startswith(
+        "The point is the centre of pressure of a patch of 8.3 cm²: +4.0 ± 0.1 mm along"
+    )
+    tilt, sigma = np.degrees(patch.lean), np.degrees(patch.lean_sigma)
+    assert f"at a tilt of {tilt[0]:+.1f} ± {sigma[0]:.1f}° along x" in patch.sentence
     assert "the force is 35/65" in patch.sentence
+
+
+@pytest.mark.parametrize(
+    ("text", "curvature"), [("flat", (0, 0)), ("80,0", (12.5, 0)), (" -40, 50", (-25, 20)), ("0,0", (0, 0))]
+)
+def test_a_shape_is_read(text, curvature):
+    assert Bed.parse(text).curvature == pytest.approx(curvature)
+
+
+@pytest.mark.parametrize("text", ["round", "80", "1,2,3", "5,0", "nan,0", ""])
+def test_what_is_no_shape_is_refused(text):
+    with pytest.raises(InputError, match=r"give (flat|two numbers)"):
+        Bed.parse(text)
+
+
+class _Contact:
+    def __init__(self, x, accepted=True):
+        self.accepted, self.point, self.covariance = accepted, np.array([x, 0, 0.05]), 1e-8 * np.eye(3)
+
+
+def test_a_stream_is_read_ten_times_a_second_and_says_nothing_of_no_contact():
+    live, force = LivePatch(PatchReader(block(0.02, 0.01), TRUE)), [0, 0, -FORCE]
+    first = live.read(1.0, force, _Contact(0.004))
+    assert first.offset[0] == pytest.approx(0.004, abs=1e-4)
+    assert live.read(1.09, force, _Contact(0.001)) is first
+    assert live.read(1.11, force, _Contact(0.001)).offset[0] == pytest.approx(0.001, abs=1e-4)
+    assert live.read(1.12, force, None) is None
+    assert live.read(1.30, force, _Contact(0.004, accepted=False)) is None
+    assert live.read(0.0, force, _Contact(0.004)).offset[0] == pytest.approx(
+        0.004, abs=1e-4
+    )  # another stream
 
 
 def test_a_file_of_contacts_gets_columns_more(tmp_path):

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -46,6 +47,7 @@ def test_a_day_goes_from_weighing_to_running_and_says_how_it_went(tmp_path: Path
     assert len(rows) == 8
     errors = [float(row["error_mm"]) for row in rows if row["reason"] == "ok"]
     assert sum(errors) / len(errors) == pytest.approx(typical["mean mm"])
+    assert all(0 < float(row["sigma_mm"]) < 50 for row in rows if row["reason"] == "ok")
     days = list(csv.DictReader((tmp_path / "days.csv").read_text(encoding="utf-8").splitlines()))
     assert [row["reality"] for row in days] == ["typical", "cable=3"]
     assert "| typical | linear |" in (tmp_path / "days.md").read_text(encoding="utf-8")
@@ -60,6 +62,18 @@ def test_an_ideal_day_is_as_good_as_noise_allows_and_the_same_again(tmp_path: Pa
     for name in _FILES:
         ours, theirs = (tmp_path / way / "ideal" / "linear" / "0" / name for way in "ab")
         assert ours.read_bytes() == theirs.read_bytes(), name
+
+
+def test_a_far_answer_that_says_so_is_counted_apart_from_one_that_does_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # One touch is not sure, two are 9 mm off, and one of these says that it may be.
+    errors, said = np.array([0.1, 9.0, 9.0, np.nan]), np.array([0.1, 0.5, 6.0, 0.1])
+    monkeypatch.setattr(day, "_run", lambda *_: (errors, said))
+    (row,) = day.run_days(tmp_path, [Reality()], ["linear"]).sheets[0].to_json()
+    assert row["sure %"] == 75
+    assert row["sure, > 5 mm off %"] == 50
+    assert row["and did not say so %"] == 25
 
 
 def test_what_makes_no_day_is_refused(tmp_path: Path) -> None:

@@ -8,8 +8,10 @@ import signal
 import socket
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, cast
 
+import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle
 from mcap.reader import make_reader
@@ -17,6 +19,9 @@ from runtime.runtime_recordings import BEGIN, record, samples
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
+from contactbench.pipeline.commands import run as command_of_run
+from contactbench.pipeline.commands.run import PatchLines
+from contactbench.pipeline.contact.patch import Bed, PatchReader
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo
 
 if TYPE_CHECKING:
@@ -81,6 +86,37 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
     assert f"{out}: {COUNT:,} contacts published, 0 not." in done.stderr.replace("\n", "")
     assert "sensor: streaming" in done.stderr
     assert "robot: closed" in done.stderr
+
+
+def test_a_patch_is_said_beside_contacts_that_stay_as_they_are(folder: Path, tmp_path: Path) -> None:
+    address = replay(folder)
+    assert run(folder / "bundle", *address, "--out", tmp_path / "plain").exit_code == 1
+    done = run(folder / "bundle", *address, "--patch", "flat", "--out", tmp_path / "soft")
+    assert done.exit_code == 1
+    assert (tmp_path / "soft").read_bytes() == (tmp_path / "plain").read_bytes()
+    refused = run(folder / "bundle", *address, "--patch", "round")
+    assert refused.exit_code == 2
+    assert "patch 'round': give flat" in refused.stderr
+
+
+def test_a_line_a_second_says_that_the_point_is_a_centre_of_pressure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(command_of_run, "say", lambda text, _: said.append(text))
+    probe = example().probe
+    point = np.array([0.0, 0.0, probe.vertices[:, 2].max()])
+    lines = PatchLines(PatchReader(probe, Bed()))
+    for step in range(25):
+        contact = SimpleNamespace(
+            time=step / 10, wrench=np.array([0, 0, -7.0, 0, 0, 0]), accepted=True, point=point,
+            covariance=1e-8 * np.eye(3),
+        )  # fmt: skip
+        lines.take(cast("Any", None), cast("Any", SimpleNamespace(contact=contact)))
+        lines.say_new()
+        lines.say_new()  # nothing came meanwhile
+    assert [each.partition(" s: ")[0] for each in said] == ["0.0", "1.0", "2.0"]
+    assert all(" s: The point is the centre of pressure of a patch" in each for each in said)
 
 
 def test_the_pace_of_a_replay_changes_nothing(folder: Path, tmp_path: Path) -> None:

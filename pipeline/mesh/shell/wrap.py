@@ -18,7 +18,7 @@ from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
 from contactbench.pipeline.mesh.shell.settle import settle
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, join
+from contactbench.pipeline.mesh.triangles import cross_products, join, vertex_normals
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -84,12 +84,7 @@ def draw_in(wrap: Surface, alpha: float) -> Surface:
     In a thin wall it stops short of the other side, so as not to come out there.
     """
     vertices, faces = wrap
-    cross = cross_products(vertices, faces)
-    normals = np.zeros_like(vertices)
-    for corner in range(3):
-        np.add.at(normals, faces[:, corner], cross)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    inwards = -normals
+    inwards = -vertex_normals(cross_products(vertices, faces), faces, len(vertices))
     thickness, _ = SurfaceIndex(vertices, faces).first_hit(vertices + 1e-3 * alpha * inwards, inwards)
     depth = np.clip(thickness - _SHORT_OF * alpha, 0.0, _DRAWN_IN * alpha)
     return vertices + depth[:, None] * inwards, faces

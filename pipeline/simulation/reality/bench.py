@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import PoseSample
 from contactbench.pipeline.simulation.reality.chance import chance
-from contactbench.pipeline.simulation.reality.pulls import Felt
+from contactbench.pipeline.simulation.reality.pulls import WrenchDisturbance
 from contactbench.pipeline.simulation.reality.real_probe import RealProbe, leaning
 from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.sensor_model import SensorModel
@@ -115,7 +115,9 @@ class RealBench:
         self.reality, self.loaded, self.rate, self.time = reality, loaded, rate, WARM_S
         self.real = RealProbe.of(bundled(name), markers(name), reality, seed)
         load = loaded.load
-        self._felt = Felt(reality, self.real, seed, Payload(load.mass, load.centre_of_mass_S))
+        self._disturbance = WrenchDisturbance(
+            reality, self.real, seed, Payload(load.mass, load.centre_of_mass_S)
+        )
         settings = loaded.settings.with_(reality, chance(seed, "crosstalk")).at(rate)
         if not noise:
             settings = settings.silent()
@@ -157,7 +159,7 @@ class RealBench:
 
     def _read(self, rows: _Rows) -> RealTape:
         times, R_WS, contacts, points, normals = rows.arrays()
-        felt = self._felt.wrenches(times, R_WS, contacts, points, normals)
+        felt = self._disturbance.wrenches(times, R_WS, contacts, points, normals)
         readings = self._sensor.read(times, felt + self.loaded.weight(R_WS))
         late = np.searchsorted(times, times - self.reality.pose_latency / 1e3 - 1e-9)
         told = self._R_BW @ R_WS[np.minimum(late, np.arange(len(times)))]

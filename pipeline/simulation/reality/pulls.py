@@ -29,9 +29,9 @@ _HAND_S, _TREMOR_HZ, _TREMOR = 1.0, 10.0, 0.1
 _APART_M = 0.03  # of two tips
 
 
-class Felt:
+class WrenchDisturbance:
     """
-    What is felt, sample by sample: it remembers where the cable came from and how the hand pulled.
+    What disturbs the wrench, sample by sample: it remembers where the cable came from and how the hand pulled.
 
     Quasi-static: a wrench that changes the readings, and does not move the tool.
 

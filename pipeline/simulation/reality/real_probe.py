@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.triangles import vertex_normals
 from contactbench.pipeline.simulation.reality.chance import chance
 from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 from contactbench.pipeline.simulation.scenes.touch import along
@@ -115,10 +116,7 @@ def _moved(probe: Probe, reality: Reality, seed: int) -> Place:
 def _lifted(probe: Probe, height: float) -> Place:
     if height == 0:
         return lambda points: points
-    normals = np.zeros_like(probe.vertices)
-    for corner in range(3):
-        np.add.at(normals, probe.faces[:, corner], probe.normals * probe.areas[:, None])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals = vertex_normals(probe.normals * probe.areas[:, None], probe.faces, len(probe.vertices))
     outside = np.unique(probe.faces[probe.region == 0])
     # How far each vertex is lifted: none at the rim, all of it 2 mm inside.
     away, _ = cKDTree(probe.vertices[outside]).query(probe.vertices)

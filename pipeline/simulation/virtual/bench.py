@@ -22,7 +22,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSam
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.reality import Reality
-from contactbench.pipeline.simulation.reality import Felt, LateLine, RealProbe, chance
+from contactbench.pipeline.simulation.reality import LateLine, RealProbe, WrenchDisturbance, chance
 from contactbench.pipeline.simulation.scenes import BenchScene, Payload, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (
@@ -108,7 +108,9 @@ class VirtualBench:
         self.R_SE = _mounting(R_SE)
         self.reality, payload = reality or Reality(), payload or Payload()
         self.real = RealProbe.of(truth, self.markers, self.reality, seed)
-        self._felt = Felt(self.reality, self.real, seed, payload) if self.reality.on else None
+        self._disturbance = (
+            WrenchDisturbance(self.reality, self.real, seed, payload) if self.reality.on else None
+        )
         if self.reality.on:
             settings = settings.with_(self.reality, chance(seed, "crosstalk"))
         self.sensor = SensorModel(settings.at(rate), seed)
@@ -268,7 +270,7 @@ class VirtualBench:
         # The step counts exactly; the scene's own clock adds up rounding.
         truth = replace(self.scene.moment(), time=self.time)
         if wrench:
-            truth = truth if self._felt is None else self._felt.of(truth)
+            truth = truth if self._disturbance is None else self._disturbance.of(truth)
             sample = self._read(truth)
             if self._line is None:
                 wrenches.append(sample)
@@ -359,7 +361,9 @@ class VirtualBench:
             self.sensor.warm(command.kelvin, now)
         elif isinstance(command, SecretRezero):
             now_there = replace(self.scene.moment(), time=now)
-            self.sensor.rezero((now_there if self._felt is None else self._felt.of(now_there)).reading, now)
+            self.sensor.rezero(
+                (now_there if self._disturbance is None else self._disturbance.of(now_there)).reading, now
+            )
         elif isinstance(command, End):
             self._ended = True
         return now

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.reality import MIXES, Reality
-from contactbench.pipeline.simulation.reality import Felt, RealProbe
+from contactbench.pipeline.simulation.reality import RealProbe, WrenchDisturbance
 from contactbench.pipeline.simulation.scenes import Payload
 from contactbench.pipeline.simulation.virtual.bench import bundled
 from contactbench.pipeline.simulation.virtual.markers import markers
@@ -15,23 +15,25 @@ Array = NDArray[np.float64]
 _PAYLOAD = Payload()
 
 
-def _felt(seed: int = 0, **sizes: float) -> Felt:
+def _disturbance(seed: int = 0, **sizes: float) -> WrenchDisturbance:
     truth = bundled("linear")
-    return Felt(Reality(**sizes), RealProbe(truth, markers("linear")), seed, _PAYLOAD)
+    return WrenchDisturbance(Reality(**sizes), RealProbe(truth, markers("linear")), seed, _PAYLOAD)
 
 
-def _in_air(felt: Felt, R_WS: Array) -> Array:
+def _in_air(disturbance: WrenchDisturbance, R_WS: Array) -> Array:
     n = len(R_WS)
-    return felt.wrenches(np.arange(n) * 0.1, R_WS, np.zeros((n, 6)), np.zeros((n, 3)), np.zeros((n, 3)))
+    return disturbance.wrenches(
+        np.arange(n) * 0.1, R_WS, np.zeros((n, 6)), np.zeros((n, 3)), np.zeros((n, 3))
+    )
 
 
-def _pressed(felt: Felt, count: int = 1, force: float = 10.0) -> tuple[Array, Array]:
+def _pressed(disturbance: WrenchDisturbance, count: int = 1, force: float = 10.0) -> tuple[Array, Array]:
     """Return what is felt while the middle of the face is pressed straight, and that press alone."""
     point, normal = bundled("linear").nearest(markers("linear")[2])
     F = -force * normal
     contact = np.concatenate([F, np.cross(point, F)])
     rows = [np.tile(each, (count, 1)) for each in (contact, point, normal)]
-    return felt.wrenches(np.arange(count) * 0.005, np.tile(np.eye(3), (count, 1, 1)), *rows), contact
+    return disturbance.wrenches(np.arange(count) * 0.005, np.tile(np.eye(3), (count, 1, 1)), *rows), contact
 
 
 def _turned(degrees: Array) -> Array:
@@ -39,13 +41,13 @@ def _turned(degrees: Array) -> Array:
 
 
 def test_an_ideal_bench_feels_the_touch_alone() -> None:
-    felt, contact = _pressed(_felt())
+    felt, contact = _pressed(_disturbance())
     np.testing.assert_array_equal(felt[0], contact)
-    np.testing.assert_array_equal(_in_air(_felt(), _turned(np.arange(4.0))), np.zeros((4, 6)))
+    np.testing.assert_array_equal(_in_air(_disturbance(), _turned(np.arange(4.0))), np.zeros((4, 6)))
 
 
 def test_a_cable_pulls_nowhere_where_it_hangs_free_and_with_its_size_the_other_way_round() -> None:
-    felt = _felt(cable=2.0)
+    felt = _disturbance(cable=2.0)
     rest = felt._free
     away = Rotation.align_vectors([rest], [[0, 1, 0]])[0].as_matrix()
     opposite = Rotation.align_vectors([-rest], [[0, 1, 0]])[0].as_matrix()
@@ -59,7 +61,7 @@ def test_a_cable_pulls_nowhere_where_it_hangs_free_and_with_its_size_the_other_w
 def test_a_cable_does_no_work_that_stays_without_drag_and_some_with_it() -> None:
     there_and_back = _turned(np.concatenate([np.arange(0.0, 90, 5), np.arange(90.0, -1, -5)]))
     for drag, closes in ((0.0, True), (0.5, False)):
-        F = _in_air(_felt(cable=1.0, drag=drag), there_and_back)
+        F = _in_air(_disturbance(cable=1.0, drag=drag), there_and_back)
         half = len(F) // 2
         same = np.allclose(F[5], F[len(F) - 6], atol=1e-12)
         assert same is closes, half
@@ -67,7 +69,7 @@ def test_a_cable_does_no_work_that_stays_without_drag_and_some_with_it() -> None
 
 def test_a_mount_that_yields_turns_the_probe_as_a_finite_turn_would() -> None:
     compliance = 2e-3
-    felt, contact = _pressed(_felt(mount=1e3 * compliance))
+    felt, contact = _pressed(_disturbance(mount=1e3 * compliance))
     point, _ = bundled("linear").nearest(markers("linear")[2])
     weight = np.array([0, 0, -_PAYLOAD.mass * 9.80665])
     torque = contact[3:] + np.cross(_PAYLOAD.centre_of_mass_S, weight)
@@ -79,7 +81,7 @@ def test_a_mount_that_yields_turns_the_probe_as_a_finite_turn_would() -> None:
 
 
 def test_a_second_tip_presses_beside_the_first() -> None:
-    felt, contact = _pressed(_felt(second=0.5))
+    felt, contact = _pressed(_disturbance(second=0.5))
     other = felt[0] - contact
     assert np.linalg.norm(other[:3]) == pytest.approx(5.0)
     # Where its line comes nearest to the first place: some 30 mm away.
@@ -90,24 +92,24 @@ def test_a_second_tip_presses_beside_the_first() -> None:
 
 
 def test_a_hand_pulls_only_while_something_presses() -> None:
-    felt = _felt(hand=1.0, seed=4)
+    felt = _disturbance(hand=1.0, seed=4)
     assert not _in_air(felt, _turned(np.zeros(3))).any()
-    wrenches, contact = _pressed(_felt(hand=1.0, seed=4), 40_000)
+    wrenches, contact = _pressed(_disturbance(hand=1.0, seed=4), 40_000)
     pull = wrenches[:, :3] - contact[:3]
     assert np.sqrt((pull**2).sum(axis=1).mean()) == pytest.approx(1.0, rel=0.15)
 
 
 def test_turning_one_effect_on_moves_no_other() -> None:
     R = _turned(np.linspace(0, 120, 9))
-    alone = _in_air(_felt(seed=3, cable=0.4), R)
-    with_others = _in_air(_felt(seed=3, cable=0.4, hand=0.5), R)
+    alone = _in_air(_disturbance(seed=3, cable=0.4), R)
+    with_others = _in_air(_disturbance(seed=3, cable=0.4, hand=0.5), R)
     np.testing.assert_array_equal(alone, with_others)
 
 
 def test_asked_twice_about_the_same_moment_it_answers_the_same() -> None:
     reality = MIXES["harsh"]
     truth = bundled("linear")
-    felt = Felt(reality, RealProbe.of(truth, markers("linear"), reality, 0), 0, _PAYLOAD)
+    felt = WrenchDisturbance(reality, RealProbe.of(truth, markers("linear"), reality, 0), 0, _PAYLOAD)
     R = _turned(np.array([0.0, 40.0, 40.0]))
     times = np.array([0.0, 0.5, 0.5])
     point, normal = truth.nearest(markers("linear")[2])

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.serial", "devices.mount"
 RESULTS = "export.results"
+PROBE_DRAFT = "draft.probe"  # as `probe_draft` keeps it; here without what that needs
 
 
 class CheckState(StrEnum):
@@ -238,12 +239,15 @@ def _gravity(judge: Judge) -> tuple[StepState, str]:
 
 
 def _probe(judge: Judge) -> tuple[StepState, str]:
-    judged = judge.of("probe")
+    judged, draft = judge.of("probe"), judge.state.setting(PROBE_DRAFT)
     if judged.found is None:
+        if draft:
+            return StepState.READY, "It is being prepared: go on where it was left, then use it."
         return StepState.READY, "Choose the probe's mesh, put it where it is, and simplify it."
     if judged.state is CheckState.STALE:
         return StepState.STALE, f"{judged.why} Prepare it again."
-    return StepState.DONE, f"Prepared on {judged.day}."
+    begun = " Another one is being prepared: use it, or undo that." if draft else ""
+    return StepState.DONE, f"Prepared on {judged.day}.{begun}"
 
 
 def _regions(judge: Judge) -> tuple[StepState, str]:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
@@ -30,6 +31,7 @@ class OpenedSession:
     found: tuple[str, ...] = ()  # What its salvage found, in sentences
     # "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be
     why_read_only: str = ""
+    history: UndoHistory | None = None  # What can be undone; None: nothing, for nothing can be added
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,7 @@ def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
     from contactbench.pipeline.session import Session, SessionReadOnlyError
     from contactbench.pipeline.session.files import unfinished
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import read_history
 
     try:
         session = Session.open(folder, write=write, damaged=not write)
@@ -66,7 +69,8 @@ def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
         return open_session(folder, write=False)
     try:
         left = tuple(unfinished(folder)) if write else ()
-        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session))
+        history = read_history(session) if write else None
+        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session), history=history)
     except BaseException:
         session.close()
         raise
@@ -76,6 +80,7 @@ def new_session(folder: Path) -> OpenedSession:
     """Make a session in a folder that is new or empty. SessionError, InputError: it cannot be made."""
     from contactbench.pipeline.session import Session, SessionError
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -83,7 +88,7 @@ def new_session(folder: Path) -> OpenedSession:
         raise SessionError(
             f"{folder.parent}: the folder cannot be made ({error}): choose another place."
         ) from error
-    return OpenedSession(Desk(Session.create(folder)), ())
+    return OpenedSession(Desk(Session.create(folder)), (), history=UndoHistory())
 
 
 def virtual_session(folder: Path) -> OpenedSession:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 _NEEDED = (
     "contactbench.widgets.scene",
@@ -65,7 +66,8 @@ class Sessions(QObject):
     def __init__(self, start: StartPage, jobs: Jobs, settings: WindowSettings, window: MainWindow) -> None:
         super().__init__(window)
         self._window, self._why_read_only = window, ""
-        window.shown.connect(self._say_read_only)
+        self._history: UndoHistory | None = None
+        window.shown.connect(self._go_on_in)
         self._start, self._jobs, self._settings = start, jobs, settings
         self._next: Callable[[], None] | None = None
         self._waiting: OpenedSession | None = None
@@ -185,7 +187,7 @@ class Sessions(QObject):
 
     def _came(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(False)
-        self._why_read_only = opened.why_read_only
+        self._why_read_only, self._history = opened.why_read_only, opened.history
         for sentence in opened.found:
             self.told.emit("warning", sentence, "")
         if not opened.unfinished:
@@ -219,9 +221,14 @@ class Sessions(QObject):
             ),
         )
 
-    def _say_read_only(self, bench: Bench) -> None:
+    def _go_on_in(self, bench: Bench) -> None:
+        """Have a session that is shown be as it was left, or say that nothing can be added to it."""
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
+        elif self._history is not None:
+            from contactbench.app.undo import UndoMemory  # brings what results are computed with
+
+            UndoMemory(bench, self._history)
 
     def _adopt(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(True)

@@ -15,11 +15,12 @@ from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
 from contactbench.app.pages.verify_settings import VerifySettingsPanel
 from contactbench.app.pages.verify_touch import TouchPanel
 from contactbench.app.pages.verify_virtual import Toucher
-from contactbench.app.undo import SetParameters
+from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify import (
     TouchTool,
     VerifyOutcome,
@@ -304,7 +305,10 @@ class VerifyPage(Page):
             return
         self.toucher.end()
 
+        deed = Deed(self.tr("verify"))
+
         def judged(outcome: VerifyOutcome | None) -> None:
+            push_done(self.bench, deed)
             if outcome is not None:
                 self._show_outcome(outcome)
                 self.panel_touch.say("")  # what was wrong while it was recorded: the verdict says it better
@@ -317,7 +321,7 @@ class VerifyPage(Page):
                 good = outcome.passed
                 self.bench.tell(Weight.GOOD if good else Weight.WARNING, passed if good else failed)
 
-        self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(), judged)
+        self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(deed), judged)
 
     def discard(self) -> None:
         """End it without a verdict."""

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.tape import SessionTape
+    from contactbench.pipeline.workbench.undo_history import Deed
 
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
 KIND, RESULT, REPORT = "verification", "verification.json", "report.html"
@@ -268,9 +269,14 @@ class VerifyWork:
         self._order, self._left_out = touches.order, touches.left_out
         return touches.view()
 
-    def finish(self) -> VerifyOutcome | None:
+    def finish(self, deed: Deed | None = None) -> VerifyOutcome | None:
         """
         Keep the recording, judge it, and make the report; waits, so call it in a worker.
+
+        Parameters
+        ----------
+        deed : Deed, optional
+            Becomes the judging: what can be undone; the recording stays.
 
         Raises
         ------
@@ -292,7 +298,7 @@ class VerifyWork:
                 judge_recording(session, name, given, inputs)
                 return outcome_of(session.folder, session.state, session.stale(), seen)
 
-            return self._desk.do(judge).result()
+            return self._desk.do(judge if deed is None else deed.around(judge)).result()
 
     def discard(self) -> None:
         """End it, and throw the recording away; waits."""
@@ -361,7 +367,7 @@ def outcome_of(
         It cannot be read.
     """
     found = state.current_results.get((KIND, RESULT))
-    if found is None:
+    if found is None or found.rejected:
         return None
     from contactbench.pipeline.report import read_verification
 

@@ -11,6 +11,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
+from contactbench.app.departure import Departure
 from contactbench.app.disk_watch import DamageCheck, DiskWatch
 from contactbench.app.errors import in_words
 from contactbench.app.garbage import Garbage
@@ -98,6 +99,7 @@ class MainWindow(QMainWindow):
             self.garbage.clear, Qt.ConnectionType.QueuedConnection
         )  # when the pages are deleted
         self.sessions = Sessions(self.start, self.jobs, self.settings, self)
+        self.departure = Departure(self)
         self._make_status_bar()
         self.menus = Menus(self)
         self.header.add(self.menus.undo, self.menus.redo, self.menus.help_here)
@@ -248,6 +250,8 @@ class MainWindow(QMainWindow):
         """Close what is open, and show the first page; a recording that runs is kept."""
         if self.bench is None or self._ending or self._turns.going_on:
             return
+        if self.departure.holds(self.close_session, self._stay):
+            return
         bench, self._ending = self.bench, True
         self._remember(bench)
         self._tick.stop()
@@ -261,6 +265,11 @@ class MainWindow(QMainWindow):
             lambda _: self._session_closed(bench),
             partial(self._not_closed, bench),
         )
+
+    def _stay(self) -> None:
+        """Go on with this session: nobody wants it closed any more, nor another one opened."""
+        self._ended = False
+        self.sessions.give_up()
 
     def _end(self, bench: Bench) -> None:
         self.settings.write()
@@ -330,6 +339,7 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{bench.desk.folder.name} · contactbench")
         self._rates.setText(self.live.rates())
         self.pages.watch()
+        self.departure.look()
         if self._disk is not None:
             self._disk.look()
         if bench.connected != self._connected:
@@ -362,7 +372,10 @@ class MainWindow(QMainWindow):
             self.sessions.open(folder)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Close the session first, in a worker; then the window. Nothing is asked: nothing can be lost."""
+        """Close the session first, in a worker; then the window. Only about work that is going on it is asked."""
+        if self.bench is not None and not self._ending and self.departure.holds(self.close, self._stay):
+            event.ignore()
+            return
         self._ended = True
         if self._turns.going_on:  # closed as soon as the session is there
             event.ignore()

@@ -150,6 +150,10 @@ class Sessions(QObject):
         if following is not None:
             following()
 
+    def give_up(self) -> None:
+        """Forget what was asked for: the session that is open stays."""
+        self._next = None
+
     def close(self) -> None:
         """Give back a session that waits for an answer."""
         waiting, self._waiting = self._waiting, None

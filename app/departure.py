@@ -73,10 +73,12 @@ class Departure(QObject):
 
     def _going_on(self) -> tuple[str, ...]:
         """Return what goes on, in sentences."""
-        bench, statuses = self._window.bench, self._window.pages.statuses
+        bench = self._window.bench
         if bench is None or bench.ending:
             return ()
-        return tuple(said(statuses[step].sentence) for step in statuses if step in bench.running)
+        from contactbench.pipeline.workbench.standings import GOING_ON  # it is there, for a session is open
+
+        return tuple(said(words) for step, words in GOING_ON.items() if step in bench.running)
 
     def _ask(self, go: Callable[[], object], stay: Callable[[], object]) -> None:
         bench = self._window.bench

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
 
     from contactbench.pipeline.session import Session
@@ -152,27 +151,6 @@ def adopt(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from contactbench.pipeline.session.adoption import adopt_unfinished
 
     return adopt_unfinished(session)
-
-
-def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
-    """
-    Look at every file of a session; for a worker. Returns what is not as it was written, in sentences.
-
-    Nothing else would tell: a calibration of which one digit was changed on the disk is still a calibration.
-    """
-    from contactbench.pipeline.session.check import check
-
-    class _Stopped(Exception):  # noqa: N818 - no error
-        pass
-
-    def stop(_done: int, _all: int) -> None:
-        if cancelled():
-            raise _Stopped
-
-    try:
-        return check(folder, stop).problems
-    except _Stopped:
-        return ()
 
 
 def problem_with(error: BaseException) -> OpeningProblem | None:

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.app.departure import Departure
-from contactbench.app.disk_watch import DamageCheck, DiskWatch
 from contactbench.app.errors import in_words
 from contactbench.app.garbage import Garbage
 from contactbench.app.heartbeat import Heartbeat
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from contactbench.app.errors import Faults, LogFile
     from contactbench.app.jobs import Job
     from contactbench.app.opening import OpenedSession
+    from contactbench.app.trouble_watch import TroubleWatch
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
@@ -105,7 +105,7 @@ class MainWindow(QMainWindow):
         self.header.add(self.menus.undo, self.menus.redo, self.menus.help_here)
         self._connect(faults)
         self._turns.failed.connect(self._not_shown)
-        self._disk: DiskWatch | None = None
+        self._trouble: TroubleWatch | None = None
         self._arriving: OpenedSession | None = None
         self._tick = QTimer(self, interval=_TICK_MS)
         self._tick.timeout.connect(self._show_live)
@@ -186,12 +186,13 @@ class MainWindow(QMainWindow):
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
         bench.told.connect(self._router.message)
-        self._disk = DiskWatch(bench)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)
         self.live.open(bench)
-        self._connected = False
+        from contactbench.app.trouble_watch import TroubleWatch  # brings half of scipy
+
+        self._connected, self._trouble = False, TroubleWatch(bench)
         self._probe.open(bench)
         self.pages.open(bench)
         bench.changed.connect(self.pages.read_statuses)
@@ -209,7 +210,6 @@ class MainWindow(QMainWindow):
         self._tick.start()
         self._slow.start()
         self._show_rates()
-        DamageCheck(bench)
         self.shown.emit(bench)
         if self._ended:
             QTimer.singleShot(0, self, self.close)
@@ -281,7 +281,7 @@ class MainWindow(QMainWindow):
         self._session_closed(bench)
 
     def _session_closed(self, bench: Bench) -> None:
-        self.bench, self._disk, self._ending = None, None, False
+        self.bench, self._trouble, self._ending = None, None, False
         self.docks.set_charts(None)
         self.pages.forget()
         self.live.forget()
@@ -340,8 +340,8 @@ class MainWindow(QMainWindow):
         self._rates.setText(self.live.rates())
         self.pages.watch()
         self.departure.look()
-        if self._disk is not None:
-            self._disk.look()
+        if self._trouble is not None:
+            self._trouble.look()
         if bench.connected != self._connected:
             self._connected = not self._connected
             self.pages.read_statuses()

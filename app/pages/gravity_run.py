@@ -314,10 +314,20 @@ class GravityRun(QObject):
             self.start(self._wanted)
         if self._tape is not None and self.phase in {Phase.CAPTURING, Phase.CHECKING}:
             self._tell_findings(self._tape.findings)
+            if self._tape.error:
+                self._cut_short(self._tape.error)
         if self.work is not None:
             self._tell_found(self.work.solved.findings)
         if self.phase is Phase.CHECKING and self.check is not None and self.check.found is not None:
             self._set_checked(self.check.found)
+
+    def _cut_short(self, why: str) -> None:
+        """Take no more poses: what is not recorded does not count, and must not look as if it did."""
+        if self.problem != why:
+            self._end_following()
+            self.problem = why
+            self.bench.set_failed(Step.GRAVITY, why)
+            self.changed.emit()
 
     def _tell_found(self, found: Sequence[GravityFinding]) -> None:
         """Tell of poses and conventions that are wrong: once in a run, and not by how many poses there are."""

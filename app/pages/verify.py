@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtWidgets import QTabWidget, QWidget
@@ -57,6 +58,7 @@ class VerifyPage(Page):
         self.work = VerifyWork(bench.desk, bench.live)
         self.toucher, self.scene_view = Toucher(bench, self), VerifyScene(bench)
         self._entered = self._busy = self._closed = False
+        self._broken = ""  # what is wrong with a file behind the verification
         self._read_at, self._told = -1, tuple[str, ...]()
         self._loading: object = None
         self._job: Job | None = None
@@ -127,6 +129,9 @@ class VerifyPage(Page):
         self.locked.setVisible(locked)
         self.go.setVisible(bool(missing))
         self.tabs.setVisible(not locked)
+        if self._broken != (broken := status.sentence if status.broken else ""):
+            self._broken = broken
+            self._show_outcome(self.work.outcome)
         self._read()
         self._allow()
 
@@ -152,6 +157,10 @@ class VerifyPage(Page):
         for sentence in self._told:
             if sentence not in before:
                 self.bench.tell(Weight.WARNING, sentence)
+        if self.work.error:
+            self.work.pause()
+            self.panel_touch.say(self.work.error)
+            self.bench.set_failed(Step.VERIFY, self.work.error)
         if before and not self._told and self.work.going_on:
             self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
         self.panel_point.poll()
@@ -239,6 +248,8 @@ class VerifyPage(Page):
         self.bench.jobs.start(self.tr("Loading the probe"), work, came, wrong)
 
     def _show_outcome(self, outcome: VerifyOutcome | None) -> None:
+        if outcome is not None:
+            outcome = replace(outcome, broken=self._broken)
         self.work.take_outcome(outcome)
         self.panel_result.show_outcome(self.work.outcome)
 

@@ -11,7 +11,7 @@ from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.session.content import content_of
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
     own_file,
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.content import Content
 
 
@@ -79,14 +80,38 @@ def check_journal(
     refs = {(ref.path, ref.sha256): ref for record in content.records for ref in files_of(record.action)}
     problems = []
     for done, ref in enumerate(refs.values(), 1):
-        if wrong := wrong_with(folder, ref):
-            problems.append(f"{wrong}: take it from an archive, or add the original again.")
+        if wrong := file_problem(folder, ref):
+            problems.append(wrong)
         if progress is not None:
             progress(done, len(refs))
-    problems += [f"{each}." for each in origin_problems(folder, content.origins)]
-    problems += _no_recordings(folder)
+    problems += _others(folder, content)
     notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs}), *_inputs_lost(content)]
     return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
+
+
+def file_problem(folder: Path, ref: FileRef) -> str:
+    """Say what is wrong with a file, and the remedy; empty: nothing. Reads all of it."""
+    wrong = wrong_with(folder, ref)
+    return f"{wrong}: take it from an archive, or add the original again." if wrong else ""
+
+
+def other_problems(folder: Path) -> tuple[str, ...]:
+    """
+    Say what is wrong with a session besides the files that its records refer to.
+
+    Raises
+    ------
+    SessionError
+        Its journal cannot be read at all.
+    """
+    try:
+        return tuple(_others(folder, content_of(folder, read_journal(folder))))
+    except JournalError as error:
+        return (str(error),)
+
+
+def _others(folder: Path, content: Content) -> list[str]:
+    return [*(f"{each}." for each in origin_problems(folder, content.origins)), *_no_recordings(folder)]
 
 
 def _inputs_lost(content: Content) -> list[str]:

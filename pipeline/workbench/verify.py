@@ -190,6 +190,17 @@ class VerifyWork:
         tape = self._tape
         return () if tape is None else tape.findings
 
+    @property
+    def error(self) -> str:
+        """Why nothing more is recorded of what goes on, such as a full disk; empty: all is well."""
+        tape = self._tape
+        return "" if tape is None else tape.error or ""
+
+    def pause(self) -> None:
+        """Follow no more touches: what is not recorded does not count. What was recorded can be finished."""
+        if self._end is not None:
+            self._end()
+
     def take_outcome(self, outcome: VerifyOutcome | None) -> None:
         """Have a verdict that the session has; what was another while it was live is remembered."""
         before = self.outcome
@@ -326,6 +337,7 @@ class VerifyOutcome:
     report: Path | None
     differs: str = ""  # What was another while it was live; empty: nothing
     stale: str = ""  # Why it no longer holds; empty: it does
+    broken: str = ""  # What is wrong with a file behind it; empty: nothing
 
     @property
     def passed(self) -> bool:

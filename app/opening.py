@@ -136,6 +136,14 @@ def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     return replace(open_session(done.out), found=done.found)
 
 
+def opened_up_to_damage(folder: Path) -> OpenedSession:
+    """Cut off all that follows the damage of a journal, which is kept beside, and open the session."""
+    from contactbench.pipeline.session.check import repair
+
+    done = repair(folder, up_to_damage=True)
+    return replace(open_session(folder), found=(done.sentence, *done.left))
+
+
 def _why_read_only(session: Session) -> str:
     from contactbench.pipeline.session.lock import written_now
 

@@ -165,7 +165,10 @@ class QuestionCard(QFrame):
         self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._buttons = QHBoxLayout()
         column = QVBoxLayout()
+        self._costs = QLabel(wordWrap=True)
+        self._costs.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column.addWidget(self._words)
+        column.addWidget(self._costs)
         column.addLayout(self._buttons)
         row = QHBoxLayout(self)
         row.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
@@ -178,12 +181,23 @@ class QuestionCard(QFrame):
         return "" if self.isHidden() else self._words.text()
 
     def ask(
-        self, sentence: str, answers: Sequence[tuple[str, Callable[[], None]]], kind: str = "warning"
+        self,
+        sentence: str,
+        answers: Sequence[tuple[str, Callable[[], None]]],
+        kind: str = "warning",
+        costs: Sequence[str] = (),
     ) -> None:
-        """Show a sentence and one button for each answer, the first of them the accented one."""
+        """
+        Show a sentence and one button for each answer, the first of them the accented one.
+
+        `costs` says what the first answers cost, in sentences above the buttons, each begun with its button's words.
+        """
         self.clear()
         self._icon.show_icon(icon(kind, "warning" if kind == "warning" else "accent"))
         self._words.setText(said(sentence))
+        told = [f"{words}: {cost}" for (words, _), cost in zip(answers, costs, strict=False)]
+        self._costs.setText("\n\n".join(told))
+        self._costs.setVisible(bool(told))
         for number, (words, action) in enumerate(answers):
             button = QPushButton(words)
             button.setProperty("primary", number == 0)
@@ -195,6 +209,11 @@ class QuestionCard(QFrame):
         self.setAccessibleName(sentence)
         self.show()
         self.asked.emit(True)
+
+    @property
+    def costs(self) -> str:
+        """What the answers cost; empty: nothing is said of that."""
+        return "" if self._costs.isHidden() else self._costs.text()
 
     def answers(self) -> tuple[QPushButton, ...]:
         """Return the buttons."""

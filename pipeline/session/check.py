@@ -26,6 +26,7 @@ from contactbench.pipeline.session.migrate import origin_problems
 from contactbench.pipeline.session.sources import sources_of
 from contactbench.pipeline.session.state import fold
 from contactbench.pipeline.session.store import Session
+from contactbench.pipeline.session.ways_in import upright
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -157,18 +158,24 @@ class Repair:
     left: tuple[str, ...] = ()  # Why others stay where they are, in sentences
 
 
-def repair(folder: Path) -> Repair:
+def repair(folder: Path, *, up_to_damage: bool = False) -> Repair:
     """
     Cut off what follows the last whole record, if no whole record follows it, and adopt recordings that ended abruptly.
 
     The journal as it was is kept beside.
+
+    Parameters
+    ----------
+    folder : path
+    up_to_damage : bool
+        Cut off all that follows the damage, also whole records; see `ways_in` for what that is.
 
     Raises
     ------
     SessionError
         Another process writes the session, whole records follow the damage, or the disk fails.
     """
-    done = _repair_journal(folder)
+    done = _repair_journal(folder, up_to_damage=up_to_damage)
     if not unfinished(folder):
         return done
     with Session.open(folder) as session:
@@ -176,13 +183,13 @@ def repair(folder: Path) -> Repair:
     return replace(done, adopted=adopted, left=left)
 
 
-def _repair_journal(folder: Path) -> Repair:
+def _repair_journal(folder: Path, *, up_to_damage: bool) -> Repair:
     read_journal(folder)  # no lock is left in a folder that is no session
     lock = Lock(folder)
     try:
         data = read_journal(folder)
-        found = frames.scan(data)
-        if not found.torn and not found.last:
+        found = upright(folder, data) if up_to_damage else frames.scan(data)
+        if not found.torn and not found.last and not (up_to_damage and found.damage and found.frames):
             refuse_damage(folder, found)
             return Repair("The journal is whole: nothing was done.")
         if not found.frames:

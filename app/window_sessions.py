@@ -193,9 +193,14 @@ class Sessions(QObject):
         self._start.set_busy(True)
 
         def prepared(progress: object, cancelled: object) -> OpenedSession:
-            for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
-                import_module(name)
-            return work(progress, cancelled)
+            opened = work(progress, cancelled)  # first: what cannot be opened is said at once
+            try:
+                for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
+                    import_module(name)
+            except BaseException:
+                opened.desk.close()
+                raise
+            return opened
 
         self._jobs.start(
             title,
@@ -332,7 +337,7 @@ class Sessions(QObject):
             (
                 self.tr("Open read-only"),
                 lambda: self.open(folder, write=False),
-                self.tr("nothing is lost, and nothing can be added. All {} whole records are shown.").format(
+                self.tr("Nothing is lost, and nothing can be added. All {} whole records are shown.").format(
                     ways.before + ways.after
                 ),
             ),
@@ -347,7 +352,7 @@ class Sessions(QObject):
 
     def _cost_of_salvage(self, ways: WaysIn) -> str:
         words = self.tr(
-            "all {} whole records go into a new session; this one stays as it is. What is lost: at least {}."
+            "All {} whole records go into a new session; this one stays as it is. What is lost: at least {}."
         ).format(ways.before + ways.after, self._counted(ways.gaps))
         if ways.doubtful:
             words += " " + self.tr("To be done again: {}.").format(_listed(ways.doubtful))
@@ -357,7 +362,7 @@ class Sessions(QObject):
 
     def _cost_of_cutting(self, ways: WaysIn) -> str:
         words = self.tr(
-            "the first {} records go on as this session; {} after them are set aside, and the journal as it was is"
+            "The first {} records go on as this session; {} after them are set aside, and the journal as it was is"
             " kept beside."
         ).format(ways.before, self._counted(ways.after + ways.gaps))
         if ways.behind:

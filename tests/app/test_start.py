@@ -153,11 +153,15 @@ def test_each_way_into_a_damaged_session_says_what_it_costs(qtbot, window, damag
     qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=60_000)
     words = [each.text() for each in window.start.question.answers()]
     assert words[:3] == ["Salvage a copy", "Open read-only", "Open up to the damage"]
-    salvage, look, cut = window.start.question.costs.split("\n\n")
-    assert salvage.startswith("Salvage a copy: all 3 whole records")
+    salvage, look, cut = window.start.question.costs
+    assert salvage.startswith("All 3 whole records")
     assert "at least 1 record" in salvage
-    assert "nothing is lost" in look
-    assert "the first 2 records" in cut
+    assert "Nothing is lost" in look
+    assert "The first 2 records" in cut
+    card = window.start.question
+    for each in (*card.answers(), *card._costs):  # nothing is cut, as the window is wide
+        assert each.width() >= each.minimumSizeHint().width()
+        assert each.height() >= each.minimumSizeHint().height()
     assert files(damaged) == before  # looking changes nothing
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.steps import Step
+    from contactbench.pipeline.workbench.trouble import SessionTrouble
     from contactbench.widgets.scene import Scene
 
 
@@ -59,6 +60,8 @@ class Bench(QObject):
         Steps in which something goes on.
     failed : dict of Step to str
         Steps whose last work failed, and why; see `set_failed`.
+    trouble : SessionTrouble
+        What is wrong with the session just now.
     """
 
     changed = Signal()  # the session's state; in the GUI thread
@@ -75,6 +78,7 @@ class Bench(QObject):
         self.undo = QUndoStack(self)
         self.running: set[Step] = set()
         self.failed: dict[Step, str] = {}
+        self.trouble = self._no_trouble()
         self._stirred.connect(self.changed)  # from the desk's thread into this one
         self._end = desk.subscribe(self._stirred.emit)
         self._let_go = False
@@ -85,6 +89,12 @@ class Bench(QObject):
         from contactbench.pipeline.workbench.live import Live
 
         return Live()
+
+    @staticmethod
+    def _no_trouble() -> SessionTrouble:
+        from contactbench.pipeline.workbench.trouble import NO_TROUBLE  # not before there is a session
+
+        return NO_TROUBLE
 
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
@@ -109,6 +119,8 @@ class Bench(QObject):
     def set_running(self, step: Step, going_on: bool) -> None:
         """Say whether something goes on in a step."""
         before = set(self.running)
+        if going_on and step not in before:
+            self.failed.pop(step, None)
         (self.running.add if going_on else self.running.discard)(step)
         if self.running != before:
             self.changed.emit()

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
 
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
@@ -30,6 +30,7 @@ class OpenedSession:
     found: tuple[str, ...] = ()  # What its salvage found, in sentences
     # "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be
     why_read_only: str = ""
+    history: UndoHistory | None = None  # What can be undone; None: nothing, for nothing can be added
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
     from contactbench.pipeline.session import Session, SessionReadOnlyError
     from contactbench.pipeline.session.files import unfinished
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import read_history
 
     try:
         session = Session.open(folder, write=write, damaged=not write)
@@ -66,7 +68,8 @@ def open_session(folder: Path, *, write: bool = True) -> OpenedSession:
         return open_session(folder, write=False)
     try:
         left = tuple(unfinished(folder)) if write else ()
-        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session))
+        history = read_history(session) if write else None
+        return OpenedSession(Desk(session), left, why_read_only=_why_read_only(session), history=history)
     except BaseException:
         session.close()
         raise
@@ -76,6 +79,7 @@ def new_session(folder: Path) -> OpenedSession:
     """Make a session in a folder that is new or empty. SessionError, InputError: it cannot be made."""
     from contactbench.pipeline.session import Session, SessionError
     from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -83,7 +87,7 @@ def new_session(folder: Path) -> OpenedSession:
         raise SessionError(
             f"{folder.parent}: the folder cannot be made ({error}): choose another place."
         ) from error
-    return OpenedSession(Desk(Session.create(folder)), ())
+    return OpenedSession(Desk(Session.create(folder)), (), history=UndoHistory())
 
 
 def virtual_session(folder: Path) -> OpenedSession:
@@ -132,6 +136,14 @@ def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     return replace(open_session(done.out), found=done.found)
 
 
+def opened_up_to_damage(folder: Path) -> OpenedSession:
+    """Cut off all that follows the damage of a journal, which is kept beside, and open the session."""
+    from contactbench.pipeline.session.check import repair
+
+    done = repair(folder, up_to_damage=True)
+    return replace(open_session(folder), found=(done.sentence, *done.left))
+
+
 def _why_read_only(session: Session) -> str:
     from contactbench.pipeline.session.lock import written_now
 
@@ -147,27 +159,6 @@ def adopt(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from contactbench.pipeline.session.adoption import adopt_unfinished
 
     return adopt_unfinished(session)
-
-
-def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
-    """
-    Look at every file of a session; for a worker. Returns what is not as it was written, in sentences.
-
-    Nothing else would tell: a calibration of which one digit was changed on the disk is still a calibration.
-    """
-    from contactbench.pipeline.session.check import check
-
-    class _Stopped(Exception):  # noqa: N818 - no error
-        pass
-
-    def stop(_done: int, _all: int) -> None:
-        if cancelled():
-            raise _Stopped
-
-    try:
-        return check(folder, stop).problems
-    except _Stopped:
-        return ()
 
 
 def problem_with(error: BaseException) -> OpeningProblem | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QCoreApplication, QDateTime, QLocale, Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
+    QGridLayout,
     QHBoxLayout,
     QLabel,
     QListWidget,
@@ -19,7 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.opening import holds_session
-from contactbench.widgets.controls import accent
+from contactbench.widgets.controls import accent, sentence_label
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
@@ -161,15 +162,19 @@ class QuestionCard(QFrame):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setProperty("role", "card")
-        self._icon, self._words = Sign(28), QLabel(wordWrap=True)
+        self._icon, self._words = Sign(28), sentence_label()
         self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._buttons = QHBoxLayout()
+        self._weighed, self._buttons = QGridLayout(), QHBoxLayout()
+        self._weighed.setColumnStretch(1, 1)
         column = QVBoxLayout()
         column.addWidget(self._words)
+        column.addLayout(self._weighed)
         column.addLayout(self._buttons)
         row = QHBoxLayout(self)
         row.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         row.addLayout(column, 1)
+        self._answers: list[QPushButton] = []
+        self._costs: list[QLabel] = []
         self.hide()
 
     @property
@@ -177,10 +182,23 @@ class QuestionCard(QFrame):
         """What is asked; empty while nothing is."""
         return "" if self.isHidden() else self._words.text()
 
+    @property
+    def costs(self) -> tuple[str, ...]:
+        """What the first answers cost."""
+        return tuple(each.text() for each in self._costs)
+
     def ask(
-        self, sentence: str, answers: Sequence[tuple[str, Callable[[], None]]], kind: str = "warning"
+        self,
+        sentence: str,
+        answers: Sequence[tuple[str, Callable[[], None]]],
+        kind: str = "warning",
+        costs: Sequence[str] = (),
     ) -> None:
-        """Show a sentence and one button for each answer, the first of them the accented one."""
+        """
+        Show a sentence and one button for each answer, the first of them the accented one.
+
+        `costs` says of the first answers what they cost: it stands beside their buttons.
+        """
         self.clear()
         self._icon.show_icon(icon(kind, "warning" if kind == "warning" else "accent"))
         self._words.setText(said(sentence))
@@ -188,7 +206,15 @@ class QuestionCard(QFrame):
             button = QPushButton(words)
             button.setProperty("primary", number == 0)
             button.clicked.connect(lambda _=False, action=action: self._answer(action))
-            self._buttons.addWidget(button)
+            self._answers.append(button)
+            if number < len(costs):
+                cost = sentence_label(costs[number])
+                self._costs.append(cost)
+                self._weighed.addWidget(button, number, 0)
+                self._weighed.addWidget(cost, number, 1)
+                button.setAccessibleDescription(costs[number])
+            else:
+                self._buttons.addWidget(button)
             if number == 0:
                 button.setFocus()
         self._buttons.addStretch(1)
@@ -198,18 +224,17 @@ class QuestionCard(QFrame):
 
     def answers(self) -> tuple[QPushButton, ...]:
         """Return the buttons."""
-        items = (self._buttons.itemAt(index) for index in range(self._buttons.count()))
-        widgets = (item.widget() for item in items if item is not None)
-        return tuple(widget for widget in widgets if isinstance(widget, QPushButton))
+        return tuple(self._answers)
 
     def clear(self) -> None:
         """Ask nothing."""
-        while self._buttons.count():
-            taken = self._buttons.takeAt(0)
-            widget = taken.widget() if taken is not None else None
-            if widget is not None:
-                widget.hide()
-                widget.deleteLater()
+        for widget in (*self._answers, *self._costs):
+            widget.hide()
+            widget.deleteLater()
+        self._answers, self._costs = [], []
+        for layout in (self._weighed, self._buttons):
+            while layout.count():
+                layout.takeAt(0)
         self.hide()
         self.asked.emit(False)
 

@@ -1,18 +1,20 @@
-"""What can be undone, as commands of the window's undo stack."""
+"""What can be undone, as commands of the window's undo stack; also after the session was opened again."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QUndoCommand
 
-from contactbench.pipeline.workbench.session_change import SessionChange, observed
+from contactbench.pipeline.workbench.undo_history import Deed, write_history
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.app.bench import Bench
     from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 
 class Exchange(QUndoCommand):
@@ -21,20 +23,28 @@ class Exchange(QUndoCommand):
 
     Parameters
     ----------
+    bench : Bench
     text : str
         What is done, in words.
     before, after
     put : callable
-        Gets what holds from now on.
+        Gets what holds from now on; what it has done with the session is asked for before it returns.
     """
 
-    def __init__(self, text: str, before: Any, after: Any, put: Callable[[Any], None]) -> None:
+    def __init__(self, bench: Bench, text: str, before: Any, after: Any, put: Callable[[Any], None]) -> None:
         super().__init__(text)
-        self._before, self._after, self._put = before, after, put
+        self._bench, self._before, self._after, self._put = bench, before, after, put
+        self.deed, self._first = Deed(text), True
 
     def redo(self) -> None:
         """Do it."""
+        if not self._first:
+            self._put(self._after)
+            return
+        self._first = False
+        self._bench.desk.do(self.deed.begin)
         self._put(self._after)
+        self._bench.desk.do(self.deed.end)
 
     def undo(self) -> None:
         """Go back to what was before."""
@@ -70,16 +80,16 @@ class SessionCommand(QUndoCommand):
         again: Callable[[], None] | None = None,
     ) -> None:
         super().__init__(text)
-        self._bench, self._action, self._again = bench, action, again
+        self._bench, self._again = bench, again
+        self._action: Callable[[Session], Any] | None = action
         self._done, self._failed = done, failed
-        self._change: SessionChange | None = None
-        self._first = True
+        self.deed = Deed(text)
 
     def redo(self) -> None:
         """Do it, or do it again."""
-        if self._first:
-            self._first = False
-            self._bench.do(self.text(), self._run, self._done, self._failed)
+        action, self._action = self._action, None
+        if action is not None:
+            self._bench.do(self.text(), self.deed.around(action), self._done, self._failed)
         else:
             self._put("redo")
 
@@ -87,18 +97,88 @@ class SessionCommand(QUndoCommand):
         """Put back what was before."""
         self._put("undo")
 
-    def _run(self, session: Session) -> Any:
-        result, self._change = observed(self._action)(session)
-        return result
-
     def _put(self, way: str) -> None:
         def put(session: Session) -> None:
-            # Read in the desk's thread: the action itself was done there before. None: it failed, and changed nothing.
-            if self._change is not None:
-                getattr(self._change, way)(session)
+            # Read in the desk's thread: the action itself was done there before. Else it failed, and changed nothing.
+            if self.deed.happened:
+                getattr(self.deed.change(session), way)(session)
 
         again = self._again
         self._bench.do(self.text(), put, None if again is None else lambda _: again(), again and self._failed)
+
+
+class DoneCommand(SessionCommand):
+    """
+    A step that the session has already: pushed, nothing is done.
+
+    Parameters
+    ----------
+    bench : Bench
+    deed : Deed
+        By `Deed.around`, or of a session that was opened again.
+    again : callable, optional
+        See `SessionCommand`.
+    """
+
+    def __init__(self, bench: Bench, deed: Deed, again: Callable[[], None] | None = None) -> None:
+        super().__init__(bench, deed.text, lambda _session: None, again=again)
+        self.deed, self.resting = deed, True
+        self._action = None
+
+    def redo(self) -> None:
+        """Do it again."""
+        if not self.resting:
+            super().redo()
+
+    def undo(self) -> None:
+        """Take it back."""
+        if not self.resting:
+            super().undo()
+
+
+def push_done(bench: Bench, deed: Deed, again: Callable[[], None] | None = None) -> None:
+    """Let what was done, such as by a job, be undone."""
+    if deed.happened:
+        command = DoneCommand(bench, deed, again)
+        bench.undo.push(command)
+        command.resting = False
+
+
+class UndoMemory(QObject):
+    """
+    Keeps what can be undone in the session's folder, and puts it there again; belongs to its bench.
+
+    Parameters
+    ----------
+    bench : Bench
+    history : UndoHistory
+        What the session had when it was opened.
+    """
+
+    def __init__(self, bench: Bench, history: UndoHistory) -> None:
+        super().__init__(bench)
+        self._bench, stack = bench, bench.undo
+        commands = [DoneCommand(bench, deed) for deed in history.deeds]
+        for command in commands:
+            stack.push(command)
+        stack.setIndex(history.done)
+        for command in commands:
+            command.resting = False
+        stack.indexChanged.connect(self._keep)
+
+    def _keep(self, index: int) -> None:
+        if self._bench.desk.closed:
+            return
+        stack = self._bench.undo
+        commands = [stack.command(number) for number in range(stack.count())]
+        known = [
+            (number, each.deed)
+            for number, each in enumerate(commands)
+            if isinstance(each, Exchange | SessionCommand)
+        ]
+        deeds, done = [deed for _, deed in known], sum(number < index for number, _ in known)
+        # In the desk's order: what was just pushed is done by then.
+        self._bench.desk.do(lambda session: write_history(session.folder, deeds, done))
 
 
 class SetParameters(SessionCommand):

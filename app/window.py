@@ -11,7 +11,7 @@ from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
-from contactbench.app.disk_watch import DamageCheck, DiskWatch
+from contactbench.app.departure import Departure
 from contactbench.app.errors import in_words
 from contactbench.app.garbage import Garbage
 from contactbench.app.heartbeat import Heartbeat
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from contactbench.app.errors import Faults, LogFile
     from contactbench.app.jobs import Job
     from contactbench.app.opening import OpenedSession
+    from contactbench.app.trouble_watch import TroubleWatch
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
@@ -98,12 +99,13 @@ class MainWindow(QMainWindow):
             self.garbage.clear, Qt.ConnectionType.QueuedConnection
         )  # when the pages are deleted
         self.sessions = Sessions(self.start, self.jobs, self.settings, self)
+        self.departure = Departure(self)
         self._make_status_bar()
         self.menus = Menus(self)
         self.header.add(self.menus.undo, self.menus.redo, self.menus.help_here)
         self._connect(faults)
         self._turns.failed.connect(self._not_shown)
-        self._disk: DiskWatch | None = None
+        self._trouble: TroubleWatch | None = None
         self._arriving: OpenedSession | None = None
         self._tick = QTimer(self, interval=_TICK_MS)
         self._tick.timeout.connect(self._show_live)
@@ -184,12 +186,13 @@ class MainWindow(QMainWindow):
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
         bench.told.connect(self._router.message)
-        self._disk = DiskWatch(bench)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)
         self.live.open(bench)
-        self._connected = False
+        from contactbench.app.trouble_watch import TroubleWatch  # brings half of scipy
+
+        self._connected, self._trouble = False, TroubleWatch(bench)
         self._probe.open(bench)
         self.pages.open(bench)
         bench.changed.connect(self.pages.read_statuses)
@@ -207,7 +210,6 @@ class MainWindow(QMainWindow):
         self._tick.start()
         self._slow.start()
         self._show_rates()
-        DamageCheck(bench)
         self.shown.emit(bench)
         if self._ended:
             QTimer.singleShot(0, self, self.close)
@@ -248,6 +250,8 @@ class MainWindow(QMainWindow):
         """Close what is open, and show the first page; a recording that runs is kept."""
         if self.bench is None or self._ending or self._turns.going_on:
             return
+        if self.departure.holds(self.close_session, self._stay):
+            return
         bench, self._ending = self.bench, True
         self._remember(bench)
         self._tick.stop()
@@ -262,6 +266,11 @@ class MainWindow(QMainWindow):
             partial(self._not_closed, bench),
         )
 
+    def _stay(self) -> None:
+        """Go on with this session: nobody wants it closed any more, nor another one opened."""
+        self._ended = False
+        self.sessions.give_up()
+
     def _end(self, bench: Bench) -> None:
         self.settings.write()
         bench.end()
@@ -272,7 +281,7 @@ class MainWindow(QMainWindow):
         self._session_closed(bench)
 
     def _session_closed(self, bench: Bench) -> None:
-        self.bench, self._disk, self._ending = None, None, False
+        self.bench, self._trouble, self._ending = None, None, False
         self.docks.set_charts(None)
         self.pages.forget()
         self.live.forget()
@@ -330,8 +339,9 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{bench.desk.folder.name} · contactbench")
         self._rates.setText(self.live.rates())
         self.pages.watch()
-        if self._disk is not None:
-            self._disk.look()
+        self.departure.look()
+        if self._trouble is not None:
+            self._trouble.look()
         if bench.connected != self._connected:
             self._connected = not self._connected
             self.pages.read_statuses()
@@ -362,7 +372,10 @@ class MainWindow(QMainWindow):
             self.sessions.open(folder)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Close the session first, in a worker; then the window. Nothing is asked: nothing can be lost."""
+        """Close the session first, in a worker; then the window. Only about work that is going on it is asked."""
+        if self.bench is not None and not self._ending and self.departure.holds(self.close, self._stay):
+            event.ignore()
+            return
         self._ended = True
         if self._turns.going_on:  # closed as soon as the session is there
             event.ignore()

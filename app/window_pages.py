@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from contactbench.app.page import Page
+from contactbench.app.trouble_notice import show_trouble
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels
 
@@ -166,7 +167,13 @@ class Pages(QObject):
 
         desk = bench.desk
         self.statuses = statuses(
-            desk.state, desk.stale, bench.running, bench.connected, bench.failed, self._facts
+            desk.state,
+            desk.stale,
+            bench.running,
+            bench.connected,
+            bench.failed,
+            self._facts,
+            bench.trouble,
         )
         self.judged.emit(self.statuses)
         if self.step is not None:
@@ -177,6 +184,7 @@ class Pages(QObject):
         if status is not None and step in self._pages:
             page = self._pages[step]
             self._guarded(page, "show_state", status)
+            show_trouble(page, status)
 
     # ---- made --------------------------------------------------------------------------------------
 

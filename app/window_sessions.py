@@ -18,6 +18,7 @@ from contactbench.app.opening import (
     holds_session,
     new_session,
     open_session,
+    opened_up_to_damage,
     problem_with,
     salvaged,
     virtual_session,
@@ -27,13 +28,15 @@ from contactbench.app.start import session_name
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
+    from contactbench.pipeline.session.ways_in import WaysIn
+    from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 _NEEDED = (
     "contactbench.widgets.scene",
@@ -42,6 +45,14 @@ _NEEDED = (
     "contactbench.pipeline.workbench.standings",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
+
+
+_MOST_NAMED = 8
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = "…" if len(names) > _MOST_NAMED else ""
+    return ", ".join(names[:_MOST_NAMED]) + more
 
 
 class Sessions(QObject):
@@ -65,7 +76,8 @@ class Sessions(QObject):
     def __init__(self, start: StartPage, jobs: Jobs, settings: WindowSettings, window: MainWindow) -> None:
         super().__init__(window)
         self._window, self._why_read_only = window, ""
-        window.shown.connect(self._say_read_only)
+        self._history: UndoHistory | None = None
+        window.shown.connect(self._go_on_in)
         self._start, self._jobs, self._settings = start, jobs, settings
         self._next: Callable[[], None] | None = None
         self._waiting: OpenedSession | None = None
@@ -115,6 +127,11 @@ class Sessions(QObject):
             lambda: self._begin(title, lambda _p, _c: salvaged(folder, self._settings.sessions), None)
         )
 
+    def open_up_to_damage(self, folder: Path) -> None:
+        """Go on with a damaged session from where it is still whole; its journal as it was is kept beside."""
+        title = self.tr("Opening {} up to the damage").format(session_name(folder))
+        self._ask_for(lambda: self._begin(title, lambda _p, _c: opened_up_to_damage(folder), None, folder))
+
     def new(self, folder: Path) -> None:
         """Make a session."""
         title = self.tr("Making {}").format(session_name(folder))
@@ -148,6 +165,10 @@ class Sessions(QObject):
         if following is not None:
             following()
 
+    def give_up(self) -> None:
+        """Forget what was asked for: the session that is open stays."""
+        self._next = None
+
     def close(self) -> None:
         """Give back a session that waits for an answer."""
         waiting, self._waiting = self._waiting, None
@@ -172,9 +193,14 @@ class Sessions(QObject):
         self._start.set_busy(True)
 
         def prepared(progress: object, cancelled: object) -> OpenedSession:
-            for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
-                import_module(name)
-            return work(progress, cancelled)
+            opened = work(progress, cancelled)  # first: what cannot be opened is said at once
+            try:
+                for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
+                    import_module(name)
+            except BaseException:
+                opened.desk.close()
+                raise
+            return opened
 
         self._jobs.start(
             title,
@@ -185,7 +211,7 @@ class Sessions(QObject):
 
     def _came(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(False)
-        self._why_read_only = opened.why_read_only
+        self._why_read_only, self._history = opened.why_read_only, opened.history
         for sentence in opened.found:
             self.told.emit("warning", sentence, "")
         if not opened.unfinished:
@@ -219,9 +245,14 @@ class Sessions(QObject):
             ),
         )
 
-    def _say_read_only(self, bench: Bench) -> None:
+    def _go_on_in(self, bench: Bench) -> None:
+        """Have a session that is shown be as it was left, or say that nothing can be added to it."""
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
+        elif self._history is not None:
+            from contactbench.app.undo import UndoMemory  # brings what results are computed with
+
+            UndoMemory(bench, self._history)
 
     def _adopt(self, opened: OpenedSession, step: Step | None) -> None:
         self._start.set_busy(True)
@@ -257,14 +288,89 @@ class Sessions(QObject):
             sentence, details, _ = in_words(error)
             problem = OpeningProblem(self.tr("The session could not be opened: {}").format(sentence), False)
             self.told.emit("error", problem.sentence, details)
+        if folder is not None and problem.damaged:
+            self._look_at_damage(problem, folder)
+            return
         answers: list[tuple[str, Callable[[], None]]] = [(self.tr("Choose another session"), self.ask_open)]
         if folder is not None:
             if problem.readable:
                 answers.insert(0, (self.tr("Open read-only"), lambda: self.open(folder, write=False)))
-            if problem.damaged:
-                answers.insert(0, (self.tr("Salvage a copy"), lambda: self.salvage(folder)))
             answers.append((self.tr("Try again"), lambda: self.open(folder)))
         self._start.question.ask(problem.sentence, answers)
+
+    # ---- a damaged one -----------------------------------------------------------------------------
+
+    def _look_at_damage(self, problem: OpeningProblem, folder: Path) -> None:
+        """Find out what is left of a session, and ask."""
+        self._start.set_busy(True)
+
+        def look(_progress: object, _cancelled: object) -> WaysIn | None:
+            from contactbench.pipeline.session import SessionError
+            from contactbench.pipeline.session.ways_in import ways_in
+
+            try:
+                return ways_in(folder)
+            except SessionError:  # there is none: the problem says so itself
+                return None
+
+        def ask(ways: WaysIn | None) -> None:
+            self._start.set_busy(False)
+            self._ask_way_in(problem, folder, ways)
+
+        self._jobs.start(
+            self.tr("Looking at the damage of {}").format(session_name(folder)),
+            look,
+            ask,
+            lambda _error: ask(None),
+        )
+
+    def _ask_way_in(self, problem: OpeningProblem, folder: Path, ways: WaysIn | None) -> None:
+        others: list[tuple[str, Callable[[], None]]] = [
+            (self.tr("Choose another session"), self.ask_open),
+            (self.tr("Try again"), lambda: self.open(folder)),
+        ]
+        if ways is None:
+            self._start.question.ask(problem.sentence, others)
+            return
+        offered = [
+            (self.tr("Salvage a copy"), lambda: self.salvage(folder), self._cost_of_salvage(ways)),
+            (
+                self.tr("Open read-only"),
+                lambda: self.open(folder, write=False),
+                self.tr("Nothing is lost, and nothing can be added. All {} whole records are shown.").format(
+                    ways.before + ways.after
+                ),
+            ),
+        ]
+        if ways.before:
+            up_to = self.tr("Open up to the damage")
+            offered.append((up_to, lambda: self.open_up_to_damage(folder), self._cost_of_cutting(ways)))
+        answers = [(words, action) for words, action, _ in offered]
+        self._start.question.ask(
+            problem.sentence, [*answers, *others], costs=[cost for _, _, cost in offered]
+        )
+
+    def _cost_of_salvage(self, ways: WaysIn) -> str:
+        words = self.tr(
+            "All {} whole records go into a new session; this one stays as it is. What is lost: at least {}."
+        ).format(ways.before + ways.after, self._counted(ways.gaps))
+        if ways.doubtful:
+            words += " " + self.tr("To be done again: {}.").format(_listed(ways.doubtful))
+        if ways.files:
+            words += " " + self.tr("Files: {}").format(" ".join(ways.files[:_MOST_NAMED]))
+        return words
+
+    def _cost_of_cutting(self, ways: WaysIn) -> str:
+        words = self.tr(
+            "The first {} records go on as this session; {} after them are set aside, and the journal as it was is"
+            " kept beside."
+        ).format(ways.before, self._counted(ways.after + ways.gaps))
+        if ways.behind:
+            words += " " + self.tr("What is lost: {}.").format(_listed(ways.behind))
+        return words
+
+    def _counted(self, records: int) -> str:
+        return self.tr("1 record") if records == 1 else self.tr("{} records").format(records)
 
     def _place(self) -> Path:
         # The folder is not made before something is put into it.

@@ -12,7 +12,6 @@ from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
 from contactbench.app.undo import SetParameters
-from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
@@ -23,12 +22,10 @@ from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.live_trial import ConnectionTrial
     from contactbench.pipeline.workbench.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
 _HIGH = 40
-_BAD = (StreamState.SILENT, StreamState.LOST)
 
 
 class DevicesPage(Page):
@@ -41,7 +38,6 @@ class DevicesPage(Page):
         self._worker = ThreadPoolExecutor(1, "serial ports")
         self._ports: Future[list[SerialPort]] | None = None
         self._ports_at = self._trial_at = 0.0
-        self._told: StreamState | None = None
         self._opening = False
         self._refused = ("", "")  # the address that could not be opened, and why
         self._known = Devices.of(bench.desk.state)
@@ -149,7 +145,6 @@ class DevicesPage(Page):
         if self._opening:
             return
         self._opening = True
-        self._told = None
         self._allow()
         live = self.bench.live
 
@@ -222,7 +217,6 @@ class DevicesPage(Page):
             trial = trial_of(self.bench.live)
             self.trial.show_trial(trial)
             self.channels.show_trial(trial)
-            self._tell_changes(trial)
 
     def close_page(self) -> None:
         """End the look-out for ports."""
@@ -238,14 +232,3 @@ class DevicesPage(Page):
         elif now - self._ports_at >= _PORTS_EVERY_S:
             self._ports_at = now
             self._ports = self._worker.submit(list_ports)
-
-    def _tell_changes(self, trial: ConnectionTrial | None) -> None:
-        """Put into the message list that a device went away or came back."""
-        state = None if trial is None else trial.state
-        if trial is None or state is self._told:
-            return
-        before, self._told = self._told, state
-        if state in _BAD and trial.sentences:
-            self.bench.tell(Weight.WARNING, trial.sentences[0])
-        elif state is StreamState.STREAMING and before in _BAD:
-            self.bench.tell(Weight.GOOD, self.tr("The sensor is back: readings come again."))

@@ -63,7 +63,8 @@ class ExportPage(Page):
         super().__init__(bench, parent)
         self.view: ExportView | None = None
         self.exported: ExportedBundle | None = None
-        self._read_at, self._busy, self._shown = -1, False, False
+        self._busy = self._shown = False
+        self._read_at: tuple[int, object] = (-1, None)
         self._looking = self._closed = False
         self._build()
         self._allow()
@@ -133,27 +134,28 @@ class ExportPage(Page):
 
     def _look(self) -> None:
         """Have the checklist and a bundle in memory made, if the session changed, while the page is shown."""
-        state = self.bench.desk.state
-        if self._closed or not self._shown or self._looking or state.count == self._read_at:
+        state, trouble = self.bench.desk.state, self.bench.trouble
+        key = (state.count, trouble)
+        if self._closed or not self._shown or self._looking or key == self._read_at:
             return
         try:
             self.settings.show_options(ExportOptions.stored(state.settings), self._setting("devices.serial"))
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
-        self._looking, count = True, state.count
+        self._looking = True
 
         def came(view: ExportView) -> None:
-            self._looking, self._read_at, self.view = False, count, view
+            self._looking, self._read_at, self.view = False, key, view
             if self._closed:
                 return
             self._show(view)
             self._look()  # it may have changed meanwhile
 
         def wrong(error: BaseException) -> None:
-            self._looking, self._read_at = False, count
+            self._looking, self._read_at = False, key
             self._said(error)
 
-        self.bench.do(self.tr("Looking at the bundle"), survey, came, wrong)
+        self.bench.do(self.tr("Looking at the bundle"), lambda session: survey(session, trouble), came, wrong)
 
     def _setting(self, key: str) -> str:
         setting = self.bench.desk.state.settings.get(key)
@@ -250,7 +252,7 @@ class ExportPage(Page):
             ExportOptions.stored(settings, given).settings()
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
-            self._read_at = -1
+            self._read_at = (-1, None)
             self._look()
             return
         plain, usual = before.model_dump(mode="json"), ExportOptions().model_dump(mode="json")

@@ -150,8 +150,10 @@ class GravityPage(Page):
         if run.problem:
             panel.problem.show_verdict(REFUSE, [run.problem], self.tr("This did not work"))
         panel.intro.setVisible(run.phase is Phase.IDLE and outcome is None)
-        panel.state.setVisible(capturing or checking)
-        panel.sentence.setVisible(capturing or checking)
+        # No "captured" beside what is wrong: while nothing is recorded, nothing is captured.
+        well = not (run.problem or self.bench.trouble.devices or self.bench.trouble.disk)
+        panel.state.setVisible((capturing or checking) and well)
+        panel.sentence.setVisible((capturing or checking) and well)
         panel.automatic.setVisible(
             capturing or (run.phase is Phase.IDLE and outcome is None and not self._locked)
         )

@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from contactbench.app.bench import Weight
-from contactbench.app.undo import Exchange
+from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench import gravity_results as results
@@ -26,6 +26,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import SessionTape
+from contactbench.pipeline.workbench.undo_history import Deed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -226,14 +227,15 @@ class GravityRun(QObject):
             return
         self._end_following()
         self.set_phase(Phase.FINISHING)
-        desk = self.bench.desk
+        desk, deed = self.bench.desk, Deed(self.tr("calibrate gravity"))
 
         def compute(_progress: object, _cancelled: object) -> tuple[GravityOutcome, str]:
             tape.keep().result()
             work.finish()
             work.wait()
             left = work.left_out
-            made = desk.do(lambda session: results.finish(session, tape.name, left, earlier)).result()
+            finish = deed.around(lambda session: results.finish(session, tape.name, left, earlier))
+            made = desk.do(finish).result()
             return made, results.difference(work.view().solved.calibration, made)
 
         def done(made: tuple[GravityOutcome, str]) -> None:
@@ -241,6 +243,7 @@ class GravityRun(QObject):
             self._end_work()
             self.set_phase(Phase.IDLE)
             self.set_outcome(outcome)
+            push_done(self.bench, deed)
             verdict = outcome.calibration.verdict
             weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
             self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
@@ -311,10 +314,20 @@ class GravityRun(QObject):
             self.start(self._wanted)
         if self._tape is not None and self.phase in {Phase.CAPTURING, Phase.CHECKING}:
             self._tell_findings(self._tape.findings)
+            if self._tape.error:
+                self._cut_short(self._tape.error)
         if self.work is not None:
             self._tell_found(self.work.solved.findings)
         if self.phase is Phase.CHECKING and self.check is not None and self.check.found is not None:
             self._set_checked(self.check.found)
+
+    def _cut_short(self, why: str) -> None:
+        """Take no more poses: what is not recorded does not count, and must not look as if it did."""
+        if self.problem != why:
+            self._end_following()
+            self.problem = why
+            self.bench.set_failed(Step.GRAVITY, why)
+            self.changed.emit()
 
     def _tell_found(self, found: Sequence[GravityFinding]) -> None:
         """Tell of poses and conventions that are wrong: once in a run, and not by how many poses there are."""
@@ -374,7 +387,9 @@ class GravityRun(QObject):
         names = ", ".join(row.name for row in rows)
         text = self.tr("leave out {poses}") if left_out else self.tr("take back {poses}")
         before, after = ((moments, each) for each in (not left_out, left_out))
-        self.bench.undo.push(Exchange(text.format(poses=names), before, after, self._put_left_out))
+        self.bench.undo.push(
+            Exchange(self.bench, text.format(poses=names), before, after, self._put_left_out)
+        )
 
     def _put_left_out(self, wanted: tuple[Sequence[float], bool]) -> None:
         moments, left_out = wanted
@@ -425,7 +440,7 @@ class GravityRun(QObject):
         """Set parameters of the session, and compute anew; can be undone."""
         known = self.bench.desk.state.settings
         old = [(key, known[key].value if key in known else _BEFORE[key]) for key, _ in new]
-        self.bench.undo.push(Exchange(text, old, new, self._put_parameters))
+        self.bench.undo.push(Exchange(self.bench, text, old, new, self._put_parameters))
 
     def _put_parameters(self, values: Sequence[tuple[str, Any]]) -> None:
         again = self.phase is Phase.IDLE and self.outcome is not None and self.outcome.changeable

@@ -17,7 +17,7 @@ from contactbench.app.pages.probe_sections import (
     NextBar,
     SurfaceSection,
 )
-from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, key_of
+from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.controls import PanelScroll, accent, column, plain_label
@@ -187,7 +187,7 @@ class ProbePage(Page):
             self.bench.scene.picked.connect(self._picked)
         self._here = True
         self.place.choose_tool()
-        if self.stages.known != key_of(self.bench.desk.state) and not self.stages.worker.busy:
+        if not self.stages.up_to_date and not self.stages.worker.busy:
             self.stages.reload()
         self._draw(True)
         self._show()
@@ -205,8 +205,12 @@ class ProbePage(Page):
     def show_state(self, status: StepStatus) -> None:
         """Show what changed in the session, unless it is this page's own doing."""
         self.setAccessibleDescription(said(status.sentence))
-        known = self.stages.known == key_of(self.bench.desk.state)
-        if not known and self._here and not self.stages.using and not self.stages.worker.busy:
+        if (
+            not self.stages.up_to_date
+            and self._here
+            and not self.stages.using
+            and not self.stages.worker.busy
+        ):
             self.stages.reload()
         elif not self.stages.worker.busy:
             self._show()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -13,7 +13,8 @@ from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_hou
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork, commit
+from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork
+from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
 from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
 from contactbench.pipeline.workbench.steps import Step
@@ -161,10 +162,14 @@ class ProbeStages(QObject):
         self.preview: ProbePreview | None = None
         self.asked = self.in_use = self.using = False
         self.known: object = ()
+        self._writing = 0  # stages that are on their way into the session
+        self._unkept = ""  # what was chosen since, in words; empty: nothing
+        self._compared: tuple[object, Ladder] | None = None  # of what, and what fewer facets cost it
         self.view = ProbeView(bench.scene, self.tr("deviation, mm"))
         self.worker = ProbeWorker(bench, bar, self.wrong, self.changed.emit)
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
-        self._settle.timeout.connect(self._prepare)
+        self._settle.timeout.connect(self._settled)
+        bench.mended.connect(self._keep_again)
 
     def wrong(self, sentence: str) -> None:
         """Say what went wrong, here and in the list."""
@@ -172,10 +177,81 @@ class ProbeStages(QObject):
         self.bench.tell(Weight.ERROR, sentence)
 
     def close(self) -> None:
-        """Stop what runs, and remove the copies of meshes."""
-        self._settle.stop()
+        """Keep what was chosen, stop what runs, and remove the copies of meshes."""
+        self.keep_now()
         self.worker.stop()
-        self.work.close()
+        # In the desk's order: what is on its way into the session is read from them.
+        self.bench.desk.do(lambda _session: self.work.close())
+
+    # ---- in the session --------------------------------------------------------------------------
+
+    @property
+    def up_to_date(self) -> bool:
+        """Whether what is shown is what the session says, or is on its way there."""
+        return bool(self._writing or self._unkept) or self.known == key_of(self.bench.desk.state)
+
+    def _keep(self, text: str) -> None:
+        """Put this stage into the session, as a step that can be undone; `text` says what was done."""
+        mesh, plan, self._unkept = self.mesh, self.plan, ""
+        if mesh is None:
+            return
+        self._writing += 1
+        self.bench.undo.push(
+            SessionCommand(
+                self.bench,
+                text,
+                lambda session: keep_draft(session, mesh, plan),
+                lambda _: self._kept(),
+                self._not_kept,
+                self.reload,
+            )
+        )
+
+    def _keep_quietly(self) -> None:
+        """Put into the session what followed by itself: no step of its own."""
+        mesh, plan = self.mesh, self.plan
+        if mesh is None or self.in_use or self._unkept:
+            return
+        self._writing += 1
+        self.bench.do(
+            self.tr("keep the probe's draft"),
+            lambda session: keep_draft(session, mesh, plan),
+            lambda _: self._kept(),
+            self._not_kept,
+        )
+
+    def _kept(self) -> None:
+        self._writing -= 1
+        if not self._writing:
+            self.known = key_of(self.bench.desk.state)
+
+    def _not_kept(self, error: BaseException) -> None:
+        self._writing -= 1
+        self._unkept = self.tr("keep the probe's draft")
+        self.bench.set_failed(Step.PROBE, str(error))
+        self.wrong(str(error))
+
+    def _keep_again(self) -> None:
+        """Keep what a disk refused that can be written again."""
+        if self._unkept:
+            self.bench.set_failed(Step.PROBE, "")
+            self.keep_now()
+
+    def keep_now(self) -> None:
+        """Keep what was chosen a moment ago."""
+        self._settle.stop()
+        if self._unkept:
+            self._keep(self._unkept)
+
+    def _choose_soon(self, text: str) -> None:
+        """Keep what was chosen as soon as nothing else follows: arrow keys may go on."""
+        self._unkept = text
+        self._settle.start()
+
+    def _settled(self) -> None:
+        self.keep_now()
+        if self.dense is not None and self.in_sensor_frame and self.preview is None:
+            self._prepare()
 
     # ---- the mesh --------------------------------------------------------------------------------
 
@@ -199,12 +275,14 @@ class ProbeStages(QObject):
 
     def _taken(self, mesh: Mesh) -> None:
         self._begin(mesh, ProbePlan(), asked=mesh.unit_asked)
+        self._keep(self.tr("take the mesh {}").format(mesh.file.name))
         if not mesh.unit_asked:
             self.make_surface()
 
     def _housing_taken(self, housing: Housing) -> None:
         plan = ProbePlan(units=housing.units, alpha=housing.alpha_mm, alignment=housing.alignment)
         self._begin(housing.mesh, plan, asked=False)
+        self._keep(self.tr("take the mesh {}").format(housing.mesh.file.name))
         self.make_surface()
 
     def _begin(self, mesh: Mesh, plan: ProbePlan, *, asked: bool) -> None:
@@ -229,6 +307,7 @@ class ProbeStages(QObject):
 
     def _unit_said(self, mesh: Mesh, unit: str) -> None:
         self._begin(mesh, replace(self.plan, units=unit), asked=False)
+        self._keep(self.tr("say the mesh's unit"))
         self.make_surface()
 
     # ---- the outer surface, and where it lies ------------------------------------------------------
@@ -238,6 +317,7 @@ class ProbeStages(QObject):
         self.worker.stop()
         self.plan = replace(self.plan, close=close, alpha=alpha)
         self._drop(surface=True)
+        self._choose_soon(self.tr("choose how the outer surface is made"))
         self.redraw.emit(False)
         self.changed.emit()
 
@@ -263,6 +343,7 @@ class ProbeStages(QObject):
         mesh, dense = self.mesh, self.dense
         self.plan = replace(self.plan, alignment=alignment)
         self._drop()
+        self._keep(self.tr("place the mesh"))
         self.aligned.emit(alignment, notes)
         if mesh is None:
             return
@@ -284,10 +365,17 @@ class ProbeStages(QObject):
         return base or self.plan.alignment is not None
 
     def _measure_if_placed(self) -> None:
-        if self.dense is not None and self.in_sensor_frame:
-            self.measure()
-        else:
+        if self.dense is None or not self.in_sensor_frame:
             self.changed.emit()
+        elif self._compared is not None and self._compared[0] == self._surface:
+            self._measured(self._compared[1])
+        else:
+            self.measure()
+
+    @property
+    def _surface(self) -> object:
+        """What a comparison of numbers of facets rests on."""
+        return (self.mesh, replace(self.plan, **dict.fromkeys(TARGETS)))
 
     # ---- how many facets ---------------------------------------------------------------------------
 
@@ -302,9 +390,11 @@ class ProbeStages(QObject):
             )
 
     def _measured(self, ladder: Ladder) -> None:
+        self._compared = (self._surface, ladder)
         self.trade = trade_of(ladder)
         if all(getattr(self.plan, name) is None for name in TARGETS):
             self.plan = replace(self.plan, facets=self.trade.advised)
+        self._keep_quietly()
         self._prepare()
 
     def keep(self, facets: int) -> None:
@@ -317,9 +407,8 @@ class ProbeStages(QObject):
             return
         self.plan = plan
         self._drop(ladder=False)
+        self._choose_soon(self.tr("choose the number of facets"))
         self.changed.emit()
-        if self.dense is not None and self.in_sensor_frame:
-            self._settle.start()  # arrow keys may go on
 
     def _prepare(self) -> None:
         mesh, plan = self.mesh, self.plan
@@ -344,11 +433,12 @@ class ProbeStages(QObject):
         if preview is None:
             return
         self.using = True
+        self.keep_now()
         self.bench.undo.push(
             SessionCommand(
                 self.bench,
                 self.tr("use the probe"),
-                lambda session: commit(session, preview),
+                lambda session: use_draft(session, preview),
                 lambda _: self._used(preview),
                 self._not_used,
                 self.reload,
@@ -376,28 +466,37 @@ class ProbeStages(QObject):
     # ---- what the session has ------------------------------------------------------------------------
 
     def reload(self) -> None:
-        """Show the session's probe, and how it was made."""
-        self.known = key_of(self.bench.desk.state)
+        """Show what is being prepared or, without a draft, the session's probe and how it was made."""
+        self._settle.stop()
+        self._unkept = ""
+        state = self.bench.desk.state
+        self.known = key_of(state)
 
-        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Any:
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> _Found:
+            draft = draft_of(state)
+            if draft is not None:
+                mesh = self.work.kept(draft.mesh, draft.plan.units, progress, cancelled)
+                return _Found((mesh, draft.plan), _shown(mesh, None, draft.plan.alignment), None)
             known = self.work.restore(progress, cancelled)
             # The original where it belongs: in its own frame it would seem misplaced.
             shown = Shown() if known is None else _shown(known[0], None, known[1].alignment)
-            return known, shown, used_probe(self.bench.desk)
+            return _Found(known, shown, used_probe(self.bench.desk))
 
         self.worker.start(self.tr("Opening the probe"), work, self._restored)
 
-    def _restored(self, found: tuple[tuple[Mesh, ProbePlan] | None, Shown, Probe | None]) -> None:
-        known, shown, used = found
-        if known is None:
-            self.mesh, self.plan = None, ProbePlan()
+    def _restored(self, found: _Found) -> None:
+        if found.known is None:
+            self.mesh, self.plan, self.asked = None, ProbePlan(), False
             self._drop(surface=True)
         else:
-            self._begin(*known, asked=False)
-        self.view.shown = shown
-        self.view.used, self.in_use = used, used is not None
+            mesh, plan = found.known
+            self._begin(mesh, plan, asked=mesh.unit_asked and found.used is None)
+        self.view.shown = found.shown
+        self.view.used, self.in_use = found.used, found.used is not None
         self.redraw.emit(True)
         self.changed.emit()
+        if found.known is not None and not self.in_use and not self.asked:
+            self.make_surface()  # and what follows from it: it goes on where it was left
 
     # ---- what holds --------------------------------------------------------------------------------
 
@@ -413,6 +512,15 @@ class ProbeStages(QObject):
             self.view.shown = replace(self.view.shown, dense=None)
 
 
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """What a session has."""
+
+    known: tuple[Mesh, ProbePlan] | None
+    shown: Shown
+    used: Probe | None  # None: it is a draft, or there is none
+
+
 def _shown(mesh: Mesh, dense: Dense | None, alignment: Alignment | None) -> Shown:
     """Put what there is in its place; for a worker."""
     meshes = (mesh.original.probe, None if dense is None else dense.content.probe)
@@ -425,4 +533,5 @@ def _shown(mesh: Mesh, dense: Dense | None, alignment: Alignment | None) -> Show
 def key_of(state: State) -> object:
     """Return what tells one probe of the session from another."""
     recipe = recipe_of(state)
-    return None if recipe is None else (recipe.inputs.get("mesh"), recipe.result and recipe.result.number)
+    used = None if recipe is None else (recipe.inputs.get("mesh"), recipe.result and recipe.result.number)
+    return used, state.setting(DRAFT)

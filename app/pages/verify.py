@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtWidgets import QTabWidget, QWidget
@@ -15,11 +16,12 @@ from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
 from contactbench.app.pages.verify_settings import VerifySettingsPanel
 from contactbench.app.pages.verify_touch import TouchPanel
 from contactbench.app.pages.verify_virtual import Toucher
-from contactbench.app.undo import SetParameters
+from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify import (
     TouchTool,
     VerifyOutcome,
@@ -56,6 +58,7 @@ class VerifyPage(Page):
         self.work = VerifyWork(bench.desk, bench.live)
         self.toucher, self.scene_view = Toucher(bench, self), VerifyScene(bench)
         self._entered = self._busy = self._closed = False
+        self._broken = ""  # what is wrong with a file behind the verification
         self._read_at, self._told = -1, tuple[str, ...]()
         self._loading: object = None
         self._job: Job | None = None
@@ -126,6 +129,9 @@ class VerifyPage(Page):
         self.locked.setVisible(locked)
         self.go.setVisible(bool(missing))
         self.tabs.setVisible(not locked)
+        if self._broken != (broken := status.sentence if status.broken else ""):
+            self._broken = broken
+            self._show_outcome(self.work.outcome)
         self._read()
         self._allow()
 
@@ -151,6 +157,10 @@ class VerifyPage(Page):
         for sentence in self._told:
             if sentence not in before:
                 self.bench.tell(Weight.WARNING, sentence)
+        if self.work.error:
+            self.work.pause()
+            self.panel_touch.say(self.work.error)
+            self.bench.set_failed(Step.VERIFY, self.work.error)
         if before and not self._told and self.work.going_on:
             self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
         self.panel_point.poll()
@@ -238,6 +248,8 @@ class VerifyPage(Page):
         self.bench.jobs.start(self.tr("Loading the probe"), work, came, wrong)
 
     def _show_outcome(self, outcome: VerifyOutcome | None) -> None:
+        if outcome is not None:
+            outcome = replace(outcome, broken=self._broken)
         self.work.take_outcome(outcome)
         self.panel_result.show_outcome(self.work.outcome)
 
@@ -304,7 +316,10 @@ class VerifyPage(Page):
             return
         self.toucher.end()
 
+        deed = Deed(self.tr("verify"))
+
         def judged(outcome: VerifyOutcome | None) -> None:
+            push_done(self.bench, deed)
             if outcome is not None:
                 self._show_outcome(outcome)
                 self.panel_touch.say("")  # what was wrong while it was recorded: the verdict says it better
@@ -317,7 +332,7 @@ class VerifyPage(Page):
                 good = outcome.passed
                 self.bench.tell(Weight.GOOD if good else Weight.WARNING, passed if good else failed)
 
-        self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(), judged)
+        self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(deed), judged)
 
     def discard(self) -> None:
         """End it without a verdict."""

@@ -173,7 +173,8 @@ class MarkersPanel(QWidget):
         """Have other markers, as a step that can be undone."""
         before = self._work.markers
         if after != before:
-            self._bench.undo.push(Exchange(text, before, after, lambda markers: self._use(markers, text)))
+            put = lambda markers: self._use(markers, text)  # noqa: E731
+            self._bench.undo.push(Exchange(self._bench, text, before, after, put))
 
     def _use(self, markers: Markers, text: str) -> None:
         self.pending += 1

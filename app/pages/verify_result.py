@@ -49,12 +49,15 @@ class ResultPanel(QWidget):
         self.open.setVisible(self._report is not None)
         self.open.setToolTip(str(self._report or ""))
         self.again.setVisible(outcome is not None)
-        self.go_on.setVisible(outcome is not None and outcome.passed and not outcome.stale)
+        holds = outcome is not None and outcome.passed and not (outcome.stale or outcome.broken)
+        self.go_on.setVisible(holds)
         if outcome is None:
             self._put(self.tr("Not verified yet"), "ready", "muted")
             self._texts("", "", "", "", "", "", "")
             return
-        if outcome.stale:
+        if outcome.broken:
+            self._put(self.tr("Does not count"), "failed", "bad")
+        elif outcome.stale:
             self._put(self.tr("Stale: verify again"), "stale", "stale")
         elif outcome.passed:
             self._put(self.tr("Passed"), "done", "good")
@@ -117,7 +120,7 @@ class ResultPanel(QWidget):
         return "\n".join(lines)
 
     def _why(self, outcome: VerifyOutcome) -> str:
-        lines = [outcome.stale] if outcome.stale else []
+        lines = [outcome.stale] if outcome.stale and not outcome.broken else []
         lines += [
             f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.found.verdict.reasons
         ]

@@ -11,7 +11,7 @@ from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.session.content import content_of
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
     own_file,
@@ -26,11 +26,13 @@ from contactbench.pipeline.session.migrate import origin_problems
 from contactbench.pipeline.session.sources import sources_of
 from contactbench.pipeline.session.state import fold
 from contactbench.pipeline.session.store import Session
+from contactbench.pipeline.session.ways_in import upright
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.content import Content
 
 
@@ -79,14 +81,38 @@ def check_journal(
     refs = {(ref.path, ref.sha256): ref for record in content.records for ref in files_of(record.action)}
     problems = []
     for done, ref in enumerate(refs.values(), 1):
-        if wrong := wrong_with(folder, ref):
-            problems.append(f"{wrong}: take it from an archive, or add the original again.")
+        if wrong := file_problem(folder, ref):
+            problems.append(wrong)
         if progress is not None:
             progress(done, len(refs))
-    problems += [f"{each}." for each in origin_problems(folder, content.origins)]
-    problems += _no_recordings(folder)
+    problems += _others(folder, content)
     notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs}), *_inputs_lost(content)]
     return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
+
+
+def file_problem(folder: Path, ref: FileRef) -> str:
+    """Say what is wrong with a file, and the remedy; empty: nothing. Reads all of it."""
+    wrong = wrong_with(folder, ref)
+    return f"{wrong}: take it from an archive, or add the original again." if wrong else ""
+
+
+def other_problems(folder: Path) -> tuple[str, ...]:
+    """
+    Say what is wrong with a session besides the files that its records refer to.
+
+    Raises
+    ------
+    SessionError
+        Its journal cannot be read at all.
+    """
+    try:
+        return tuple(_others(folder, content_of(folder, read_journal(folder))))
+    except JournalError as error:
+        return (str(error),)
+
+
+def _others(folder: Path, content: Content) -> list[str]:
+    return [*(f"{each}." for each in origin_problems(folder, content.origins)), *_no_recordings(folder)]
 
 
 def _inputs_lost(content: Content) -> list[str]:
@@ -132,18 +158,24 @@ class Repair:
     left: tuple[str, ...] = ()  # Why others stay where they are, in sentences
 
 
-def repair(folder: Path) -> Repair:
+def repair(folder: Path, *, up_to_damage: bool = False) -> Repair:
     """
     Cut off what follows the last whole record, if no whole record follows it, and adopt recordings that ended abruptly.
 
     The journal as it was is kept beside.
+
+    Parameters
+    ----------
+    folder : path
+    up_to_damage : bool
+        Cut off all that follows the damage, also whole records; see `ways_in` for what that is.
 
     Raises
     ------
     SessionError
         Another process writes the session, whole records follow the damage, or the disk fails.
     """
-    done = _repair_journal(folder)
+    done = _repair_journal(folder, up_to_damage=up_to_damage)
     if not unfinished(folder):
         return done
     with Session.open(folder) as session:
@@ -151,13 +183,13 @@ def repair(folder: Path) -> Repair:
     return replace(done, adopted=adopted, left=left)
 
 
-def _repair_journal(folder: Path) -> Repair:
+def _repair_journal(folder: Path, *, up_to_damage: bool) -> Repair:
     read_journal(folder)  # no lock is left in a folder that is no session
     lock = Lock(folder)
     try:
         data = read_journal(folder)
-        found = frames.scan(data)
-        if not found.torn and not found.last:
+        found = upright(folder, data) if up_to_damage else frames.scan(data)
+        if not found.torn and not found.last and not (up_to_damage and found.damage and found.frames):
             refuse_damage(folder, found)
             return Repair("The journal is whole: nothing was done.")
         if not found.frames:

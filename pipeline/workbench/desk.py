@@ -30,12 +30,15 @@ class Desk:
     ----------
     refuses : bool
         Whether the last write failed, as on a full disk; see `Session.recover`.
+    closed : bool
+        Nothing may be asked of it any more.
     """
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self._state, self._stale = session.state, session.stale()
         self.refuses = False
+        self.closed = False
         self._listeners: list[Callable[[], None]] = []
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="desk")
 
@@ -94,5 +97,6 @@ class Desk:
 
     def close(self) -> None:
         """Wait for what was asked, and close the session."""
+        self.closed = True
         self._thread.shutdown(wait=True)
         self._session.close()

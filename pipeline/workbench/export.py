@@ -15,13 +15,17 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.check import file_problem
 from contactbench.pipeline.workbench.standings import (
     RESULTS,
     CheckItem,
+    broken_behind,
     checklist,
+    files_of_bundle,
     refuse_without,
     results_of,
 )
+from contactbench.pipeline.workbench.trouble import NO_TROUBLE, SessionTrouble
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -70,9 +74,11 @@ class ExportedBundle:
     sentence: str  # What loading it found
 
 
-def survey(session: Session) -> ExportView:
-    """Say what a bundle of a session would be; builds it in memory."""
-    items = checklist(session.folder, session.state, session.stale())
+def survey(session: Session, trouble: SessionTrouble = NO_TROUBLE) -> ExportView:
+    """Say what a bundle of a session, with what is wrong with it, would be; builds it in memory."""
+    items = checklist(session.folder, session.state, session.stale(), trouble)
+    if broken := broken_behind(session.state, trouble):
+        return ExportView(items, None, broken)
     try:
         refuse_without(session.state)
         config = built(session, unverified=True)
@@ -116,6 +122,7 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
     ConfigError, InputError
         It cannot be made or written; what was at `place` stays.
     """
+    refuse_broken(session)
     config = built(session, unverified=unverified)
     config.write(place)
     found = RuntimeConfig.load(place)
@@ -126,6 +133,13 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
         )
     record(session, place, sha256, verified=found.model.verified)
     return ExportedBundle(place, sha256, found.model.verified, _checked(found, place))
+
+
+def refuse_broken(session: Session) -> None:
+    """InputError if a file behind the results that a bundle is made of is missing or damaged; reads them all."""
+    for ref in files_of_bundle(session.state):
+        if broken := file_problem(session.folder, ref):
+            raise InputError(broken)
 
 
 def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:

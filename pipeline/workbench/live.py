@@ -413,6 +413,11 @@ class Live:
             self._followers.append(follower)
         return lambda: self._drop(self._followers, follower)
 
+    @property
+    def taped(self) -> bool:
+        """Whether what the devices give is being recorded."""
+        return bool(self._taps)
+
     def tap(self, tap: Tap) -> Callable[[], None]:
         """Have all that the devices give handed to `tap`, until they are closed; returns what ends that before."""
         with self._lock:

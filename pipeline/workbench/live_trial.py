@@ -19,6 +19,14 @@ _LOOK_S = 5.0
 _FEWEST = 50  # readings before a noise is told
 _GAP = 2.5  # times the usual interval
 _CLOSE = 0.8  # of the range
+_GONE = {
+    StreamState.SILENT: "The sensor is silent: nothing more comes. Check its cable and power; it goes on by itself.",
+    StreamState.LOST: "The sensor is gone: plug it in again. It goes on by itself as soon as it is back.",
+}
+_NO_POSES = (
+    "No poses come, so the orientation is not known: check the robot's address and cable. They go on by"
+    " themselves."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +81,17 @@ def trial_of(live: Live) -> ConnectionTrial | None:
     )
 
 
+def gone(live: Live) -> str:
+    """Say that a device went away that was there, and what to do; empty: none did."""
+    health, pair = live.health, live.pair
+    if health is None or pair is None or pair.finished:
+        return ""
+    sensor, poses = health
+    if sensor.state in _GONE:
+        return _GONE[sensor.state]
+    return _NO_POSES if poses is not None and poses.state in _GONE else ""
+
+
 def _gaps(times: NDArray[np.float64]) -> tuple[int, float]:
     if len(times) < 3:
         return 0, 0.0
@@ -87,19 +106,12 @@ def _states(sensor: Health, poses: Health | None, finished: bool) -> list[str]:
         said.append("The recording is at its end: choose it again to play it once more.")
     elif sensor.state is StreamState.CONNECTING:
         said.append("The sensor does not answer yet: check that it has power and that its cable is in.")
-    elif sensor.state is StreamState.SILENT:
-        said.append(
-            "The sensor is silent: nothing more comes. Check its cable and power; it goes on by itself."
-        )
-    elif sensor.state is StreamState.LOST:
-        said.append("The sensor is gone: plug it in again. It goes on by itself as soon as it is back.")
+    elif sensor.state in _GONE:
+        said.append(_GONE[sensor.state])
     said += [*sensor.findings, *sensor.suspicions]
     if poses is not None and not finished:
         if poses.state in {StreamState.CONNECTING, StreamState.SILENT, StreamState.LOST}:
-            said.append(
-                "No poses come, so the orientation is not known: check the robot's address and cable."
-                " They go on by themselves."
-            )
+            said.append(_NO_POSES)
         said += [*poses.findings, *poses.suspicions]
     return said
 

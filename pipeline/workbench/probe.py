@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import shutil
 import tempfile
+from collections import OrderedDict
 from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from functools import partial
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.
 _COPIED = 0.1
+_REMEMBERED = 2  # meshes: the one that is prepared, and what an undo goes back to
 ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
 
 
@@ -128,6 +130,7 @@ class ProbeWork:
         self.desk = desk
         self._scratch = tempfile.TemporaryDirectory(prefix=PREFIX)
         self._number = count()
+        self._taken: OrderedDict[tuple[str, str], Mesh] = OrderedDict()  # (hash, units) -> what was seen last
 
     def close(self) -> None:
         """Remove the copies."""
@@ -184,6 +187,31 @@ class ProbeWork:
         alignment = alignment_of(given, files.get("alignment"))
         plan = ProbePlan(alignment=alignment, **{name: getattr(given, name) for name in known})
         return self.take(files["mesh"], plan.units, progress, cancelled), plan
+
+    def kept(self, content: str, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
+        """
+        Return a mesh that the session keeps, in a unit.
+
+        Parameters
+        ----------
+        content : str
+            `Input.content` of it. What was taken or asked for last is not looked at again.
+        units : str
+        progress, cancelled : callable, optional
+
+        Raises
+        ------
+        SessionError
+            The session does not hold it, or it cannot be read.
+        """
+        known = self._taken.get((content, units))
+        if known is None:
+            files = lay_out(self.desk.folder, self.desk.state, {"mesh": content}, self._place())
+            known = self._taken[content, units] = self.take(files["mesh"], units, progress, cancelled)
+        self._taken.move_to_end((content, units))
+        while len(self._taken) > _REMEMBERED:
+            self._taken.popitem(last=False)
+        return known
 
     @property
     def has_regions(self) -> bool:

@@ -11,12 +11,14 @@ from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.workbench.trouble import NO_TROUBLE, SessionTrouble, files_behind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
     from contactbench.pipeline.session import State
+    from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.state import Input, Result
 
     Content = dict[str, Any]
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
 SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.serial", "devices.mount"
 RESULTS = "export.results"
+_MADE_OF = ("calibration", "probe", "verification", *CHECK_KINDS, "report")  # of these, a bundle
+PROBE_DRAFT = "draft.probe"  # as `probe_draft` keeps it; here without what that needs
 
 
 class CheckState(StrEnum):
@@ -86,6 +90,7 @@ class Judged:
     found: Result | Input | None  # None: there is none, or somebody undid or rejected it
     state: CheckState
     why: str = ""  # Why it was rejected, is stale or failed
+    broken: str = ""  # What is wrong with a file behind it: it does not count, whatever it says
     reasons: tuple[str, ...] = ()  # Of its verdict
 
     @property
@@ -105,10 +110,13 @@ class Judge:
         As `Session.stale` says.
     facts : mapping
         As `read_facts` says; a kind that is left out is taken to be good.
+    trouble : SessionTrouble, optional
     """
 
-    def __init__(self, state: State, stale: Stale, facts: Facts) -> None:
-        self.state, self._stale, self._facts = state, stale, facts
+    def __init__(
+        self, state: State, stale: Stale, facts: Facts, trouble: SessionTrouble = NO_TROUBLE
+    ) -> None:
+        self.state, self.trouble, self._stale, self._facts = state, trouble, stale, facts
 
     def of(self, kind: str) -> Judged:
         """Return how the newest result of a kind stands."""
@@ -117,6 +125,8 @@ class Judge:
             return Judged(None, CheckState.MISSING)
         if found.rejected:
             return Judged(None, CheckState.FAILED, "" if found.mark is None else found.mark.reason)
+        if broken := self.trouble.behind(self.state, found):
+            return Judged(found, CheckState.FAILED, broken, broken)
         if reasons := self._stale.get(found.slot, ()):
             return Judged(found, CheckState.STALE, reasons[0])
         verdict = self.verdict(kind)
@@ -128,7 +138,7 @@ class Judge:
             else kind == "verification" and kind in self._facts and verdict.get("passed") is not True
         )
         why = said[0] if said else ""
-        return Judged(found, CheckState.FAILED if failed else CheckState.DONE, why, said)
+        return Judged(found, CheckState.FAILED if failed else CheckState.DONE, why, reasons=said)
 
     def fact(self, kind: str, name: str) -> Any:
         """Return what the file of a kind's newest result has under a name; None: nothing."""
@@ -161,6 +171,7 @@ def statuses(
     connected: bool,
     failed: Mapping[Step, str],
     facts: Facts | None = None,
+    trouble: SessionTrouble = NO_TROUBLE,
 ) -> dict[Step, StepStatus]:
     """
     Say how every step stands.
@@ -178,8 +189,10 @@ def statuses(
         Step -> what went wrong there last, in a sentence, until it is done again.
     facts : mapping, optional
         As `read_facts` says; left out, results are taken to be good.
+    trouble : SessionTrouble, optional
+        What is wrong with the session: the steps that rest on it, and the export, have failed until it is mended.
     """
-    judge = Judge(state, stale, facts or {})
+    judge = Judge(state, stale, facts or {}, trouble)
     missing = _missing(judge)
     known = {
         Step.DEVICES: StepStatus(*_devices(state, connected)),
@@ -189,16 +202,50 @@ def statuses(
         Step.VERIFY: StepStatus(*((StepState.LOCKED, missing) if missing else _verify(judge))),
         Step.EXPORT: StepStatus(*((StepState.LOCKED, missing) if missing else _export(judge))),
     }
+    for step in running:
+        known[step] = StepStatus(StepState.RUNNING, GOING_ON[step])
     for step, why in failed.items():
         # What is done holds, whatever went wrong afterwards; its page says so.
-        if known[step].state in {StepState.READY, StepState.LOCKED}:
-            known[step] = StepStatus(StepState.FAILED, why)
-    for step in running:
-        known[step] = StepStatus(StepState.RUNNING, _GOING_ON[step])
+        if known[step].state in {StepState.READY, StepState.LOCKED, StepState.RUNNING}:
+            known[step] = StepStatus(StepState.FAILED, why, broken=step in running)
+    for step, why in _broken(judge, known).items():
+        known[step] = StepStatus(StepState.FAILED, why, broken=True)
     return known
 
 
-_GOING_ON = {
+def _broken(judge: Judge, known: Mapping[Step, StepStatus]) -> dict[Step, str]:
+    """Return what is wrong with the session, by the steps that rest on it."""
+    trouble, found = judge.trouble, dict[Step, str]()
+    behind = {
+        kind: trouble.behind(judge.state, judge.state.newest(kind))
+        for kind in ("calibration", "probe", "verification", "regions")
+    }
+    working = [step for step in Step if known[step].state in {StepState.READY, StepState.RUNNING}]
+    recording = [step for step in (Step.GRAVITY, Step.VERIFY) if known[step].state is StepState.RUNNING]
+    # The last of what holds for a step is what it says: a damaged file before a full disk before a cable.
+    if trouble.devices:
+        ready = [Step.EXPORT] if known[Step.EXPORT].state is StepState.READY else []
+        found.update(dict.fromkeys((Step.DEVICES, *recording, *ready), trouble.devices))
+    if trouble.disk:
+        found.update(dict.fromkeys((*working, Step.EXPORT), trouble.disk))
+    begun = judge.state.setting(PROBE_DRAFT)
+    mesh = judge.state.input_with(str(begun.get("mesh"))) if isinstance(begun, dict) else None
+    draft = trouble.behind(judge.state, mesh)
+    verified = (behind["verification"], behind["calibration"], behind["probe"])
+    every = (broken_behind(judge.state, trouble),)
+    for step, sentences in (
+        (Step.GRAVITY, (behind["calibration"],)),
+        (Step.PROBE, (behind["probe"], draft)),
+        (Step.REGIONS, (behind["regions"],)),
+        (Step.VERIFY, verified),
+        (Step.EXPORT, every),
+    ):
+        if said := next(filter(None, sentences), ""):
+            found[step] = said
+    return found
+
+
+GOING_ON = {
     Step.DEVICES: "The devices are being tried.",
     Step.GRAVITY: "A calibration is being recorded.",
     Step.PROBE: "The probe is being prepared.",
@@ -238,12 +285,15 @@ def _gravity(judge: Judge) -> tuple[StepState, str]:
 
 
 def _probe(judge: Judge) -> tuple[StepState, str]:
-    judged = judge.of("probe")
+    judged, draft = judge.of("probe"), judge.state.setting(PROBE_DRAFT)
     if judged.found is None:
+        if draft:
+            return StepState.READY, "It is being prepared: go on where it was left, then use it."
         return StepState.READY, "Choose the probe's mesh, put it where it is, and simplify it."
     if judged.state is CheckState.STALE:
         return StepState.STALE, f"{judged.why} Prepare it again."
-    return StepState.DONE, f"Prepared on {judged.day}."
+    begun = " Another one is being prepared: use it, or undo that." if draft else ""
+    return StepState.DONE, f"Prepared on {judged.day}.{begun}"
 
 
 def _regions(judge: Judge) -> tuple[StepState, str]:
@@ -302,9 +352,11 @@ def _missing(judge: Judge) -> str:
 # ---- the checklist of an export --------------------------------------------------------------------
 
 
-def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
+def checklist(
+    folder: Path, state: State, stale: Stale, trouble: SessionTrouble = NO_TROUBLE
+) -> tuple[CheckItem, ...]:
     """Say how everything stands that a bundle rests on; reads files, see `read_facts`."""
-    judge = Judge(state, stale, read_facts(folder, state))
+    judge = Judge(state, stale, read_facts(folder, state), trouble)
     checks = [
         _line(judge, "Known weight", "known_weight", Step.GRAVITY, "Hang a known weight on the tool."),
         _line(judge, "Known touch", "known_touch", Step.VERIFY, "Press a known point of the probe."),
@@ -318,7 +370,7 @@ def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]
     report = "Finish a verification: its report goes into the bundle."
     calibrate = "Calibrate the sensor with this tool."
     return (
-        _sensor_line(state),
+        _sensor_line(judge),
         _line(judge, "Calibration", "calibration", Step.GRAVITY, calibrate),
         _line(judge, "Probe", "probe", Step.PROBE, "Prepare the probe's mesh."),
         _regions_line(judge),
@@ -337,6 +389,8 @@ def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckI
         words = (unseen if kind in CHECK_KINDS else "") + remedy
     elif judged.found is None:
         words = f"It was rejected. {judged.why} {remedy}".strip()
+    elif judged.broken:
+        words = judged.broken
     elif state is CheckState.STALE:
         words = f"{judged.why} Do it again."
     elif kind in CHECK_KINDS:
@@ -357,7 +411,10 @@ def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckI
     return CheckItem(name, state, words, step)
 
 
-def _sensor_line(state: State) -> CheckItem:
+def _sensor_line(judge: Judge) -> CheckItem:
+    state = judge.state
+    if judge.trouble.devices:
+        return CheckItem("Sensor", CheckState.FAILED, judge.trouble.devices, Step.DEVICES)
     known = [state.setting(key) for key in ("config.serial", SERIAL)]
     known = [each for each in known if each]
     known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
@@ -368,6 +425,8 @@ def _sensor_line(state: State) -> CheckItem:
 
 
 def _regions_line(judge: Judge) -> CheckItem:
+    if broken := judge.trouble.behind(judge.state, judge.state.newest("regions")):
+        return CheckItem("Regions", CheckState.FAILED, broken, Step.REGIONS)
     given = judge.fact("probe", "regions")
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
@@ -385,9 +444,20 @@ def _regions_line(judge: Judge) -> CheckItem:
 
 def results_of(state: State) -> Mapping[str, str]:
     """Return kind -> content of the newest results that a bundle is made of: what an export is an export of."""
-    kinds = ("calibration", "probe", "verification", *CHECK_KINDS, "report")
-    found = {kind: state.newest(kind) for kind in kinds}
+    found = {kind: state.newest(kind) for kind in _MADE_OF}
     return {kind: each.content for kind, each in found.items() if each is not None}
+
+
+def broken_behind(state: State, trouble: SessionTrouble) -> str:
+    """Return what is wrong with a file behind any of the results that a bundle is made of; empty: nothing."""
+    return next(filter(None, (trouble.behind(state, state.newest(kind)) for kind in _MADE_OF)), "")
+
+
+def files_of_bundle(state: State) -> tuple[FileRef, ...]:
+    """Return the files behind all results that a bundle is made of, those of each once."""
+    newest = (state.newest(kind) for kind in _MADE_OF)
+    refs = (ref for each in newest if each is not None for ref in files_behind(state, each))
+    return tuple({ref.path: ref for ref in refs}.values())
 
 
 def refuse_without(state: State) -> None:

@@ -34,3 +34,4 @@ class StepStatus:
 
     state: StepState
     sentence: str  # For people: what is missing, what came of it, or why it no longer holds
+    broken: bool = False  # Whether something is wrong that no result is to blame for; see `SessionTrouble`

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.tape import SessionTape
+    from contactbench.pipeline.workbench.undo_history import Deed
 
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
 KIND, RESULT, REPORT = "verification", "verification.json", "report.html"
@@ -189,6 +190,17 @@ class VerifyWork:
         tape = self._tape
         return () if tape is None else tape.findings
 
+    @property
+    def error(self) -> str:
+        """Why nothing more is recorded of what goes on, such as a full disk; empty: all is well."""
+        tape = self._tape
+        return "" if tape is None else tape.error or ""
+
+    def pause(self) -> None:
+        """Follow no more touches: what is not recorded does not count. What was recorded can be finished."""
+        if self._end is not None:
+            self._end()
+
     def take_outcome(self, outcome: VerifyOutcome | None) -> None:
         """Have a verdict that the session has; what was another while it was live is remembered."""
         before = self.outcome
@@ -268,9 +280,14 @@ class VerifyWork:
         self._order, self._left_out = touches.order, touches.left_out
         return touches.view()
 
-    def finish(self) -> VerifyOutcome | None:
+    def finish(self, deed: Deed | None = None) -> VerifyOutcome | None:
         """
         Keep the recording, judge it, and make the report; waits, so call it in a worker.
+
+        Parameters
+        ----------
+        deed : Deed, optional
+            Becomes the judging: what can be undone; the recording stays.
 
         Raises
         ------
@@ -292,7 +309,7 @@ class VerifyWork:
                 judge_recording(session, name, given, inputs)
                 return outcome_of(session.folder, session.state, session.stale(), seen)
 
-            return self._desk.do(judge).result()
+            return self._desk.do(judge if deed is None else deed.around(judge)).result()
 
     def discard(self) -> None:
         """End it, and throw the recording away; waits."""
@@ -320,6 +337,7 @@ class VerifyOutcome:
     report: Path | None
     differs: str = ""  # What was another while it was live; empty: nothing
     stale: str = ""  # Why it no longer holds; empty: it does
+    broken: str = ""  # What is wrong with a file behind it; empty: nothing
 
     @property
     def passed(self) -> bool:
@@ -361,7 +379,7 @@ def outcome_of(
         It cannot be read.
     """
     found = state.current_results.get((KIND, RESULT))
-    if found is None:
+    if found is None or found.rejected:
         return None
     from contactbench.pipeline.report import read_verification
 

@@ -95,8 +95,10 @@ def beats(qtbot, window, count=8):
 
 
 def close(qtbot, window):
-    """Close a window, and wait until it is."""
+    """Close a window, and wait until it is; what is going on is stopped."""
     window.close()
+    if window.departure.question is not None:
+        window.departure.stop.click()
     qtbot.waitUntil(lambda: not window.isVisible(), timeout=30_000)
 
 

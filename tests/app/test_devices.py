@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt
 
 from contactbench.app.bench import Bench
 from contactbench.app.pages.devices import DevicesPage
+from contactbench.app.trouble_watch import TroubleWatch
 from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
@@ -162,8 +163,13 @@ def test_what_the_session_says_is_shown(bench, qtbot):
 
 
 def test_an_unplugged_sensor_and_its_return_are_told(page, bench, qtbot):
-    told = []
+    told, watch = [], TroubleWatch(bench)
     bench.told.connect(lambda message: told.append(message.text))
+
+    def heard(words):
+        watch.look()
+        return any(words in text for text in told)
+
     with emulator(
         "sri", "tcp", script=Script([FaultEvent(1.0, Fault.RECONNECT, 1.5)]), signal=sine((5, 5, 5, 1, 1, 1))
     ) as device:
@@ -171,9 +177,9 @@ def test_an_unplugged_sensor_and_its_return_are_told(page, bench, qtbot):
         choose(page.poses, "Nothing tells it")
         page.sensor.address.setText(device.url)
         click(qtbot, page.use_button)
-        tick_until(qtbot, page, lambda: any("plug it in again" in text for text in told))
+        tick_until(qtbot, page, lambda: heard("plug it in again"))
         assert "Lost" in page.trial.words or "Connected" in page.trial.words
-        tick_until(qtbot, page, lambda: any("is back" in text for text in told))
+        tick_until(qtbot, page, lambda: heard("is back"))
 
 
 def test_devices_cannot_be_changed_while_a_recording_is_made(page, bench):

@@ -21,6 +21,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.workbench.steps import Step
 
+from .conftest import close as close_window
 from .conftest import shown
 from .failures import LONG, prepared, whole
 
@@ -65,8 +66,7 @@ def click(made, button):
 
 
 def close(made):
-    made.window.close()
-    made.wait(lambda: not made.window.isVisible())
+    close_window(made.qtbot, made.window)
 
 
 # ---- meshes --------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ from contactbench.pipeline.workbench.session_change import value_in
 from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.widgets.scene.scene import Pick
 
+from .conftest import close as close_window
 from .failures import whole
 
 
@@ -55,8 +56,7 @@ def wait_state(made, step, state):
 
 
 def close(made):
-    made.window.close()
-    made.wait(lambda: not made.window.isVisible())
+    close_window(made.qtbot, made.window)
 
 
 # ---- refused, failed, stale ----------------------------------------------------------------------

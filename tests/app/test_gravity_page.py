@@ -93,6 +93,15 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
     assert panel.verdict.text.startswith("Good")
 
+    assert w.bench.undo.undoText() == "calibrate gravity"
+    w.bench.undo.undo()
+    w.until(lambda: page.run.outcome is None, steps=0)
+    assert w.bench.desk.state.current_results["calibration", "calibration.json"].rejected
+    assert not page.run.left_behind  # its poses were taken: it is no run that was cut short
+    w.bench.undo.redo()
+    w.until(lambda: page.run.outcome is not None and page.run.phase is Phase.IDLE, steps=0)
+    assert panel.verdict.text.startswith("Good")
+
     w.press(page.primary)  # check one more pose
     w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
     assert not page.primary.isEnabled()

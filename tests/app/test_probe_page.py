@@ -13,6 +13,7 @@ from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.preparation.steps import align_step, import_mesh
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.probe_draft import draft_of
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.scene.scene import Pick
@@ -138,9 +139,85 @@ def test_a_session_with_a_probe_opens_as_it_was_left(qtbot, bench, page, tmp_pat
         other.close_page()
 
 
+def test_every_stage_is_in_the_session_at_once_and_can_be_undone(qtbot, bench, page, tmp_path):
+    def kept():
+        draft = draft_of(bench.desk.state)
+        return None if draft is None else (draft.name, draft.plan.alignment is not None, draft.plan.facets)
+
+    def reached(wanted):
+        qtbot.waitUntil(lambda: kept() == wanted, timeout=PATIENCE)
+
+    stages = page.stages
+    stages.take(egg(tmp_path))
+    reached(("egg.stl", False, None))
+    qtbot.waitUntil(lambda: stages.dense is not None, timeout=PATIENCE)
+    stages.put(from_angles([0, 0, 35], [0, 0, 0]))
+    qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    advised, fewer = stages.plan.facets, stages.trade.points[0].facets
+    reached(("egg.stl", True, advised))
+    stages.keep(fewer)
+    reached(("egg.stl", True, fewer))
+    qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert not bench.desk.state.results  # nothing of it is in use
+    # Opened again, it goes on where it was left: also what is computed is there again.
+    other = open_page(qtbot, bench)
+    try:
+        qtbot.waitUntil(lambda: other.stages.preview is not None, timeout=PATIENCE)
+        settled(qtbot, other)
+        same = other.stages.preview.done.content.probe, stages.preview.done.content.probe
+        assert np.array_equal(same[0].vertices, same[1].vertices)
+        assert other.next_bar.next.text() == "Use this probe"
+    finally:
+        other.close_page()
+    for wanted, words in (
+        (("egg.stl", True, advised), "Use this probe"),
+        (("egg.stl", False, None), "Say where it lies (3)"),
+        (None, "Choose a mesh..."),
+    ):
+        bench.undo.undo()
+        reached(wanted)
+        qtbot.waitUntil(lambda words=words: page.next_bar.next.text() == words, timeout=PATIENCE)
+        settled(qtbot, page)
+    for _ in range(3):
+        bench.undo.redo()
+    reached(("egg.stl", True, fewer))
+    qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert len(stages.preview.done.content.probe.faces) <= fewer
+
+
+def test_a_draft_changes_nothing_of_what_is_in_use(qtbot, bench, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    page.stages.use()
+    settled(qtbot, page)
+    assert draft_of(bench.desk.state) is None
+    page.stages.put(from_angles([0, 0, 50], [0, 0, 0]))
+    qtbot.waitUntil(lambda: draft_of(bench.desk.state) is not None, timeout=PATIENCE)
+    assert bench.desk.stale["probe", "probe.ply"] == ()
+    assert [each.kind for each in bench.desk.state.inputs].count("draft-mesh") == 1  # of the first time
+    qtbot.waitUntil(lambda: page.stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert page.next_bar.next.text() == "Use this probe"
+    assert bench.undo.undoText() == "place the mesh"
+    bench.undo.undo()
+    qtbot.waitUntil(lambda: page.stages.in_use, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert page.place.panel.numbers[2].value() == 35.0
+
+
+def test_what_was_chosen_a_moment_ago_is_kept_when_the_page_goes(qtbot, bench, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    page.stages.keep(200)
+    page.stages.close()
+    bench.desk.do(lambda _session: None).result(10)
+    assert draft_of(bench.desk.state).plan.facets == 200
+
+
 def test_a_bad_mesh_is_told_and_what_was_there_stays(qtbot, bench, page, tmp_path):
     prepared(qtbot, page, egg(tmp_path))
-    preview = page.stages.preview
+    preview, count = page.stages.preview, bench.desk.state.count
     for file, words in bad_meshes(tmp_path).items():
         page.stages.take(file)
         settled(qtbot, page)
@@ -149,7 +226,7 @@ def test_a_bad_mesh_is_told_and_what_was_there_stays(qtbot, bench, page, tmp_pat
         assert Step.PROBE in bench.failed
         assert page.stages.preview is preview
         assert page.next_bar.next.text() == "Use this probe"
-    assert bench.desk.state.count == 1
+    assert bench.desk.state.count == count
 
 
 def test_the_unit_is_a_question_with_lengths(qtbot, page, tmp_path):

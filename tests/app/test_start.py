@@ -21,6 +21,7 @@ from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.controls import PanelScroll
 
 from .conftest import shown
+from .test_failures_files import mounted
 
 
 @pytest.fixture
@@ -126,7 +127,7 @@ def read_only(qtbot, window, words):
 def test_a_damaged_session_is_salvaged_by_a_button(qtbot, window, damaged):
     before = files(damaged)
     window.sessions.open(damaged)
-    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=10_000)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=60_000)
     assert window.messages.texts() == ()  # an expected error is asked about, and is no fault
     bench = answer(qtbot, window, "Salvage a copy")
     assert bench.desk.folder == damaged.with_name("s-salvaged")
@@ -139,11 +140,54 @@ def test_a_damaged_session_is_salvaged_by_a_button(qtbot, window, damaged):
 def test_a_damaged_session_is_opened_read_only_by_a_button(qtbot, window, damaged):
     before = files(damaged)
     window.sessions.open(damaged)
-    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=10_000)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=60_000)
     bench = answer(qtbot, window, "Open read-only")
     assert [note.text for note in bench.desk.state.notes][:2] == ["before", "after"]
     read_only(qtbot, window, "this session is damaged")
     assert files(damaged) == before
+
+
+def test_each_way_into_a_damaged_session_says_what_it_costs(qtbot, window, damaged):
+    before = files(damaged)
+    window.sessions.open(damaged)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=60_000)
+    words = [each.text() for each in window.start.question.answers()]
+    assert words[:3] == ["Salvage a copy", "Open read-only", "Open up to the damage"]
+    salvage, look, cut = window.start.question.costs
+    assert salvage.startswith("All 3 whole records")
+    assert "at least 1 record" in salvage
+    assert "Nothing is lost" in look
+    assert "The first 2 records" in cut
+    card = window.start.question
+    for each in (*card.answers(), *card._costs):  # nothing is cut, as the window is wide
+        assert each.width() >= each.minimumSizeHint().width()
+        assert each.height() >= each.minimumSizeHint().height()
+    assert files(damaged) == before  # looking changes nothing
+
+
+def test_a_damaged_session_is_opened_up_to_the_damage_by_a_button(qtbot, window, damaged):
+    journal = (damaged / "journal").read_bytes()
+    window.sessions.open(damaged)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=60_000)
+    bench = answer(qtbot, window, "Open up to the damage")
+    assert bench.desk.folder == damaged
+    assert [note.text for note in bench.desk.state.notes] == ["before"]
+    bench.desk.do(lambda session: session.note("goes on")).result()
+    (kept,) = damaged.glob("journal.before-repair-*")
+    assert kept.read_bytes() == journal
+
+
+def test_a_folder_on_a_disk_that_is_read_only_is_opened_read_only(qtbot, window, tmp_path):
+    disk = mounted(tmp_path / "disk", "8m")
+    try:
+        folder = disk / "s"
+        with Session.create(folder) as session:
+            session.note("there")
+        subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True, capture_output=True)
+        shown(qtbot, window, lambda: window.sessions.open(folder))
+        read_only(qtbot, window, "the folder of this session cannot be written")
+    finally:
+        subprocess.run(["umount", "-l", str(disk)], check=False)
 
 
 def test_a_folder_that_cannot_be_written_is_opened_read_only(qtbot, window, tmp_path, monkeypatch):

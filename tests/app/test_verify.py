@@ -87,6 +87,13 @@ def test_the_whole_way_by_clicks(window):
     assert Step.VERIFY not in window.bench.running
     assert window.told[-1].weight is Weight.GOOD
     assert ("verification", "verification.json") in window.desk.state.current_results
+    assert window.bench.undo.undoText() == "verify"
+    window.bench.undo.undo()
+    window.wait(lambda: page.work.outcome is None)
+    assert page.panel_result.verdict.text() == "Not verified yet"
+    window.bench.undo.redo()
+    window.wait(lambda: page.work.outcome is not None)
+    assert page.panel_result.verdict.text() == "Passed"
 
 
 def test_a_touch_that_does_not_count_is_said_in_words(window):

@@ -66,8 +66,10 @@ def shown_window() -> Iterator[MainWindow]:
 
 
 def closed(window: MainWindow) -> None:
-    """Close a window, and wait until it and its session are."""
+    """Close a window, and wait until it and its session are; what goes on is stopped."""
     window.close()
+    if window.departure.stop is not None:
+        window.departure.stop.click()
     until(lambda: not window.isVisible() and window.bench is None, "the window to be closed")
 
 

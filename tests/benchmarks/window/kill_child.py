@@ -22,6 +22,7 @@ from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
+from contactbench.pipeline.workbench.probe_draft import DRAFT
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -53,6 +54,7 @@ def act(window: MainWindow, bench: Bench, step: Step, mesh: Path) -> None:
         until(lambda: not page.stages.worker.busy, "the probe to be read")
         page.stages.take(mesh)
         until(lambda: page.stages.mesh is not None, "the mesh to be read")
+        until(lambda: bench.desk.state.setting(DRAFT) is not None, "the mesh to be kept")
     elif step is Step.REGIONS:
         until(lambda: page.work is not None, "the surface to be there")
         page.panel.regions.add_button.click()

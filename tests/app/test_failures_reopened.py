@@ -1,0 +1,144 @@
+"""Opened again, also after a kill: the window is where it was, and what was done can be undone."""
+
+from __future__ import annotations
+
+import shutil
+import signal
+import subprocess
+import sys
+
+import pytest
+from workbench.gravity_bench import batches, record
+from workbench.probe_files import egg
+from workbench.touch_session import make_session
+
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.steps import Step
+
+from .failures import whole
+from .test_failures_results import close, force, leave_out, plain, same, spread, use_devices
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "files").mkdir()
+    return make_session(folder / "calibrated", folder / "files")
+
+
+def prepared_for(what, calibrated, folder):
+    if what is leave_out:
+        with Session.create(folder) as session:
+            record(session, "gravity-1.mcap", batches())
+            finish(session, "gravity-1.mcap")
+        return folder
+    shutil.copytree(calibrated, folder)
+    with Session.open(folder) as session:
+        session.set_parameter("config.rate", 200.0)
+    return folder
+
+
+@pytest.mark.parametrize("what", [use_devices, spread, force, leave_out])
+def test_undone_and_done_again_after_the_session_was_opened_again(qtbot, calibrated, tmp_path, what):
+    folder = prepared_for(what, calibrated, tmp_path / "s")
+    with whole(qtbot, tmp_path) as made:
+        bench = made.open(folder)
+        made.idle()
+        assert not made.window.menus.undo.isEnabled()
+        before = plain(bench)
+        what(made)
+        made.idle()
+        after, text = plain(bench), bench.undo.undoText()
+        assert after != before
+        close(made)
+    with whole(qtbot, tmp_path) as made:
+        bench, menus = made.open(folder), made.window.menus
+        made.idle()
+        assert bench.undo.undoText() == text
+        assert same(plain(bench), after)  # to have it there again changes nothing
+        menus.undo.trigger()
+        made.wait(lambda: same(plain(bench), before))
+        assert not made.unexpected
+        close(made)
+    with whole(qtbot, tmp_path) as made:  # what was taken back can be done again
+        bench, menus = made.open(folder), made.window.menus
+        made.idle()
+        assert not menus.undo.isEnabled()
+        assert bench.undo.redoText() == text
+        menus.redo.trigger()
+        made.wait(lambda: same(plain(bench), after))
+        assert not made.unexpected
+        close(made)
+    assert not check(folder).problems
+
+
+# ---- killed amid the preparation of a probe ------------------------------------------------------
+
+_KILLED = """
+import sys
+from pathlib import Path
+from contactbench.app import application
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.workbench.steps import Step
+from PySide6.QtCore import QTimer
+
+class Window(MainWindow):
+    stage = 0
+
+    def look(self):
+        if self.bench is None or self.pages.step is None or self.settings.page_of(self.bench.desk.folder) == "":
+            return
+        if self.pages.step is not Step.PROBE:
+            self.show_step(Step.PROBE)
+            return
+        stages = self.pages.current.stages
+        draft = self.bench.desk.state.setting("draft.probe")
+        if self.stage == 0 and not stages.worker.busy:
+            self.stage = 1
+            stages.take(Path(sys.argv[2]))
+        elif self.stage == 1 and draft is not None:
+            self.stage = 2
+            stages.put(from_angles([0, 0, 35], [0, 0, 0]))
+        elif self.stage == 2 and draft["alignment"] is not None and (self.bench.desk.folder / "undo.json").exists():
+            print("placed", flush=True)
+
+    def show(self):
+        super().show()
+        self.timer = QTimer(self, interval=100)
+        self.timer.timeout.connect(self.look)
+        self.timer.start()
+
+application.MainWindow = Window
+application.run(Path(sys.argv[1]))
+"""
+
+
+def test_killed_amid_a_probe_it_is_there_again_with_its_stage_and_its_undo(qtbot, tmp_path):
+    folder = tmp_path / "s"
+    Session.create(folder).close()
+    command = [sys.executable, "-c", _KILLED, str(folder), str(egg(tmp_path))]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:
+        try:
+            assert other.stdout.readline().strip() == "placed"
+        finally:
+            other.send_signal(signal.SIGKILL)
+    with whole(qtbot, tmp_path) as made:
+        bench = made.open(folder)
+        assert made.window.pages.step is Step.PROBE
+        page = made.window.pages.current
+        made.wait(lambda: page.stages.preview is not None)  # it goes on by itself to where it would be
+        assert page.stages.mesh.file.name == "egg.stl"
+        assert page.place.panel.numbers[2].value() == 35.0
+        made.idle()
+        assert bench.undo.undoText() == "place the mesh"
+        made.window.menus.undo.trigger()
+        made.wait(lambda: page.next_bar.next.text() == "Say where it lies (3)")
+        made.idle()
+        made.window.menus.undo.trigger()
+        made.wait(lambda: page.stages.mesh is None)
+        assert not made.unexpected
+        close(made)
+    assert not check(folder).problems

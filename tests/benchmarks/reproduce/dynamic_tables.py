@@ -152,6 +152,7 @@ def table_two(outcomes: Sequence[Outcome]) -> Sheet:
                 f"{period:g}",
                 motion,
                 method,
+                len(mine),
                 _angle(mine),
                 f"{short(min(angles))} to {short(max(angles))}",
                 float(np.mean([o.angle[1] for o in mine])),
@@ -165,8 +166,8 @@ def table_two(outcomes: Sequence[Outcome]) -> Sheet:
             )
         )
     columns = (
-        "phantom", "variant", "T s", "motion", "method", "error deg", "over seeds", "SD", "paper deg", "paper SD",
-        "least N", "largest N", "paper least", "paper largest", "other axis deg", "place mm", "torsion Nmm",
+        "phantom", "variant", "T s", "motion", "method", "seeds", "error deg", "over seeds", "SD", "paper deg",
+        "paper SD", "least N", "largest N", "paper least", "paper largest", "other axis deg", "place mm", "torsion Nmm",
     )  # fmt: skip
     return Sheet("table-2", "Table II: all methods with the same gains and seeds", columns, tuple(rows))
 
@@ -220,7 +221,7 @@ def _why_equal(outcomes: Sequence[Outcome], methods: Sequence[str]) -> str:
     press = foundation_of(outcomes[0].cell.probe).at(FORCE_N, USUAL_MODULUS)
     within, across = (float(np.degrees(1e-3 * shift / gain)) for gain in (press.gain_x, press.gain_y))
     lost = (
-        "less than one degree: the order cannot come from it here. A flat soft phantom that does not spin twists no"
+        "less than one degree: the order cannot come from it here. A soft phantom that does not spin hardly twists a"
         " probe; the paper's differences must come from what this scene leaves out: time that a method takes, a surface"
         " that is fitted worse, or tissue that twists the probe, as the phantom `twisting` does."
         if max(within, across) < 1

@@ -21,7 +21,7 @@ _HEADINGS = ("of", "figure", "target", "measured", "95 % interval", "spread", "w
 _CONFIDENCE = 0.95
 
 
-class Verdict(StrEnum):
+class FigureVerdict(StrEnum):
     """Whether a figure reaches its target."""
 
     MET = "met"
@@ -30,7 +30,7 @@ class Verdict(StrEnum):
 
 
 # How a verdict is coloured on a terminal.
-STYLES = {Verdict.MET: "", Verdict.OPEN: "yellow", Verdict.MISSED: "red"}
+STYLES = {FigureVerdict.MET: "", FigureVerdict.OPEN: "yellow", FigureVerdict.MISSED: "red"}
 
 
 def verdict_of(
@@ -39,7 +39,7 @@ def verdict_of(
     *,
     least: float | None = None,
     most: float | None = None,
-) -> Verdict:
+) -> FigureVerdict:
     """
     Judge a figure: missed only if its interval lies wholly beyond the target, so that few trials do not by chance.
 
@@ -57,8 +57,12 @@ def verdict_of(
         return not ((least is None or high >= least) and (most is None or low <= most))
 
     if (least is None and most is None) or not beyond(measured, measured):
-        return Verdict.MET
-    return Verdict.MISSED if interval is None or np.isnan(measured) or beyond(*interval) else Verdict.OPEN
+        return FigureVerdict.MET
+    return (
+        FigureVerdict.MISSED
+        if interval is None or np.isnan(measured) or beyond(*interval)
+        else FigureVerdict.OPEN
+    )
 
 
 def mean_interval(values: npt.ArrayLike) -> tuple[float, float] | None:
@@ -199,7 +203,7 @@ class Figure:
         return cls(subject, name, 100 * hits / trials, "%", least, most, interval=interval)
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> FigureVerdict:
         """Whether the target is reached; met where there is none."""
         if self.judged == "worst" and self.worst is not None:
             return verdict_of(self.worst, least=self.least, most=self.most)
@@ -208,7 +212,7 @@ class Figure:
     @property
     def passed(self) -> bool:
         """Whether the target is not missed."""
-        return self.verdict is not Verdict.MISSED
+        return self.verdict is not FigureVerdict.MISSED
 
     @property
     def spread(self) -> tuple[float, float] | None:

@@ -16,7 +16,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.pages import table
-from contactbench.pipeline.study.report import Verdict, verdict_of
+from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.scores import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
 
@@ -71,7 +71,7 @@ class SpeedTarget:
     at_least: bool = False
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> FigureVerdict:
         """Whether the measured figure is within the limit."""
         least, most = (self.limit, None) if self.at_least else (None, self.limit)
         return verdict_of(self.measured, least=least, most=most)

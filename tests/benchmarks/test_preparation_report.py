@@ -10,7 +10,7 @@ import pytest
 from benchmarks.__main__ import BENCHMARKS
 from rich.console import Console
 
-from contactbench.pipeline.study.report import Figure, StudyReport, Verdict, mean_interval
+from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport, mean_interval
 
 
 @pytest.mark.parametrize(
@@ -51,19 +51,19 @@ def test_several_values_become_their_mean_spread_and_worst():
     ("values", "most", "verdict"),
     [
         # Mean 2, SD 1, 5 values: t of 4 degrees of freedom is 2.776, so that the mean is known to 1.24.
-        ([1.0, 1.5, 1.5, 2.5, 3.5], 2.0, Verdict.MET),
-        ([1.0, 1.5, 1.5, 2.5, 3.5], 1.9, Verdict.OPEN),
-        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.77, Verdict.OPEN),
-        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.75, Verdict.MISSED),
-        ([2.0, 2.0, 2.0], 1.99, Verdict.MISSED),
-        ([2.0], 1.99, Verdict.MISSED),
-        ([1.0, float("nan"), 1.0], 2.0, Verdict.MISSED),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 2.0, FigureVerdict.MET),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 1.9, FigureVerdict.OPEN),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.77, FigureVerdict.OPEN),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.75, FigureVerdict.MISSED),
+        ([2.0, 2.0, 2.0], 1.99, FigureVerdict.MISSED),
+        ([2.0], 1.99, FigureVerdict.MISSED),
+        ([1.0, float("nan"), 1.0], 2.0, FigureVerdict.MISSED),
     ],
 )
 def test_few_seeds_do_not_miss_by_chance(values, most, verdict):
     figure = Figure.of("a", "b", values, most=most)
     assert figure.verdict is verdict
-    assert figure.passed is (verdict is not Verdict.MISSED)
+    assert figure.passed is (verdict is not FigureVerdict.MISSED)
     assert figure.cells[-1] == figure.to_json()["verdict"] == verdict
     # The same on the other side.
     assert Figure.of("a", "b", -np.array(values), least=-most).verdict is verdict
@@ -77,11 +77,11 @@ def test_the_interval_holds_the_mean_as_often_as_it_says():
 
 def test_a_share_is_judged_by_its_own_interval():
     # Of 9 in 10 no one can say that it is not 95 %; of 80 in 100 one can.
-    assert Figure.share("a", "b", 9, 10, least=95.0).verdict is Verdict.OPEN
-    assert Figure.share("a", "b", 80, 100, least=95.0).verdict is Verdict.MISSED
-    assert Figure.share("a", "b", 99, 100, least=100.0).verdict is Verdict.MISSED
+    assert Figure.share("a", "b", 9, 10, least=95.0).verdict is FigureVerdict.OPEN
+    assert Figure.share("a", "b", 80, 100, least=95.0).verdict is FigureVerdict.MISSED
+    assert Figure.share("a", "b", 99, 100, least=100.0).verdict is FigureVerdict.MISSED
     none = Figure.share("a", "b", 0, 30, most=0.0)
-    assert none.verdict is Verdict.MET
+    assert none.verdict is FigureVerdict.MET
     assert none.interval == pytest.approx((0.0, 100 * (1 - 0.025 ** (1 / 30))))
 
 

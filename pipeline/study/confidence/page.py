@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.study.confidence.study import PARTS, ConfidenceRow
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
-from contactbench.pipeline.study.report import Verdict
+from contactbench.pipeline.study.report import FigureVerdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,7 +40,7 @@ def make(results: Results, folder: Path) -> str:
     """
     known = [field.name for field in fields(ConfidenceRow)]
     rows = [ConfidenceRow(**{name: row[name] for name in known}) for row in results.rows]
-    short = [row for row in rows if row.verdict is not Verdict.MET]
+    short = [row for row in rows if row.verdict is not FigureVerdict.MET]
     lines = [
         f"- {row.probe}, {row.case}, {row.figure}: {figure(row)}, {bound(row)}: {row.verdict}"
         for row in short
@@ -94,7 +94,7 @@ def bound(row: ConfidenceRow) -> str:
 
 
 def _marked(row: ConfidenceRow) -> str:
-    return figure(row) if row.verdict is Verdict.MET else f"**{figure(row)}**"
+    return figure(row) if row.verdict is FigureVerdict.MET else f"**{figure(row)}**"
 
 
 def _diagram(rows: Sequence[ConfidenceRow]) -> bytes:

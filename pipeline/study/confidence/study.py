@@ -12,7 +12,13 @@ import numpy as np
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
-from contactbench.pipeline.study.report import STYLES, Verdict, mean_interval, share_interval, verdict_of
+from contactbench.pipeline.study.report import (
+    STYLES,
+    FigureVerdict,
+    mean_interval,
+    share_interval,
+    verdict_of,
+)
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
@@ -79,7 +85,7 @@ class ConfidenceRow:
     stated: float | None = None  # confidence, mean of the bin
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> FigureVerdict:
         """Whether the bounds are kept."""
         return verdict_of(self.value, (self.low, self.high), least=self.at_least, most=self.at_most)
 
@@ -96,7 +102,7 @@ class ConfidenceReport:
     @property
     def passed(self) -> bool:
         """Whether no bound was missed."""
-        return all(row.verdict is not Verdict.MISSED for row in self.rows)
+        return all(row.verdict is not FigureVerdict.MISSED for row in self.rows)
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
@@ -115,7 +121,7 @@ class ConfidenceReport:
         from contactbench.pipeline.study.confidence.page import bound, figure
 
         judged = [row for row in self.rows if bound(row)]
-        shown = [row for row in judged if row.verdict is not Verdict.MET]
+        shown = [row for row in judged if row.verdict is not FigureVerdict.MET]
         built = Table(
             title=f"Bounds missed or open, {self.sizes.touches:,} touches x {self.sizes.seeds}, seed {self.seed}"
         )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.study.report import Verdict, verdict_of
+from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.growth import Row, beaten, enough_facets, merged
 
 if TYPE_CHECKING:
@@ -78,7 +78,8 @@ def over_bound(rows: Iterable[Row]) -> list[SweepTarget]:
         [whole] = merged([row for row in wanted if row["probe"] == probe], ())
         # The worst of many is too high by chance alone.
         met = all(
-            verdict_of(ratio, (ratio - 2 * off, ratio + 2 * off), most=MOST_OVER_BOUND) is not Verdict.MISSED
+            verdict_of(ratio, (ratio - 2 * off, ratio + 2 * off), most=MOST_OVER_BOUND)
+            is not FigureVerdict.MISSED
             for ratio, off in ((whole["over_bound"], _off(whole)), (worst["over_bound"], sigma))
         )
         found.append(

@@ -35,7 +35,7 @@ from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of
 from contactbench.pipeline.study.marker_touches import check_bundled
-from contactbench.pipeline.study.report import Figure, StudyReport, Verdict
+from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -225,7 +225,7 @@ def _of(result: DynamicResult, variant: Variant) -> list[Outcome]:
 
 def _missed(result: DynamicResult, figures: Sequence[Figure]) -> list[str]:
     """Say what stands behind targets that are missed."""
-    missed = [each for each in figures if each.verdict is not Verdict.MET]
+    missed = [each for each in figures if each.verdict is not FigureVerdict.MET]
     if not missed:
         return []
     out, within = result.bound

@@ -31,7 +31,7 @@ from contactbench.pipeline.study.marker_touches import (
     held,
     press_markers,
 )
-from contactbench.pipeline.study.report import Figure, StudyReport, Verdict
+from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport
 
 CAUSES = [
     Attributed(cause, (0.2,) * 3, (0.2,) * 3, (0.2,) * 3, (0.0,) * 3) for cause in ("none", FINE, "all")
@@ -180,7 +180,7 @@ def test_touches_in_doubt_count_and_may_not_be_many(probe: ProbeResult) -> None:
     sure = figure(report, "answered without doubt")
     assert sure.measured == pytest.approx(100 * 17 / 18)
     # One in nine of one of two seeds: two others might have had none.
-    assert sure.verdict is Verdict.OPEN
+    assert sure.verdict is FigureVerdict.OPEN
     by_region = figure(report, "answered without doubt only because of the region")
     assert by_region.measured == pytest.approx(100 / 18)
     assert figure(report, f"{PERPENDICULAR}, mean").measured == pytest.approx((20 + 5 * 0.2) / 6)

@@ -24,6 +24,7 @@ from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.simulation.scenes.physics import physics
 from contactbench.pipeline.simulation.virtual.bench import bundled
+from contactbench.pipeline.study.marker_touches import check_bundled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -216,12 +217,7 @@ def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path
 
 
 def _checked(probes: Sequence[str], touches: int, seed: int) -> list[str]:
-    names = list(dict.fromkeys(probes))
-    unknown = [name for name in names if name not in assets.PROBE_NAMES]
-    if unknown or not names:
-        raise InputError(
-            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
-        )
+    names = check_bundled(probes)
     if touches < FEWEST_TOUCHES:
         raise InputError(f"{touches} touches say nothing about an error: ask for at least {FEWEST_TOUCHES}.")
     if seed < 0:

@@ -42,9 +42,11 @@ from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.real_causes import (
     VERIFIED_S,
     MarkedPresses,
+    floor_ratio,
     planned_poses,
     told_floor,
     true_causes,
@@ -139,10 +141,7 @@ def run_days(
     """
     if seeds < 1 or seed < 0:
         raise InputError(f"--seeds {seeds}, --seed {seed}: give at least one seed, from 0 on.")
-    if unknown := [name for name in probes if name not in assets.PROBE_NAMES]:
-        raise InputError(
-            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
-        )
+    probes = check_bundled(probes)
     days = []
     for name in probes:
         progress(f"{name}: preparing the mesh")
@@ -366,28 +365,20 @@ def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
     typical = reality == _TYPICAL
     means = np.array([np.mean(day.errors_mm) for day in days if day.errors_mm])
     errors = np.concatenate([day.errors_mm for day in days])
-    far = 100 * float((errors > _FAR_MM).sum()) / sum(day.touches for day in days)
-    unsaid = 100 * sum(day.far_unsaid for day in days) / sum(day.touches for day in days)
-    spread = tuple(np.percentile(means, [5, 95]).tolist())
+    far, touches = int((errors > _FAR_MM).sum()), sum(day.touches for day in days)
+    unsaid = sum(day.far_unsaid for day in days)
+    by_seed = [_ratio([d for d in days if d.seed == seed]) for seed in dict.fromkeys(d.seed for d in days)]
     return [
-        Figure(reality, "mean error", float(errors.mean()), "mm", most=0.6 if typical else None, spread=spread,
-               worst=float(means.max())),
-        Figure(reality, "sure and more than 5 mm off", far, "%", most=0.2 if typical else None),
-        Figure(reality, "the same, and by more than twice what they say", unsaid, "%"),
-        Figure(reality, "floor, told over true, rms of all days", _ratio(days), least=0.75 if typical else None,
-               most=1.25 if typical else None),
+        Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None),
+        Figure.share(reality, "sure and more than 5 mm off", far, touches, most=0.2 if typical else None),
+        Figure.share(reality, "the same, and by more than twice what they say", unsaid, touches),
+        Figure.of(reality, "floor, told over true, rms of all days", by_seed, measured=_ratio(days),
+                  least=0.75 if typical else None, most=1.25 if typical else None),
     ]  # fmt: skip
 
 
 def _ratio(days: list[DayResult]) -> float:
-    known = [day for day in days if day.told_floor_mm is not None]
-    if not known:
-        return float("nan")
-    told, true = (
-        np.array([getattr(d, name) for d in known], float) for name in ("told_floor_mm", "true_floor_mm")
-    )
-    # Where there is nothing to find but noise, no ratio says anything.
-    return float(np.sqrt(np.mean(told**2) / np.mean(true**2))) if true.any() else float("nan")
+    return floor_ratio([day.told_floor_mm for day in days], [day.true_floor_mm for day in days])
 
 
 def _summed(days: list[DayResult]) -> tuple[str | float | None, ...]:

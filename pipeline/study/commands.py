@@ -145,7 +145,9 @@ def scene(
         bool, typer.Option("--moving", help="What the platform and the arm leave out instead.")
     ] = False,
     period: Annotated[float, typer.Option(help="With --moving: of the platform's motion, s.")] = 2.0,
-    out: MarkdownOption = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Keep the results here, with a page of tables.")
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Measure what each effect of a real bench costs in mm: alone, and what a mix gains without it.
@@ -154,30 +156,26 @@ def scene(
     with the mix without one effect: the same benches and the same noise each time. With --moving instead: servo,
     inertia, friction, time step and places of the platform and the arm scene.
     """
-    if moving:
-        _moving(probe or ["convex"], period, as_json=as_json)
-        return
     from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.study import reality_costs as study
+    from contactbench.pipeline.study import reality_costs, scene_limits
+    from contactbench.pipeline.study.marker_touches import check_bundled
+    from contactbench.pipeline.study.pages import publish
+    from contactbench.pipeline.study.scene_page import KIND, rows_of
 
-    mixes = [Reality.parse(text) for text in reality or ("typical", "harsh")]
-    report = study.run(mixes, probe, seeds=seeds, seed=seed, progress=say)
+    if moving:
+        names = check_bundled(probe or ["convex"])
+        report = scene_limits.report_of([scene_limits.run(name, period, progress=say) for name in names])
+        command = _typed("scene", moving=True, probe=names, period=period)
+    else:
+        mixes = [Reality.parse(text) for text in reality or ("typical", "harsh")]
+        report = reality_costs.run(mixes, probe, seeds=seeds, seed=seed, progress=say)
+        command = _typed("scene", probe=probe, seeds=seeds, seed=seed, reality=reality)
     if out:
-        write_file(out, report.markdown().encode())
+        say(f"{publish(out, KIND, command, rows_of(report))}: page")
     if as_json:
         print_json(report.to_json())
     else:
         show_tables(*(sheet.table() for sheet in report.sheets))
-
-
-def _moving(probes: list[str], period: float, *, as_json: bool) -> None:
-    from contactbench.pipeline.study import scene_limits as study
-
-    for probe in probes:
-        report = study.run(probe, period, progress=say)
-        say(report.markdown())
-        if as_json:
-            print_json(report.to_json())
 
 
 # ---- sweeps, and pages of all studies --------------------------------------------------------------

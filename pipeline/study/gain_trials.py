@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench import assets
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.gains import (
     MarginRow,
@@ -27,6 +26,7 @@ from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
@@ -85,8 +85,7 @@ def run(
     InputError
         An argument is out of its range, the margins cannot be had, or MuJoCo is missing.
     """
-    if probe not in assets.PROBE_NAMES:
-        raise InputError(f"there is no probe {probe!r}: choose one of {', '.join(assets.PROBE_NAMES)}.")
+    check_bundled([probe])
     world = next((each for each in SCENES if each == scene), None)
     if world is None:
         raise InputError(f"there is no scene {scene!r}: choose one of {', '.join(SCENES)}.")

@@ -16,7 +16,7 @@ from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSu
 from contactbench.pipeline.simulation.scenes.touch import along, draw_press
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -55,6 +55,24 @@ class Touched:
 def truth_of(name: str) -> TrueSurface:
     """Return a bundled probe as it really is."""
     return TrueSurface(Probe.from_arrays(*assets.make(name, TRUE_FACETS), name=name))
+
+
+def check_bundled(names: Iterable[str]) -> list[str]:
+    """
+    Return names of bundled probes, each once.
+
+    Raises
+    ------
+    InputError
+        One of them is none of assets.PROBE_NAMES, or there is no name.
+    """
+    found = list(dict.fromkeys(names))
+    unknown = [name for name in found if name not in assets.PROBE_NAMES]
+    if unknown or not found:
+        raise InputError(
+            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
+        )
+    return found
 
 
 @cache
@@ -109,7 +127,7 @@ def held(contact: NDArray[np.float64]) -> NDArray[np.float64]:
 def press_markers(
     name: str,
     markers_S: NDArray[np.float64],
-    seeds: int,
+    seeds: Sequence[int],
     repeats: int,
     progress: Callable[[], None] = lambda: None,
 ) -> Touched:
@@ -132,7 +150,7 @@ def press_markers(
     rows = []
     for number, marker_S in enumerate(markers_S):
         station = MarkerStation(name, marker_S)
-        for seed in range(seeds):
+        for seed in seeds:
             rng = np.random.default_rng([seed, 3, assets.PROBE_NAMES.index(name), number])
             for angle, (tilt, azimuth) in enumerate(ANGLES.values()):
                 for repeat in range(repeats):

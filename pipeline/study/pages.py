@@ -31,6 +31,7 @@ CHAPTERS = {
     "ablation": "ablation.page",
     "rivals": "rivals.page",
     "confidence": "confidence.page",
+    "scene": "scene_page",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")

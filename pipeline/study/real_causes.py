@@ -154,6 +154,17 @@ def true_floor(tape: RealTape, wrenches: Array, noise: Array) -> float:
     return float(np.sqrt(max(square - np.einsum("nij,jk,nik->n", J, noise, J).mean(), 0.0)))
 
 
+def floor_ratio(told: Sequence[float | None], true: Sequence[float]) -> float:
+    """Return the told floors over the true ones, rms of all days with both; NaN where noise alone is to be found."""
+    pairs = np.array([pair for pair in zip(told, true, strict=True) if pair[0] is not None], float).reshape(
+        -1, 2
+    )
+    pairs = pairs[np.isfinite(pairs).all(axis=1)]
+    if not pairs[:, 1].any():
+        return float("nan")
+    return float(np.sqrt(np.mean(pairs[:, 0] ** 2) / np.mean(pairs[:, 1] ** 2)))
+
+
 def told_floor(tape: RealTape, found: ModelError) -> float:
     """Return what verification says of the same, as likely too large as too small, m."""
     sigma = np.repeat([found.likely_force_N, found.likely_torque_Nm], 3)

@@ -16,7 +16,7 @@ from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.reality.bench import RealBench
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.study.marker_touches import check_bundled, model_of
 from contactbench.pipeline.study.real_causes import VERIFIED_S, MarkedPresses, planned_poses
 from contactbench.pipeline.study.report import Sheet, StudyReport
 
@@ -81,11 +81,7 @@ def run(
     InputError
         An argument is out of its range.
     """
-    names = list(dict.fromkeys(probes or assets.PROBE_NAMES))
-    if unknown := [name for name in names if name not in assets.PROBE_NAMES]:
-        raise InputError(
-            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
-        )
+    names = check_bundled(probes or assets.PROBE_NAMES)
     if seeds < 1 or seed < 0:
         raise InputError(f"--seeds {seeds}, --seed {seed}: give at least one seed, from 0 on.")
     benches = [(name, number) for name in names for number in range(seed, seed + seeds)]

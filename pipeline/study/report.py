@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -16,7 +17,75 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 
-_HEADINGS = ("of", "figure", "target", "measured", "spread", "worst")
+_HEADINGS = ("of", "figure", "target", "measured", "95 % interval", "spread", "worst", "verdict")
+_CONFIDENCE = 0.95
+
+
+class FigureVerdict(StrEnum):
+    """Whether a figure reaches its target."""
+
+    MET = "met"
+    OPEN = "open"  # it does not, but by so little that other seeds might have
+    MISSED = "missed"
+
+
+# How a verdict is coloured on a terminal.
+STYLES = {FigureVerdict.MET: "", FigureVerdict.OPEN: "yellow", FigureVerdict.MISSED: "red"}
+
+
+def verdict_of(
+    measured: float,
+    interval: tuple[float, float] | None = None,
+    *,
+    least: float | None = None,
+    most: float | None = None,
+) -> FigureVerdict:
+    """
+    Judge a figure: missed only if its interval lies wholly beyond the target, so that few trials do not by chance.
+
+    Parameters
+    ----------
+    measured : float
+        What is not a number reaches no target.
+    interval : (low, high), optional
+        In which the figure lies with 95 %; left out, there is no doubt about it.
+    least, most : float, optional
+        The target; both left out, there is none, and it is met.
+    """
+
+    def beyond(low: float, high: float) -> bool:
+        return not ((least is None or high >= least) and (most is None or low <= most))
+
+    if (least is None and most is None) or not beyond(measured, measured):
+        return FigureVerdict.MET
+    return (
+        FigureVerdict.MISSED
+        if interval is None or np.isnan(measured) or beyond(*interval)
+        else FigureVerdict.OPEN
+    )
+
+
+def mean_interval(values: npt.ArrayLike) -> tuple[float, float] | None:
+    """Return in what the mean of several values lies with 95 % (Student's t); None for fewer than two numbers."""
+    from scipy.stats import t
+
+    numbers = np.asarray(values, dtype=np.float64)
+    numbers = numbers[np.isfinite(numbers)]
+    if len(numbers) < 2:
+        return None
+    mean, size = float(numbers.mean()), float(numbers.std(ddof=1)) / np.sqrt(len(numbers))
+    off = float(t.ppf((1 + _CONFIDENCE) / 2, len(numbers) - 1)) * float(size)
+    return mean - off, mean + off
+
+
+def share_interval(hits: int, trials: int) -> tuple[float, float]:
+    """Return in what a share lies with 95 %, 0 to 1 (Clopper and Pearson)."""
+    from scipy.stats import beta
+
+    tail = (1 - _CONFIDENCE) / 2
+    low = float(beta.ppf(tail, hits, trials - hits + 1)) if hits else 0.0
+    high = float(beta.ppf(1 - tail, hits + 1, trials - hits)) if hits < trials else 1.0
+    return low, high
 
 
 Cell = str | int | float | None
@@ -76,14 +145,15 @@ class Figure:
 
     subject: str  # what was measured: a shape, a file, a method
     name: str
-    measured: float  # the headline: the median where there are several values
+    measured: float  # the headline: the mean where there are several values
     unit: str = ""  # written behind the numbers; "" for ratios and counts
     # least, most: the target; both None where there is none
     least: float | None = None
     most: float | None = None
-    spread: tuple[float, float] | None = None  # 5th and 95th percentile; None for a single value
+    values: tuple[float, ...] = ()  # one for each seed or trial; none for a single value
     worst: float | None = None  # the value furthest towards missing the target
     judged: Literal["measured", "worst"] = "measured"  # which of them the target is for
+    interval: tuple[float, float] | None = None  # in which what is measured lies with 95 %
 
     @classmethod
     def of(
@@ -93,33 +163,64 @@ class Figure:
         values: npt.ArrayLike,
         unit: str = "",
         *,
+        measured: float | None = None,
         least: float | None = None,
         most: float | None = None,
         judged: Literal["measured", "worst"] = "measured",
     ) -> Figure:
         """
-        Sum up several values of one figure: median, 5th to 95th percentile, worst.
+        Sum up several values of one figure: mean and its interval, spread, worst.
 
         Parameters
         ----------
         subject, name, unit, least, most, judged
             See the attributes.
         values : (n,) array_like
-            At least one.
+            At least one; by seed, so that they are independent.
+        measured : float, optional
+            The headline where it is not their mean: a figure of all trials together.
         """
         numbers = np.asarray(values, dtype=np.float64)
-        low, middle, high = np.percentile(numbers, [5, 50, 95]).tolist()
+        headline = float(numbers.mean()) if measured is None else measured
         worst = float(numbers.min() if least is not None else numbers.max())
-        return cls(subject, name, middle, unit, least, most, (low, high), worst, judged)
+        own = tuple(numbers.tolist())
+        return cls(subject, name, headline, unit, least, most, own, worst, judged, mean_interval(numbers))
+
+    @classmethod
+    def share(
+        cls,
+        subject: str,
+        name: str,
+        hits: int,
+        trials: int,
+        *,
+        least: float | None = None,
+        most: float | None = None,
+    ) -> Figure:
+        """Sum up how many of several trials, in percent."""
+        low, high = share_interval(hits, trials)
+        interval = 100 * low, 100 * high
+        return cls(subject, name, 100 * hits / trials, "%", least, most, interval=interval)
+
+    @property
+    def verdict(self) -> FigureVerdict:
+        """Whether the target is reached; met where there is none."""
+        if self.judged == "worst" and self.worst is not None:
+            return verdict_of(self.worst, least=self.least, most=self.most)
+        return verdict_of(self.measured, self.interval, least=self.least, most=self.most)
 
     @property
     def passed(self) -> bool:
-        """Whether the target is reached; True where there is none. What is not a number reaches no target."""
-        if self.least is None and self.most is None:
-            return True
-        value = self.worst if self.judged == "worst" and self.worst is not None else self.measured
-        above = self.least is None or value >= self.least
-        return bool(above and (self.most is None or value <= self.most))
+        """Whether the target is not missed."""
+        return self.verdict is not FigureVerdict.MISSED
+
+    @property
+    def spread(self) -> tuple[float, float] | None:
+        """5th and 95th percentile of the values; None for fewer than two."""
+        if len(self.values) < 2:
+            return None
+        low, high = np.percentile(self.values, [5, 95]).tolist()
+        return low, high
 
     @property
     def target(self) -> str:
@@ -140,13 +241,27 @@ class Figure:
     @property
     def cells(self) -> tuple[str, ...]:
         """The figure as a row of a table."""
-        spread = "" if self.spread is None else f"{_number(self.spread[0])} to {self._said(self.spread[1])}"
+        interval, spread = (
+            "" if pair is None else f"{_number(pair[0])} to {self._said(pair[1])}"
+            for pair in (self.interval, self.spread)
+        )
         worst = "" if self.worst is None else self._said(self.worst)
-        return (self.subject, self.name, self.target, self._said(self.measured), spread, worst)
+        verdict = str(self.verdict) if self.target else ""
+        return (
+            self.subject,
+            self.name,
+            self.target,
+            self._said(self.measured),
+            interval,
+            spread,
+            worst,
+            verdict,
+        )
 
     def to_json(self) -> dict[str, Any]:
         """Give the figure as plain values; null for what is not a number."""
-        data = {**asdict(self), "target": self.target, "passed": self.passed}
+        data = {**asdict(self), "spread": self.spread, "target": self.target, "verdict": str(self.verdict)}
+        data["passed"] = self.passed
         return {name: _plain(value) for name, value in data.items()}
 
     def _said(self, value: float | None) -> str:
@@ -170,7 +285,7 @@ class StudyReport:
 
     @property
     def passed(self) -> bool:
-        """Whether every figure reached its target."""
+        """Whether no figure missed its target."""
         return all(figure.passed for figure in self.figures)
 
     def to_json(self) -> dict[str, Any]:
@@ -206,7 +321,7 @@ class StudyReport:
             write_file(out / name, data)
 
     def table(self) -> Table:
-        """Build the table for the terminal; what misses its target is red."""
+        """Build the table for the terminal; what misses its target is red, what is open yellow."""
         from rich.table import Table
         from rich.text import Text
 
@@ -215,16 +330,13 @@ class StudyReport:
             built.add_column(heading)
         for figure in self.figures:
             # File names must not be read as markup.
-            built.add_row(*map(Text, figure.cells), style="" if figure.passed else "red")
+            built.add_row(*map(Text, figure.cells), style=STYLES[figure.verdict])
         return built
 
     def markdown(self) -> str:
         """Write the figures, and the tables that people read, as Markdown."""
-        lines = [f"{self._heading}\n", "| " + " | ".join((*_HEADINGS, "")) + " |", "|---" * 7 + "|"]
-        for figure in self.figures:
-            verdict = "" if not figure.target else "ok" if figure.passed else "MISSED"
-            cells = (cell.replace("|", "\\|").replace("\n", " ") for cell in (*figure.cells, verdict))
-            lines.append("| " + " | ".join(cells) + " |")
+        lines = [f"{self._heading}\n", _line(_HEADINGS), "|---" * len(_HEADINGS) + "|"]
+        lines += [_line([cell.replace("\n", " ") for cell in figure.cells]) for figure in self.figures]
         parts = ["\n".join([*lines, "", *self.notes]).rstrip() + "\n"]
         parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
         parts += [f"![{name}]({name})\n" for name in self.files if name.endswith(".png")]

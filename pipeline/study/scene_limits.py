@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +18,8 @@ from contactbench.pipeline.simulation.scenes import (
     depth_for,
 )
 from contactbench.pipeline.simulation.scenes.tissue import PLACES
-from contactbench.pipeline.study.marker_touches import truth_of
+from contactbench.pipeline.study.marker_touches import check_bundled, truth_of
+from contactbench.pipeline.study.report import Sheet, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -98,35 +99,6 @@ class SceneReport:
     inertia: list[RideInertia]
     real_time: dict[str, float]
 
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        return asdict(self)
-
-    def sheets(self) -> dict[str, tuple[tuple[str, ...], list[list[str]]]]:
-        """Return each table by its title: names of its columns, and its rows."""
-        effects = [
-            [e.motion, e.change]
-            + [f"{v:.3f}" for v in (e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)]
-            + [f"{v:.2f}" for v in (e.lean, e.most_lean)]
-            + [f"{e.lag_ms:.1f}"]
-            for e in self.effects
-        ]
-        inertia = [[i.motion, i.scene, f"{i.force:.3f}", f"{i.place:.2f}"] for i in self.inertia]
-        times = [[scene, f"{factor:.1f}"] for scene, factor in self.real_time.items()]
-        return {
-            "What a change of the scene changes": (_EFFECTS, effects),
-            "What the sensor reads beside contact and weight": (_INERTIA, inertia),
-            "How fast, with a sample every 5 ms": (_TIMES, times),
-        }
-
-    def markdown(self) -> str:
-        """Return the tables as Markdown."""
-        parts = [f"# What the scenes with a moving phantom leave out: {self.probe}, {self.period:g} s", _HOW]
-        for title, (columns, rows) in self.sheets().items():
-            lines = [columns, ["---"] * len(columns), *rows]
-            parts += [f"## {title}", "\n".join("| " + " | ".join(line) + " |" for line in lines)]
-        return "\n\n".join(parts) + "\n"
-
 
 @dataclass(frozen=True)
 class SceneChange:
@@ -193,6 +165,7 @@ def run(
     progress : callable
         Told what is being done.
     """
+    check_bundled([probe])
     truth = truth_of(probe)
     known = changes(truth)
     chosen = list(known) if only is None else _with_bases(only, known)
@@ -298,24 +271,34 @@ def _effect(motion: str, change: str, against: str, rides: dict[str, Ride]) -> E
     return Effect(motion, change, against, *pairs[0], *pairs[1], *pairs[2], *pairs[3], a.lag_ms)
 
 
-# ---- as text ---------------------------------------------------------------------------------------
+# ---- as tables -------------------------------------------------------------------------------------
+
+
+def report_of(found: Sequence[SceneReport]) -> StudyReport:
+    """Put what was measured with several probes together as one report."""
+    effects = tuple(
+        (r.probe, e.motion, e.change, e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)
+        + (e.lean, e.most_lean, e.lag_ms)
+        for r in found
+        for e in r.effects
+    )
+    inertia = tuple((r.probe, i.motion, i.scene, i.force, i.place) for r in found for i in r.inertia)
+    times = tuple((r.probe, scene, factor) for r in found for scene, factor in r.real_time.items())
+    about = {"probes": ", ".join(r.probe for r in found), "period": f"{found[0].period:g} s"}
+    sheets = (
+        Sheet("effects", "What a change of the scene changes", _EFFECTS, effects),
+        Sheet("inertia", "What the sensor reads beside contact and weight", _INERTIA, inertia),
+        Sheet("speed", "How fast, with a sample every 5 ms", _TIMES, times),
+    )
+    return StudyReport("What the scenes with a moving phantom leave out", about, (), (_HOW,), sheets)
+
 
 _EFFECTS = (
-    "motion",
-    "change",
-    "N rms",
-    "N most",
-    "deg rms",
-    "deg most",
-    "mm rms",
-    "mm most",
-    "lean rms",
-    "lean most",
+    "probe", "motion", "change", "N rms", "N most", "deg rms", "deg most", "mm rms", "mm most", "lean rms", "lean most",
     "lag ms",
-)
-_INERTIA = ("motion", "scene", "N most", "mm most")
-_TIMES = ("scene", "times real time")
-
+)  # fmt: skip
+_INERTIA = ("probe", "motion", "scene", "N most", "mm most")
+_TIMES = ("probe", "scene", "times real time")
 _HOW = (
     f"Set-points from the truth follow {_SHARE:.0%} of the phantom's motion, {FORCE_N:g} N. Differences are against the"
     " platform as it is; those of the arm's own settings against the arm as it is."

@@ -16,6 +16,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.pages import table
+from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.scores import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
 
@@ -70,15 +71,16 @@ class SpeedTarget:
     at_least: bool = False
 
     @property
-    def met(self) -> bool:
+    def verdict(self) -> FigureVerdict:
         """Whether the measured figure is within the limit."""
-        return self.measured >= self.limit if self.at_least else self.measured <= self.limit
+        least, most = (self.limit, None) if self.at_least else (None, self.limit)
+        return verdict_of(self.measured, least=least, most=most)
 
     @property
     def cells(self) -> list[str]:
         """It as a row of a table."""
         limit = f"{'at least' if self.at_least else 'at most'} {self.limit:g}"
-        return [self.name, f"{self.measured:.3g}", limit, "met" if self.met else "missed"]
+        return [self.name, f"{self.measured:.3g}", limit, str(self.verdict)]
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,7 @@ class SpeedReport:
         """Return plain data for ``--json``."""
         data = asdict(self)
         for entry, target in zip(data["targets"], self.targets, strict=True):
-            entry["met"] = target.met
+            entry["verdict"] = str(target.verdict)
         return data
 
     @property

@@ -21,6 +21,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
+from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ class StabilityRow:
     @property
     def met(self) -> bool:
         """Whether the bound is kept; what is no number keeps none."""
-        return self.most is None or bool(self.worst <= self.most)
+        return verdict_of(self.worst, most=self.most) is FigureVerdict.MET
 
     def to_json(self) -> dict[str, Any]:
         """Return plain values; None for what is no number."""

@@ -16,7 +16,7 @@ from zlib import crc32
 
 import numpy as np
 from benchmarks import wrong_models as wrong
-from benchmarks.trials import in_processes, share
+from benchmarks.trials import in_processes
 
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.errors import InputError
@@ -137,7 +137,7 @@ Measure = Callable[["Cell", "Sequence[Trial]", str], Figure]
 
 
 def _share(pick: Callable[[Cell, Trial], bool]) -> Measure:
-    return lambda cell, trials, question: share(
+    return lambda cell, trials, question: Figure.share(
         cell.name, question, sum(pick(cell, trial) for trial in trials), len(trials)
     )
 

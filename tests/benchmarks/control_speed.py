@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench import assets
 from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
@@ -46,8 +46,7 @@ def run(
     world = next((each for each in SCENES if each == scene), None)
     if world is None:
         raise InputError(f"there is no scene {scene!r}: choose one of {', '.join(SCENES)}.")
-    if probe not in assets.PROBE_NAMES:
-        raise InputError(f"there is no probe {probe!r}: choose one of {', '.join(assets.PROBE_NAMES)}.")
+    check_bundled([probe])
     if not 5 <= seconds <= 600:
         raise InputError(f"{seconds:g} s: give 5 to 600.")
     figures = []

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.trials import in_processes, share
+from benchmarks.trials import in_processes
 
 from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
@@ -20,6 +20,7 @@ from contactbench.pipeline.study.real_causes import (
     EFFECTS,
     VERIFIED_S,
     MarkedPresses,
+    floor_ratio,
     planned_poses,
     told_floor,
     true_causes,
@@ -174,11 +175,11 @@ def _figures(days: list[DrawnDay]) -> tuple[Figure, ...]:
     told, true = (np.array([getattr(day, name) for day in days]) for name in ("told_floor", "true_floor"))
     ratios = told / true
     return (
-        share("diagnosis", "names the dominant cause first", named, len(days), least=80.0),
+        Figure.share("diagnosis", "names the dominant cause first", named, len(days), least=80.0),
         Figure.of("floor", "as told over as it is, by day", ratios[np.isfinite(ratios)]),
         Figure(
             "floor", "as told over as it is, rms of all days",
-            float(np.sqrt(np.nanmean(told**2) / np.nanmean(true**2))), least=0.75, most=1.25,
+            floor_ratio(told.tolist(), true.tolist()), least=0.75, most=1.25,
         ),
     )  # fmt: skip
 

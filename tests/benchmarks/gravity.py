@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
 from weighing_files import draw_noise, draw_weighing
 
@@ -76,8 +75,8 @@ def efficiency(trials: int, seed: int) -> list[Figure]:
             most=1.05,
         ),
         Figure("errors", "RMSE over the Cramér-Rao bound, mean", ratios.mean()),
-        share("noise known", held, sum(known), trials, least=93, most=97),
-        share("noise estimated from the poses", held, sum(estimated), trials, least=93, most=97),
+        Figure.share("noise known", held, sum(known), trials, least=93, most=97),
+        Figure.share("noise estimated from the poses", held, sum(estimated), trials, least=93, most=97),
     ]
 
 
@@ -120,9 +119,11 @@ def bumped_poses(trials: int, seed: int) -> list[Figure]:
         ratio = float(np.sqrt(np.mean(np.square(scaled), axis=0)).max())
         noise = "noise known" if known else "noise estimated"
         figures += [
-            share(noise, "sets in which every bumped pose is named", trials - missed, trials, least=100),
-            share(noise, "sets with a false alarm", false_sets, trials, most=2),
-            share(noise, "clean poses called bumped", false_poses, clean),
+            Figure.share(
+                noise, "sets in which every bumped pose is named", trials - missed, trials, least=100
+            ),
+            Figure.share(noise, "sets with a false alarm", false_sets, trials, most=2),
+            Figure.share(noise, "clean poses called bumped", false_poses, clean),
             Figure(noise, "RMSE over the bound of the clean poses, worst parameter", ratio, most=1.2),
         ]
     return figures
@@ -181,8 +182,8 @@ def blind_sets(trials: int, seed: int) -> list[Figure]:
     for kind in tried:
         said = kind.tries - kind.silent
         figures += [
-            share(kind.name, "refused or flagged in the right words", said, kind.tries, least=100),
-            share(kind.name, "truth beyond 5 stated sigma", kind.wrong, kind.tries, most=0.5),
+            Figure.share(kind.name, "refused or flagged in the right words", said, kind.tries, least=100),
+            Figure.share(kind.name, "truth beyond 5 stated sigma", kind.wrong, kind.tries, most=0.5),
         ]
     return figures
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
@@ -363,12 +362,12 @@ def _figures(name: str, count: Count, blind: Count) -> list[Figure]:
     """Return what came of one mistake: with mass and noise, and without (`blind`)."""
     if name == "no mistake":
         return [
-            share(name, "consistent", count.consistent, count.sets, least=98),
-            share(name, "a wrong cause above 3 to 1", count.wrong, count.sets),
+            Figure.share(name, "consistent", count.consistent, count.sets, least=98),
+            Figure.share(name, "a wrong cause above 3 to 1", count.wrong, count.sets),
         ]
     return [
-        share(name, "the cause first", count.first, count.sets, least=95 if name in KNOWN else None),
-        share(name, "a wrong cause above 3 to 1", count.wrong, count.sets, most=0),
-        share(name, "consistent", count.consistent, count.sets, most=0),
-        share(name, "consistent, without mass and noise", blind.consistent, blind.sets, most=0),
+        Figure.share(name, "the cause first", count.first, count.sets, least=95 if name in KNOWN else None),
+        Figure.share(name, "a wrong cause above 3 to 1", count.wrong, count.sets, most=0),
+        Figure.share(name, "consistent", count.consistent, count.sets, most=0),
+        Figure.share(name, "consistent, without mass and noise", blind.consistent, blind.sets, most=0),
     ]

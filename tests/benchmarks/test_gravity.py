@@ -122,7 +122,7 @@ def test_the_command_asks_every_part_and_tells_by_its_exit_code(monkeypatch, tmp
     assert [(each["subject"], each["passed"]) for each in told["figures"]] == [
         (name, name != "plans") for name in names
     ]
-    assert "MISSED" in (tmp_path / "gravity.md").read_text(encoding="utf-8")
+    assert "| missed |" in (tmp_path / "gravity.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("wrong", [{"trials": 19}, {"seed": -1}])

@@ -10,7 +10,7 @@ import pytest
 from benchmarks.__main__ import BENCHMARKS
 from rich.console import Console
 
-from contactbench.pipeline.study.report import Figure, StudyReport
+from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport, mean_interval
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,7 @@ def test_a_figure_passes_within_its_target(figure, passed, target):
     assert figure.target == target
 
 
-def test_several_values_become_their_median_spread_and_worst():
+def test_several_values_become_their_mean_spread_and_worst():
     values = np.arange(101.0)
     upper = Figure.of("a", "b", values, most=60.0)
     assert (upper.measured, upper.spread, upper.worst, upper.passed) == (50.0, (5.0, 95.0), 100.0, True)
@@ -43,6 +43,46 @@ def test_several_values_become_their_median_spread_and_worst():
     lower = Figure.of("a", "b", values, least=40.0)
     assert (lower.worst, lower.passed) == (0.0, True)
     assert not Figure.of("a", "b", values, least=40.0, judged="worst").passed
+    assert Figure.of("a", "b", [1.0, 1.0, 4.0], measured=1.5).measured == 1.5
+    assert Figure.of("a", "b", [2.0]).spread is Figure.of("a", "b", [2.0]).interval is None
+
+
+@pytest.mark.parametrize(
+    ("values", "most", "verdict"),
+    [
+        # Mean 2, SD 1, 5 values: t of 4 degrees of freedom is 2.776, so that the mean is known to 1.24.
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 2.0, FigureVerdict.MET),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 1.9, FigureVerdict.OPEN),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.77, FigureVerdict.OPEN),
+        ([1.0, 1.5, 1.5, 2.5, 3.5], 0.75, FigureVerdict.MISSED),
+        ([2.0, 2.0, 2.0], 1.99, FigureVerdict.MISSED),
+        ([2.0], 1.99, FigureVerdict.MISSED),
+        ([1.0, float("nan"), 1.0], 2.0, FigureVerdict.MISSED),
+    ],
+)
+def test_few_seeds_do_not_miss_by_chance(values, most, verdict):
+    figure = Figure.of("a", "b", values, most=most)
+    assert figure.verdict is verdict
+    assert figure.passed is (verdict is not FigureVerdict.MISSED)
+    assert figure.cells[-1] == figure.to_json()["verdict"] == verdict
+    # The same on the other side.
+    assert Figure.of("a", "b", -np.array(values), least=-most).verdict is verdict
+
+
+def test_the_interval_holds_the_mean_as_often_as_it_says():
+    drawn = np.random.default_rng(0).normal(3.0, 2.0, (4000, 5))
+    held = [low <= 3.0 <= high for low, high in map(mean_interval, drawn)]
+    assert 0.94 < np.mean(held) < 0.96
+
+
+def test_a_share_is_judged_by_its_own_interval():
+    # Of 9 in 10 no one can say that it is not 95 %; of 80 in 100 one can.
+    assert Figure.share("a", "b", 9, 10, least=95.0).verdict is FigureVerdict.OPEN
+    assert Figure.share("a", "b", 80, 100, least=95.0).verdict is FigureVerdict.MISSED
+    assert Figure.share("a", "b", 99, 100, least=100.0).verdict is FigureVerdict.MISSED
+    none = Figure.share("a", "b", 0, 30, most=0.0)
+    assert none.verdict is FigureVerdict.MET
+    assert none.interval == pytest.approx((0.0, 100 * (1 - 0.025 ** (1 / 30))))
 
 
 @pytest.mark.parametrize(
@@ -77,8 +117,8 @@ def test_a_report_is_a_table_and_plain_data():
     assert "A note." in said
     rows = report.markdown().splitlines()
     assert rows[0] == "Study: seed 3"
-    assert rows[4].endswith("| ok |")
-    assert rows[5].endswith("| MISSED |")
+    assert rows[4].endswith("| met |")
+    assert rows[5].endswith("| missed |")
     assert len({row.replace("\\|", "").count("|") for row in rows if row.startswith("|")}) == 1
 
 

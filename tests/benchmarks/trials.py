@@ -1,4 +1,4 @@
-"""Many trials in parallel processes, and shares of them with their intervals."""
+"""Many trials in parallel processes, and what their reports draw with."""
 
 from __future__ import annotations
 
@@ -8,9 +8,6 @@ from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.stats import beta
-
-from contactbench.pipeline.study.report import Figure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -29,14 +26,6 @@ def in_processes(function: Callable[..., Any], jobs: Sequence[Any], workers: int
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-
-
-def share(subject: str, name: str, hits: int, trials: int, **target: Any) -> Figure:
-    """Return a share in percent with its 95 % interval (Clopper-Pearson) as the spread."""
-    low = beta.ppf(0.025, hits, trials - hits + 1) if hits else 0.0
-    high = beta.ppf(0.975, hits + 1, trials - hits) if hits < trials else 1.0
-    spread = (100 * float(low), 100 * float(high))
-    return Figure(subject, name, 100 * hits / trials, "%", spread=spread, **target)
 
 
 def rms(values: Any) -> float:

@@ -7,7 +7,6 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
 from weighing_files import draw_weighing
 
@@ -298,6 +297,4 @@ def _coverage(question: str, held: NDArray[np.bool_]) -> tuple[Figure, ...]:
 
 
 def _figure(question: str, hits: int, trials: int) -> Figure:
-    """Return a share with its own 95 % interval, judged by its upper end: it fails where 95 % is excluded."""
-    found = share("verification", question, hits, trials, least=100 * LEVEL, judged="worst")
-    return replace(found, worst=found.spread[1] if found.spread else None)
+    return Figure.share("verification", question, hits, trials, least=100 * LEVEL)

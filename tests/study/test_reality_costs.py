@@ -1,6 +1,7 @@
 """What an effect costs: the same bench and the same noise with it and without."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +11,10 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.study import reality_costs
+from contactbench.pipeline.study.report import short
 
 
-def test_a_table_has_each_effect_alone_and_what_is_saved_without_it() -> None:
+def test_a_table_has_each_effect_alone_and_what_is_saved_without_it(tmp_path: Path) -> None:
     command = [
         "study",
         "scene",
@@ -23,10 +25,15 @@ def test_a_table_has_each_effect_alone_and_what_is_saved_without_it() -> None:
         "--reality",
         "cable=0.5,scale=1.004",
         "--json",
+        "--out",
+        str(tmp_path),
     ]
     done = CliRunner().invoke(cli.app, command)
     assert done.exit_code == 0, done.stderr
     (rows,) = (value for name, value in json.loads(done.stdout).items() if name.startswith("costs-"))
+    page = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert "### What the effects of cable=0.5,scale=1.004 cost" in page
+    assert f"| scale 1.004 | {short(rows[2]['rms mm'])} |" in page
     none, cable, scale, together = rows
     assert [row["effect"] for row in rows] == ["none", "cable 0.5", "scale 1.004", "together"]
     assert none["adds mm"] == 0

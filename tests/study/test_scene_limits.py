@@ -1,11 +1,16 @@
 """What the moving scenes leave out: the differences are those that the physics says; no time is judged."""
 
 import json
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from contactbench.pipeline import cli
 from contactbench.pipeline.study import scene_limits as study
+from contactbench.pipeline.study.pages import make_page
 
 
 @pytest.fixture(scope="module")
@@ -38,11 +43,25 @@ def test_the_inertia_of_a_tool_that_swings_is_felt(report: study.SceneReport) ->
         assert 0.04 < each.force < 0.4
 
 
-def test_the_report_can_be_read_and_kept(report: study.SceneReport) -> None:
-    text = report.markdown()
-    assert "| in plane | arm, as it is |" in text
-    assert len(report.sheets()) == text.count("## ") == 3
-    assert json.loads(json.dumps(report.to_json()))["probe"] == "convex"
+def test_several_probes_are_one_object_and_one_page(
+    report: study.SceneReport, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(study, "run", lambda probe, *_, **__: replace(report, probe=probe))
+    command = ["study", "scene", "--moving", "--probe", "convex", "--probe", "linear", "--json"]
+    done = CliRunner().invoke(cli.app, [*command, "--out", str(tmp_path)])
+    assert done.exit_code == 0, done.stderr
+    data = json.loads(done.stdout)
+    assert [row["probe"] for row in data["effects"]] == ["convex"] * 2 + ["linear"] * 2
+    assert data["effects"][1]["change"] == study.ARM
+    page = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert page.startswith("## What the scenes with a moving phantom leave out")
+    assert page.count("\n### ") == 3
+    assert f"| linear | in plane | {study.ARM} |" in page
+    assert "study scene --moving --probe convex --probe linear --period 2.0" in page
+    assert make_page(tmp_path) == page
+    unknown = CliRunner().invoke(cli.app, ["study", "scene", "--moving", "--probe", "round"])
+    assert unknown.exit_code == 2
+    assert "no probe 'round'" in unknown.stderr
 
 
 def test_every_change_can_be_made() -> None:

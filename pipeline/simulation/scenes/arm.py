@@ -1,5 +1,5 @@
 """
-An arm that carries sensor and probe, over a flat soft phantom on a platform that moves with six axes.
+An arm that carries sensor and probe, over a soft phantom on a platform that moves with six axes.
 
 The arm has its real chain, limits, and link masses; its position servo follows set-points within the limits of speed,
 acceleration and torque, and meets gravity and the coupling of its joints by a model that is right. The controller

@@ -52,7 +52,8 @@ def depth_for(
     Raises
     ------
     InputError
-        The force is not positive, or more than the tissue gives at 12 mm, where a probe's sides would touch.
+        The phantom is curved; the force is not positive, or more than the tissue gives at 12 mm, where a probe's
+        sides would touch.
 
     Examples
     --------
@@ -61,6 +62,8 @@ def depth_for(
     if not (np.isfinite(force) and force > 0):
         raise InputError(f"depth for {force} N: give a positive force.")
     tissue = tissue or Tissue()
+    if tissue.cylinder is not None:
+        raise InputError("depth: only of a flat phantom: leave its cylinder out.")
     where, normals, area = spread(truth.probe, places)
     centres = where - BALL_M * normals - [0.0, 0.0, float(truth.probe.vertices[:, 2].max())]
     above, upright = _gaps(centres, motion)

@@ -1,5 +1,5 @@
 """
-A probe on a position-controlled mount, over a flat soft phantom on a platform that moves with six axes.
+A probe on a position-controlled mount, over a soft phantom on a platform that moves with six axes.
 
 Left out: the arm that would carry the mount (its joints, limits and bending), what tissue does sideways and between its
 places. The mount follows its set-points with 60 rad/s, as an arm's servo, and carries weight and inertia of the tool on
@@ -136,11 +136,21 @@ class MovedScene(TissueScene):
         self.mujoco.mj_forwardSkip(self.model, self.data, self.mujoco.mjtStage.mjSTAGE_VEL, 0)
 
     def surface(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the middle of the phantom's top in B, m, and the normal that points out of it, both (3,)."""
+        """
+        Return the middle of the phantom's top in B, m, and the normal that points out of it, both (3,).
+
+        Of a cylinder it is the place next to the middle of the probe's face.
+        """
         # After a step the poses are those of its beginning.
         self.mujoco.mj_kinematics(self.model, self.data)
         body = self.data.body(OTHER)
-        return body.xpos.copy(), -body.xmat.reshape(3, 3)[:, 2]
+        R_BO, p_BO = body.xmat.reshape(3, 3), body.xpos.copy()
+        if self._tissue.cylinder is None:
+            return p_BO, -R_BO[:, 2]
+        R_BS = self.data.site_xmat[self._site].reshape(3, 3)
+        face = self.data.site_xpos[self._site] + self.top * R_BS[:, 2]
+        place, normal = self._tissue.cylinder.nearest(R_BO.T @ (face - p_BO))
+        return p_BO + R_BO @ place, R_BO @ normal
 
     def angles(self) -> tuple[float, float]:
         """

@@ -1,4 +1,4 @@
-"""Soft flat tissue as a bed of springs under a probe: what the scenes that press on it share."""
+"""Soft tissue as a bed of springs under a probe: what the scenes that press on it share."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.errors import InputError
@@ -72,9 +73,52 @@ class TissueCourse:
 
 
 @dataclass(frozen=True)
+class TissueCylinder:
+    """
+    A phantom like a limb: under a long face that lies askew on it, it twists the probe even without friction.
+
+    Attributes
+    ----------
+    radius : float
+        m.
+    askew : float
+        Angle from the platform's x to the axis, about its z, rad.
+    """
+
+    radius: float
+    askew: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (0.02 <= self.radius < np.inf and np.isfinite(self.askew)):
+            raise InputError(
+                f"tissue: a cylinder of {self.radius} m, {self.askew} rad askew: give at least 0.02 m, a finite angle."
+            )
+
+    @property
+    def axis(self) -> NDArray[np.float64]:
+        """Its direction in the phantom's frame, whose surface faces -z, (3,)."""
+        return np.array([np.cos(self.askew), -np.sin(self.askew), 0.0])
+
+    def nearest(self, point: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """
+        Return the place of the surface next to a point, and the normal out of it there, both (3,).
+
+        Parameters
+        ----------
+        point : (3,)
+            In the phantom's frame, m.
+        """
+        middle = np.array([0.0, 0.0, self.radius])
+        out = point - middle
+        along = (out @ self.axis) * self.axis
+        normal = (out - along) / np.linalg.norm(out - along)
+        return middle + along + self.radius * normal, normal
+
+
+@dataclass(frozen=True)
 class Tissue:
     """
-    A soft flat phantom.
+    A soft phantom, flat or a cylinder.
 
     Attributes
     ----------
@@ -90,6 +134,8 @@ class Tissue:
         Of its square top, m.
     course : TissueCourse, optional
         How modulus and damping change; left out, they do not.
+    cylinder : TissueCylinder, optional
+        In place of the flat top.
     """
 
     modulus: float = 3e6
@@ -97,6 +143,7 @@ class Tissue:
     friction: float = 0.3
     half_size: float = 0.1
     course: TissueCourse | None = None
+    cylinder: TissueCylinder | None = None
 
     def __post_init__(self) -> None:
         values = (self.modulus, self.damping, self.friction, self.half_size)
@@ -213,10 +260,23 @@ def add_probe(
 
 def add_phantom(body: Any, tissue: Tissue) -> None:
     """Give a body the phantom: it fills the side z > 0 of its frame, and its surface faces -z."""
+    kinds = physics().mjtGeom
+    if tissue.cylinder is None:
+        shape = {
+            "type": kinds.mjGEOM_BOX,
+            "size": [tissue.half_size, tissue.half_size, _HALF_HEIGHT_M],
+            "pos": [0, 0, _HALF_HEIGHT_M],
+        }
+    else:
+        lying, _ = Rotation.align_vectors(tissue.cylinder.axis[None], [[0.0, 0.0, 1.0]])
+        shape = {
+            "type": kinds.mjGEOM_CYLINDER,
+            "size": [tissue.cylinder.radius, tissue.half_size, 0],
+            "pos": [0, 0, tissue.cylinder.radius],
+            "quat": lying.as_quat(scalar_first=True),
+        }
     body.add_geom(
-        type=physics().mjtGeom.mjGEOM_BOX,
-        size=[tissue.half_size, tissue.half_size, _HALF_HEIGHT_M],
-        pos=[0, 0, _HALF_HEIGHT_M],
+        **shape,
         contype=TIP_BIT,
         conaffinity=PROBE_BIT,
         priority=1,

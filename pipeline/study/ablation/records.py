@@ -153,7 +153,7 @@ def pressed(
 
 def _touched(probe: str, size: int) -> SceneRecord:
     began = time.perf_counter()
-    touched = press_markers(probe, markers(probe)[:size], 1, 1)
+    touched = press_markers(probe, markers(probe)[:size], (0,), 1)
     spent = (time.perf_counter() - began) / len(touched)
     return SceneRecord(TOUCH, probe, touched.contacts, touched.contacts, touched.points, touched.R_WS, spent)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.study.confidence.study import PARTS, ConfidenceRow
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
+from contactbench.pipeline.study.report import FigureVerdict
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,9 +40,12 @@ def make(results: Results, folder: Path) -> str:
     """
     known = [field.name for field in fields(ConfidenceRow)]
     rows = [ConfidenceRow(**{name: row[name] for name in known}) for row in results.rows]
-    missed = [row for row in rows if not row.met]
-    lines = [f"- {row.probe}, {row.case}, {row.figure}: {figure(row)}, {bound(row)}" for row in missed]
-    verdict = "\n".join(["Bounds that are missed:", "", *lines]) if missed else "Every bound is kept."
+    short = [row for row in rows if row.verdict is not FigureVerdict.MET]
+    lines = [
+        f"- {row.probe}, {row.case}, {row.figure}: {figure(row)}, {bound(row)}: {row.verdict}"
+        for row in short
+    ]
+    verdict = "\n".join(["Bounds that are missed or open:", "", *lines]) if short else "Every bound is kept."
     probes = sorted({row.probe for row in rows if row.part == "one touch"})
     files = (
         "" if set(probes) - set(PROBE_NAMES) else " No probe from a file was measured: `--probe` takes one."
@@ -75,7 +79,7 @@ def _table(rows: Sequence[ConfidenceRow]) -> str:
 
 
 def figure(row: ConfidenceRow) -> str:
-    """Return a figure with its spread, for people."""
+    """Return a figure with its 95 % interval, for people."""
     spread = "" if row.low == row.high else f" ({number(row.low)} to {number(row.high)})"
     return f"{number(row.value)}{spread}{f' {row.unit}' if row.unit else ''}"
 
@@ -90,7 +94,7 @@ def bound(row: ConfidenceRow) -> str:
 
 
 def _marked(row: ConfidenceRow) -> str:
-    return figure(row) if row.met else f"**{figure(row)}**"
+    return figure(row) if row.verdict is FigureVerdict.MET else f"**{figure(row)}**"
 
 
 def _diagram(rows: Sequence[ConfidenceRow]) -> bytes:

@@ -12,6 +12,13 @@ import numpy as np
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
+from contactbench.pipeline.study.report import (
+    STYLES,
+    FigureVerdict,
+    mean_interval,
+    share_interval,
+    verdict_of,
+)
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
@@ -68,8 +75,7 @@ class ConfidenceRow:
     figure: str
     unit: str
     tries: int  # touches of one seed; for the reliability, answers
-    # value, low, high: mean, least and most of the seeds; for what is right, the share and its 95 %
-    # interval
+    # value, low, high: mean of the seeds, or the share of what is right; and its 95 % interval
     value: float
     low: float
     high: float
@@ -79,11 +85,9 @@ class ConfidenceRow:
     stated: float | None = None  # confidence, mean of the bin
 
     @property
-    def met(self) -> bool:
-        """Whether the bounds are kept; a bin of the reliability breaks its own only if chance cannot have done it."""
-        best, worst = (self.high, self.low) if self.stated is not None else (self.value, self.value)
-        low = self.at_least is None or best >= self.at_least
-        return bool(low and (self.at_most is None or worst <= self.at_most))
+    def verdict(self) -> FigureVerdict:
+        """Whether the bounds are kept."""
+        return verdict_of(self.value, (self.low, self.high), least=self.at_least, most=self.at_most)
 
 
 @dataclass(frozen=True)
@@ -97,8 +101,8 @@ class ConfidenceReport:
 
     @property
     def passed(self) -> bool:
-        """Whether every bound was kept."""
-        return all(row.met for row in self.rows)
+        """Whether no bound was missed."""
+        return all(row.verdict is not FigureVerdict.MISSED for row in self.rows)
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
@@ -107,7 +111,7 @@ class ConfidenceReport:
             "probes": [title_of(name) for name in self.names],
             "seed": self.seed,
             **asdict(self.sizes),
-            "rows": [asdict(row) | {"met": row.met} for row in self.rows],
+            "rows": [asdict(row) | {"verdict": str(row.verdict)} for row in self.rows],
         }
 
     def tables(self) -> list[Table]:
@@ -117,17 +121,18 @@ class ConfidenceReport:
         from contactbench.pipeline.study.confidence.page import bound, figure
 
         judged = [row for row in self.rows if bound(row)]
-        missed = [row for row in judged if not row.met]
+        shown = [row for row in judged if row.verdict is not FigureVerdict.MET]
         built = Table(
-            title=f"Bounds missed, {self.sizes.touches:,} touches x {self.sizes.seeds}, seed {self.seed}"
+            title=f"Bounds missed or open, {self.sizes.touches:,} touches x {self.sizes.seeds}, seed {self.seed}"
         )
         built.caption = (
-            f"{len(judged) - len(missed)} of {len(judged)} bounds kept; --out or --json gives every figure"
+            f"{len(judged) - len(shown)} of {len(judged)} bounds kept; --out or --json gives every figure"
         )
-        for heading in ("probe", "case", "figure", "measured", "bound"):
+        for heading in ("probe", "case", "figure", "measured", "bound", "verdict"):
             built.add_column(heading)
-        for row in missed:
-            built.add_row(row.probe, row.case, row.figure, figure(row), bound(row), style="red")
+        for row in shown:
+            cells = (row.probe, row.case, row.figure, figure(row), bound(row), str(row.verdict))
+            built.add_row(*cells, style=STYLES[row.verdict])
         return [built]
 
 
@@ -191,10 +196,13 @@ class ConfidenceCase:
         for figure in measured[0]:
             length = figure.endswith("mean")
             values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
-            middle = (float(values.mean()), float(values.min()), float(values.max()))
+            mean = float(values.mean())
+            low, high = mean_interval(values) or (mean, mean)
+            if not length:
+                low, high = max(low, 0.0), min(high, 100.0)  # a share is no less, and no more
             unit, bounds = "mm" if length else "%", self.bounds.get(figure, (None, None))
             yield ConfidenceRow(
-                self.part, self.probe, self.name, figure, unit, sizes.touches, *middle, *bounds
+                self.part, self.probe, self.name, figure, unit, sizes.touches, mean, low, high, *bounds
             )
 
 
@@ -265,18 +273,14 @@ def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Ite
 
 def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[ConfidenceRow]:
     """Compare stated confidence (n,) with what was right (n,): by its tenths, the last one split at 0.99."""
-    from scipy.stats import binomtest
-
     where = np.clip(np.digitize(stated, _BINS) - 1, 0, len(_BINS) - 2)
     for i, (low, high) in enumerate(pairwise(_BINS)):
         own = where == i
         count, hits = int(own.sum()), int(right[own].sum())
         if not count:
             continue
-        mean, interval = (
-            100.0 * float(stated[own].mean()),
-            binomtest(hits, count).proportion_ci(method="wilson"),
-        )
+        mean = 100.0 * float(stated[own].mean())
+        least_right, most_right = share_interval(hits, count)
         least: float | None = None
         most: float | None = None
         if low >= 0.99:
@@ -284,7 +288,7 @@ def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Confide
         elif count >= _FEW:
             least, most = mean - 100 * _WITHIN, mean + 100 * _WITHIN
         figure = f"{RIGHT}, where {low:g} to {high:g} is {STATED}"
-        sure = (100.0 * hits / count, 100.0 * interval.low, 100.0 * interval.high)
+        sure = (100.0 * hits / count, 100.0 * least_right, 100.0 * most_right)
         yield ConfidenceRow("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
 
 

@@ -133,17 +133,15 @@ def _errors(name: str, setups: int, seed: list[int]) -> list[Figure]:
         squares[row] = [np.mean(e[both] ** 2) for e in (with_true, with_fit, before)]
     pooled = np.sqrt(squares.mean(axis=0))
     single = np.sqrt(squares[:, 1] / squares[:, 0])
-    spread = (float(np.percentile(single, 5)), float(np.percentile(single, 95)))
     return [
         Figure(name, "contact error with the true mount", 1e3 * pooled[0], "mm"),
         Figure(name, "error with the mount before, over it", pooled[2] / pooled[0]),
-        Figure(
+        Figure.of(
             name,
             "error with the fitted mount, over it",
-            pooled[1] / pooled[0],
+            single,
+            measured=float(pooled[1] / pooled[0]),
             most=_RATIO,
-            spread=spread,
-            worst=float(single.max()),
         ),
         Figure(name, "touches only the true mount answers", 100 * lost / answered, "%"),
         _coverage(name, covered, setups),
@@ -151,15 +149,7 @@ def _errors(name: str, setups: int, seed: list[int]) -> list[Figure]:
 
 
 def _coverage(name: str, covered: int, setups: int) -> Figure:
-    chance = 196 * np.sqrt(0.05 * 0.95 / setups)
-    return Figure(
-        name,
-        f"95 % ellipsoid holds the true mount (93 to 97 %, chance ± {chance:.1f})",
-        100 * covered / setups,
-        "%",
-        least=93 - chance,
-        most=min(97 + chance, 100),
-    )
+    return Figure.share(name, "95 % ellipsoid holds the true mount", covered, setups, least=93, most=97)
 
 
 def _contact_errors(solver: ContactSolver, wrenches: Floats, points: Floats, T: Floats) -> Floats:
@@ -184,11 +174,10 @@ def _adoption(shift: float, turn_deg: float, count: int, seed: list[int]) -> Fig
         setup = draw_setup(name, rng, shift, turn_deg)
         found = align_touches(setup.probe_P, setup.touches, setup.T_before, NOISE)
         adopted += found.advice is Advice.ADOPT
-    most = None
-    if shift == 0:  # nothing to gain: adopted by chance only, as often as the advice allows
-        most = 100 * (_FALSE_ALARM + 1.96 * np.sqrt(_FALSE_ALARM * (1 - _FALSE_ALARM) / count))
+    # Nothing to gain: adopted by chance only, as often as the advice allows.
+    most = 100 * _FALSE_ALARM if shift == 0 else None
     of = f"off by {1e3 * shift:g} mm, {turn_deg:g}°"
-    return Figure(of, "fitted mount adopted", 100 * adopted / count, "%", most=most)
+    return Figure.share(of, "fitted mount adopted", adopted, count, most=most)
 
 
 def _flat_face(count: int, seed: list[int]) -> Figure:
@@ -199,7 +188,7 @@ def _flat_face(count: int, seed: list[int]) -> Figure:
         setup = draw_setup("linear", rng, **_FLAT)
         found = align_touches(setup.probe_P, setup.touches, setup.T_before, NOISE)
         named += refuses_flat(found.rank, found.unseen)
-    return Figure("flat face", "unseen shift and tilts refused by name", 100 * named / count, "%", least=100)
+    return Figure.share("flat face", "unseen shift and tilts refused by name", named, count, least=100)
 
 
 def refuses_flat(rank: int, unseen: tuple[str, ...]) -> bool:

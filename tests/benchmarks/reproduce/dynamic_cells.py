@@ -13,6 +13,8 @@ from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
+from contactbench.pipeline.simulation.scenes.platform_motion import AXES
+from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
 from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
@@ -26,9 +28,42 @@ FORCE_N = 7.0
 VERTICAL, IN_PLANE, OUT_OF_PLANE = "vertical", "in plane", "out of plane"
 # The paper's Eq. 11: 10 mm or 10 degrees.
 MOTIONS = {VERTICAL: ("z", 0.010), IN_PLANE: ("ry", np.radians(10)), OUT_OF_PLANE: ("rx", np.radians(10))}
+# Across the direction in which a tilt moves the contact: a force along it moves the wrench's axis where a tilt would.
+_ASIDE = {VERTICAL: "x", IN_PLANE: "y", OUT_OF_PLANE: "x"}
 PERIODS_S = (10.0, 5.0, 2.0)
 METHODS = ("contactbench", "algorithm1", "wrench_axis", "iterative")
 _MOVING_S = 10.0
+
+
+@dataclass(frozen=True)
+class Phantom:
+    """What is pressed on, and how it slides and twists under the probe while it makes its motion."""
+
+    friction: float
+    slide: float = 0.0  # m, to either side
+    twist: float = 0.0  # rad, to either side, about the phantom's normal
+    cylinder: TissueCylinder | None = None
+
+    @property
+    def tissue(self) -> Tissue:
+        """Its tissue."""
+        return Tissue(friction=self.friction, cylinder=self.cylinder)
+
+    def moved(self, motion: str, period: float) -> PlatformMotion:
+        """Return one of `MOTIONS`, with what comes on top."""
+        axis, size = MOTIONS[motion]
+        whole = np.zeros(6)
+        whole[[AXES.index(axis), AXES.index("rz")]] = size, self.twist
+        whole[AXES.index(_ASIDE[motion])] = self.slide
+        return PlatformMotion(whole, period, START_S)
+
+
+# The paper's, and two on which a contact has a torque about its normal: dry skin that slides and twists, and a limb.
+PHANTOMS = {
+    "flat": Phantom(0.1),
+    "twisting": Phantom(0.6, slide=0.005, twist=np.radians(20)),
+    "curved": Phantom(0.6, slide=0.005, cylinder=TissueCylinder(0.1, np.radians(45))),
+}
 
 
 @dataclass(frozen=True)
@@ -42,7 +77,7 @@ class Cell:
     motion: str  # A key of `MOTIONS`
     period: float  # Of the motion, s
     seed: int  # Of load, biases, calibration and noise
-    friction: float = 0.1
+    phantom: str = "flat"  # A key of `PHANTOMS`
     quick: bool = False  # One period only, with coarser physics
 
     @property
@@ -80,7 +115,7 @@ class Outcome:
 
 def run_cell(cell: Cell, settings: ControlSettings | None = None) -> tuple[Outcome, Trace]:
     """Run one."""
-    axis, size = MOTIONS[cell.motion]
+    phantom = PHANTOMS[cell.phantom]
     base = settings or ControlSettings.for_probe(foundation_of(cell.probe), desired_force=FORCE_N)
     rig = make_rig(
         cell.scene,
@@ -88,8 +123,8 @@ def run_cell(cell: Cell, settings: ControlSettings | None = None) -> tuple[Outco
         replace(base, variant=cell.variant),
         cell.seed,
         method=cell.method,
-        tissue=Tissue(friction=cell.friction),
-        motion=PlatformMotion.along(axis, size, cell.period, START_S),
+        tissue=phantom.tissue,
+        motion=phantom.moved(cell.motion, cell.period),
         coarse=cell.quick,
     )
     trace = run_loop(rig.scene, rig.controller, rig.sensor, START_S + cell.seconds)

@@ -94,6 +94,11 @@ DIFFERENCES = (
         "The scene `platform` has a stiff mount in place of an arm; `arm` has an Elfin3 with a servo of 60 rad/s and"
         " its limits of speed, acceleration and torque, but without friction and bending."
     ),
+    (
+        "The phantom `flat` is the paper's, with gel (friction 0.1). `twisting` is dry skin (0.6) that slides by 5 mm"
+        " and spins by 20 degrees to either side with the motion; `curved` is a dry cylinder of 100 mm radius, 45"
+        " degrees askew, that slides by 5 mm. On both the paper has no figures."
+    ),
     "Everything is computed within the sampling instant: no method pays for the time that it takes.",
 )
 
@@ -103,12 +108,13 @@ _FOLLOWED = 0.999
 _PAPER_ORDER = ("contactbench", "wrench_axis", "iterative")
 
 
-def grouped(outcomes: Sequence[Outcome]) -> dict[tuple[str, str, float, str], list[Outcome]]:
-    """Return the seeds of each (variant, motion, period, method), in the order they came."""
-    groups: dict[tuple[str, str, float, str], list[Outcome]] = {}
+def grouped(outcomes: Sequence[Outcome]) -> dict[tuple[str, str, str, float, str], list[Outcome]]:
+    """Return the seeds of each (variant, phantom, motion, period, method), in the order they came."""
+    groups: dict[tuple[str, str, str, float, str], list[Outcome]] = {}
     for outcome in outcomes:
         cell = outcome.cell
-        groups.setdefault((str(cell.variant), cell.motion, cell.period, cell.method), []).append(outcome)
+        place = (str(cell.variant), cell.phantom, cell.motion, cell.period, cell.method)
+        groups.setdefault(place, []).append(outcome)
     return groups
 
 
@@ -120,10 +126,10 @@ def table_one(outcomes: Sequence[Outcome]) -> Sheet:
     first = outcomes[0].cell.method
     rows: list[tuple[Value, ...]] = [
         (
-            f"{first}, {variant}",
-            *(_angle(groups.get((variant, motion, period, first))) for motion, period in places),
+            f"{first}, {variant}, {phantom}",
+            *(_angle(groups.get((variant, phantom, motion, period, first))) for motion, period in places),
         )
-        for variant in dict.fromkeys(str(o.cell.variant) for o in outcomes)
+        for variant, phantom in dict.fromkeys((str(o.cell.variant), o.cell.phantom) for o in outcomes)
     ]
     for name, told in TABLE_1.items():
         rows.append((f"paper: {name}", *(_printed(told, place) for place in places)))
@@ -134,29 +140,34 @@ def table_one(outcomes: Sequence[Outcome]) -> Sheet:
 def table_two(outcomes: Sequence[Outcome]) -> Sheet:
     """Return angle and force of all methods, over the seeds, and the paper's."""
     rows: list[tuple[Value, ...]] = []
-    for (variant, motion, period, method), mine in grouped(outcomes).items():
-        printed = TABLE_2.get((method, motion, period), (nan, nan))
-        forces = FORCES.get(motion) if (method, period) == ("contactbench", 10.0) else None
+    for (variant, phantom, motion, period, method), mine in grouped(outcomes).items():
+        flat = phantom == "flat"
+        printed = TABLE_2.get((method, motion, period), (nan, nan)) if flat else (nan, nan)
+        forces = FORCES.get(motion) if flat and (method, period) == ("contactbench", 10.0) else None
+        angles = [o.angle[0] for o in mine]
         rows.append(
             (
+                phantom,
                 variant,
                 f"{period:g}",
                 motion,
                 method,
+                len(mine),
                 _angle(mine),
+                f"{short(min(angles))} to {short(max(angles))}",
                 float(np.mean([o.angle[1] for o in mine])),
-                float(np.std([o.angle[0] for o in mine])),
                 *((_CROSS, nan) if printed is None else printed),
                 min(o.force[0] for o in mine),
                 max(o.force[2] for o in mine),
                 *((nan, nan) if forces is None else forces),
                 float(np.mean([o.other[0] for o in mine])),
                 float(np.mean([o.place for o in mine])),
+                float(np.mean([o.torsion[0] for o in mine])),
             )
         )
     columns = (
-        "variant", "T s", "motion", "method", "error deg", "SD", "SD of seeds", "paper deg", "paper SD", "least N",
-        "largest N", "paper least", "paper largest", "other axis deg", "place mm",
+        "phantom", "variant", "T s", "motion", "method", "seeds", "error deg", "over seeds", "SD", "paper deg",
+        "paper SD", "least N", "largest N", "paper least", "paper largest", "other axis deg", "place mm", "torsion Nmm",
     )  # fmt: skip
     return Sheet("table-2", "Table II: all methods with the same gains and seeds", columns, tuple(rows))
 
@@ -165,41 +176,41 @@ def runs(outcomes: Sequence[Outcome]) -> Sheet:
     """Return every run."""
     rows = tuple(
         (
-            str(o.cell.variant), o.cell.period, o.cell.motion, o.cell.method, o.cell.seed, o.followed, *o.force,
-            *o.angle, *o.other, o.whole, o.first, o.lost, o.place, *o.torsion, o.speed, o.held, o.ended,
+            o.cell.phantom, str(o.cell.variant), o.cell.period, o.cell.motion, o.cell.method, o.cell.seed, o.followed,
+            *o.force, *o.angle, *o.other, o.whole, o.first, o.lost, o.place, *o.torsion, o.speed, o.held, o.ended,
         )
         for o in outcomes
     )  # fmt: skip
     columns = (
-        "variant", "T s", "motion", "method", "seed", "followed", "least N", "mean N", "largest N", "error deg",
-        "SD deg", "other axis deg", "other SD deg", "whole angle deg", "largest before N", "lost", "place mm",
-        "torsion Nmm", "axis shift mm", "joint speed", "limited", "why not followed",
+        "phantom", "variant", "T s", "motion", "method", "seed", "followed", "least N", "mean N", "largest N",
+        "error deg", "SD deg", "other axis deg", "other SD deg", "whole angle deg", "largest before N", "lost",
+        "place mm", "torsion Nmm", "axis shift mm", "joint speed", "limited", "why not followed",
     )  # fmt: skip
     return Sheet("runs", "Every run", columns, rows, shown=False)
 
 
 def order_notes(outcomes: Sequence[Outcome]) -> list[str]:
-    """Say whether the methods come in the paper's order, and why not."""
+    """Say whether the methods come in the paper's order on one phantom, and why not."""
     methods = list(dict.fromkeys(o.cell.method for o in outcomes))
     if not set(_PAPER_ORDER) <= set(methods):
         return []
-    groups = grouped(outcomes)
+    groups, phantom = grouped(outcomes), outcomes[0].cell.phantom
     said = []
     for variant in dict.fromkeys(str(o.cell.variant) for o in outcomes):
         kept, apart, cases = 0, 0, 0
         for motion in (IN_PLANE, OUT_OF_PLANE):
-            for period in sorted({o.cell.period for o in outcomes}):
-                found = {m: groups[variant, motion, period, m] for m in _PAPER_ORDER}
+            for period in sorted({o.cell.period for o in outcomes if o.cell.motion == motion}):
+                found = {m: groups[variant, phantom, motion, period, m] for m in _PAPER_ORDER}
                 cases += 1
                 means = [float(np.mean([o.angle[0] for o in found[m]])) for m in _PAPER_ORDER]
                 kept += all(a < b for a, b in pairwise(means))
                 apart += any(_differs(found[_PAPER_ORDER[0]], found[m]) for m in _PAPER_ORDER[1:])
         said.append(
-            f"{variant}: the paper's order ({' before '.join(_PAPER_ORDER)}) holds in {kept} of {cases} cases; in"
-            f" {apart} does another method differ from the first by more than three standard errors of the paired"
-            " seeds."
+            f"{phantom}, {variant}: the paper's order ({' before '.join(_PAPER_ORDER)}) holds in {kept} of {cases}"
+            f" cases; in {apart} does another method differ from the first by more than three standard errors of the"
+            " paired seeds."
         )
-    return [*said, _why_equal(outcomes, methods)]
+    return [*said, f"{phantom}: {_why_equal(outcomes, methods)}"]
 
 
 def _why_equal(outcomes: Sequence[Outcome], methods: Sequence[str]) -> str:
@@ -210,9 +221,9 @@ def _why_equal(outcomes: Sequence[Outcome], methods: Sequence[str]) -> str:
     press = foundation_of(outcomes[0].cell.probe).at(FORCE_N, USUAL_MODULUS)
     within, across = (float(np.degrees(1e-3 * shift / gain)) for gain in (press.gain_x, press.gain_y))
     lost = (
-        "less than one degree: the order cannot come from it here. A flat soft phantom that does not spin twists no"
+        "less than one degree: the order cannot come from it here. A soft phantom that does not spin hardly twists a"
         " probe; the paper's differences must come from what this scene leaves out: time that a method takes, a surface"
-        " that is fitted worse, or tissue that twists the probe."
+        " that is fitted worse, or tissue that twists the probe, as the phantom `twisting` does."
         if max(within, across) < 1
         else "enough to tell methods apart that neglect it."
     )
@@ -244,33 +255,34 @@ def _differs(one: Sequence[Outcome], other: Sequence[Outcome]) -> bool:
     return bool(abs(apart.mean()) > 3 * apart.std(ddof=1) / sqrt(len(apart)))
 
 
-_COLOURS = {"plain": "#d55e00", "aware": "#0072b2"}
+_COLOURS = ("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _BARS = ("#0072b2", "#56b4e9", "#e69f00", "#009e73")
 _PHANTOM, _BAND = "#303030", "#b0b0b0"
 
 
 def draw_course(traces: Mapping[Cell, Trace]) -> bytes:
     """Draw force, and height or angle, against time for the slowest motion, as a PNG image."""
-    figure = canvas(14, 10)
-    panels = figure.subplots(len(MOTIONS), 2, sharex=True)
+    made = [motion for motion in MOTIONS if any(cell.motion == motion for cell in traces)]
+    figure = canvas(14, 1 + 3 * len(made))
+    panels = figure.subplots(len(made), 2, sharex=True, squeeze=False)
     slowest = max(cell.period for cell in traces)
-    for row, motion in zip(panels, MOTIONS, strict=True):
+    for row, motion in zip(panels, made, strict=True):
         shown = {c: t for c, t in traces.items() if (c.motion, c.period) == (motion, slowest)}
         column = list(MOTIONS).index(motion)
-        unit, name = ("mm", "height") if column == 0 else ("deg", "angle")
+        unit, what = ("mm", "height") if column == 0 else ("deg", "angle")
         for number, (cell, trace) in enumerate(shown.items()):
             seen = trace.between(START_S - 1)
-            time, variant = seen.time - START_S, str(cell.variant)
-            colour = _COLOURS[variant]
-            row[0].plot(time, seen.force, color=colour, lw=1, label=variant)
+            time, name = seen.time - START_S, f"{cell.phantom}, {cell.variant}"
+            colour = _COLOURS[number % len(_COLOURS)]
+            row[0].plot(time, seen.force, color=colour, lw=1, label=name)
             if number == 0:
                 row[1].plot(time, _path(seen.phantom, column), color=_PHANTOM, lw=1.5, label="phantom")
-            row[1].plot(time, _path(seen.probe, column), color=colour, lw=1, label=f"probe, {variant}")
+            row[1].plot(time, _path(seen.probe, column), color=colour, lw=1, label=f"probe, {name}")
         low, high = FORCES[motion]
         if slowest == 10.0:
             row[0].axhspan(low, high, color=_BAND, alpha=0.3, label="paper's range")
         row[0].set(title=f"{motion}, T = {slowest:g} s", ylabel="force, N")
-        row[1].set(title=f"{name} of phantom and probe", ylabel=unit)
+        row[1].set(title=f"{what} of phantom and probe", ylabel=unit)
         for panel in row:
             panel.legend(fontsize=8)
             panel.grid(alpha=0.3)
@@ -287,15 +299,14 @@ def draw_methods(outcomes: Sequence[Outcome]) -> bytes:
     methods = list(dict.fromkeys(o.cell.method for o in outcomes))
     variants = list(dict.fromkeys(str(o.cell.variant) for o in outcomes))
     width = 0.8 / (len(methods) * len(variants))
+    places = list(dict.fromkeys((o.cell.phantom, T) for o in outcomes for T in periods))
+    groups = grouped(outcomes)
     for panel, motion in zip(panels, (IN_PLANE, OUT_OF_PLANE), strict=True):
         for k, (variant, method) in enumerate((v, m) for v in variants for m in methods):
-            found = [
-                [o.angle[0] for o in outcomes
-                 if (str(o.cell.variant), o.cell.method, o.cell.motion, o.cell.period) == (variant, method, motion, T)]
-                for T in periods
-            ]  # fmt: skip
+            cells = [groups.get((variant, phantom, motion, T, method), []) for phantom, T in places]
+            found = [[o.angle[0] for o in cell] or [nan] for cell in cells]
             panel.bar(
-                np.arange(len(periods)) + (k + 0.5) * width - 0.4,
+                np.arange(len(places)) + (k + 0.5) * width - 0.4,
                 [np.mean(each) for each in found],
                 width,
                 yerr=[np.std(each) for each in found],
@@ -303,7 +314,7 @@ def draw_methods(outcomes: Sequence[Outcome]) -> bytes:
                 hatch="//" if variant == "plain" else None,
                 label=f"{method}, {variant}",
             )
-        panel.set_xticks(range(len(periods)), [f"T = {T:g} s" for T in periods])
+        panel.set_xticks(range(len(places)), [f"{phantom}, T = {T:g} s" for phantom, T in places])
         panel.set(title=motion, ylabel="mean absolute angle error, deg")
         panel.grid(axis="y", alpha=0.3)
     panels[1].legend(fontsize=8)

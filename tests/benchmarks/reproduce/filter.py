@@ -10,7 +10,6 @@ from benchmarks.reproduce.located import OURS
 from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
 from benchmarks.trials import canvas, png, rms
 
-from contactbench import assets
 from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.methods import make
@@ -19,7 +18,7 @@ from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S, draw_sensor
-from contactbench.pipeline.study.marker_touches import model_of, truth_of
+from contactbench.pipeline.study.marker_touches import check_bundled, model_of, truth_of
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:
@@ -183,8 +182,7 @@ def measure(
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> FilterResult:
     """Press as a hand, locate every reading, and filter the contacts."""
-    if probe not in assets.PROBE_NAMES:
-        raise InputError(f"there is no probe {probe!r}: choose one of {', '.join(assets.PROBE_NAMES)}.")
+    check_bundled([probe])
     if not _SHORTEST_S <= seconds <= _LONGEST_S:
         raise InputError(f"{seconds:g} s: give a length from {_SHORTEST_S:g} to {_LONGEST_S:g} s.")
     if seed < 0:

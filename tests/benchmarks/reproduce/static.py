@@ -24,12 +24,18 @@ from benchmarks.reproduce.located import (
 from benchmarks.reproduce.static_tables import PAPER_PROBE
 from benchmarks.trials import rms
 
-from contactbench import assets
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.control_rig import POSES, draw_sensor
-from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, press_markers
+from contactbench.pipeline.study.marker_touches import (
+    ACROSS,
+    ANGLES,
+    IN_PLANE,
+    PERPENDICULAR,
+    check_bundled,
+    press_markers,
+)
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:
@@ -65,13 +71,14 @@ def measure(
     probes: Sequence[str] = PROBES,
     *,
     seeds: int = 20,
+    seed: int = 0,
     touches: int = 3,
     facets: int = FACETS,
     most_markers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> StaticResult:
     """Repeat the static experiments on the virtual bench."""
-    names = _checked(probes, seeds, touches, facets, most_markers)
+    names = _checked(probes, seeds, seed, touches, facets, most_markers)
     places = {name: markers(name)[:most_markers] for name in names}
     total, count = sum(map(len, places.values())) + 3 + seeds, iter(range(1, 1_000_000))
 
@@ -79,12 +86,13 @@ def measure(
         progress(next(count), total)
 
     benches = []
-    for seed in range(seeds):
-        benches.append(draw_sensor(seed))
+    numbers = range(seed, seed + seeds)
+    for number in numbers:
+        benches.append(draw_sensor(number))
         step()
     results = []
     for name in names:
-        touched = press_markers(name, places[name], seeds, touches, step)
+        touched = press_markers(name, places[name], numbers, touches, step)
         results.append(locate_all(name, facets, touched, benches))
     first, touched = names[0], results[0].touched
     forces = by_force(first, facets, places[first][MARKER - 1], benches, _KEY_FORCES)
@@ -99,6 +107,7 @@ def measure(
     settings = {
         "probes": ", ".join(names),
         "seeds": seeds,
+        "first seed": seed,
         "touches": touches,
         "facets": facets,
         "poses": POSES,
@@ -107,22 +116,19 @@ def measure(
 
 
 def _checked(
-    probes: Sequence[str], seeds: int, touches: int, facets: int, most_markers: int | None
+    probes: Sequence[str], seeds: int, seed: int, touches: int, facets: int, most_markers: int | None
 ) -> list[str]:
-    unknown = [name for name in probes if name not in assets.PROBE_NAMES]
-    if unknown or not probes:
-        raise InputError(
-            f"there is no probe {', '.join(unknown)!r}: choose from {', '.join(assets.PROBE_NAMES)}."
-        )
+    names = check_bundled(probes)
     for what, count, least, most in (
         ("seeds", seeds, 1, 1_000),
+        ("as the first seed", seed, 0, 1_000_000),
         ("touches", touches, 1, 1_000),
         ("facets", facets, _FEWEST_FACETS, _MOST_FACETS),
         ("markers", MARKER if most_markers is None else most_markers, MARKER, 1_000),
     ):
         if not least <= count <= most:
             raise InputError(f"{count} {what}: give a number from {least} to {most:,}.")
-    return sorted(set(probes), key=PROBES.index)  # in one order: it must not change what is found
+    return sorted(names, key=PROBES.index)  # in one order: it must not change what is found
 
 
 MOST_PERPENDICULAR_MM = 0.6
@@ -136,6 +142,7 @@ def run(
     probes: Sequence[str] = PROBES,
     *,
     seeds: int = 20,
+    seed: int = 0,
     touches: int = 3,
     facets: int = FACETS,
     most_markers: int | None = None,
@@ -144,7 +151,13 @@ def run(
     """Repeat the static experiments on the virtual bench, and compare with the paper's."""
     return report_of(
         measure(
-            probes, seeds=seeds, touches=touches, facets=facets, most_markers=most_markers, progress=progress
+            probes,
+            seeds=seeds,
+            seed=seed,
+            touches=touches,
+            facets=facets,
+            most_markers=most_markers,
+            progress=progress,
         )
     )
 
@@ -241,15 +254,11 @@ class _Judged:
         least: float | None = None,
         most: float | None = None,
     ) -> Figure:
-        """Take a value over all touches, and over those of each seed where there are several."""
+        """Take a value over all touches, and over those of each seed."""
         seeds = self._touched.seeds
         whole = value(np.ones(len(seeds), dtype=np.bool_))
         each = [value(seeds == seed) for seed in np.unique(seeds)]
-        if len(each) < 2:
-            return Figure(self._result.name, name, whole, unit, least, most)
-        low, high = np.percentile(each, [5, 95]).tolist()
-        worst = float(np.min(each) if least is not None else np.max(each))
-        return Figure(self._result.name, name, whole, unit, least, most, (low, high), worst)
+        return Figure.of(self._result.name, name, each, unit, measured=whole, least=least, most=most)
 
     def _rows(self, angle: str, rows: NDArray[np.bool_]) -> NDArray[np.bool_]:
         at = self._touched.angles == list(ANGLES).index(angle)

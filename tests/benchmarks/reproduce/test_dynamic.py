@@ -127,9 +127,19 @@ def test_a_run_that_gave_up_did_not_follow(result):
         {"methods": ()},
         {"periods": (0.0,)},
         {"seeds": 0},
-        {"friction": -1.0},
+        {"seed": -1},
+        {"motions": ("none",)},
+        {"phantoms": ()},
     ],
 )
 def test_impossible_arguments_are_refused(wrong):
     with pytest.raises(InputError):
         measure(**{"quick": True, "workers": 1, **wrong})
+
+
+def test_a_phantom_that_slides_and_spins_twists_the_probe():
+    cell = Cell("platform", "convex", "contactbench", Variant.PLAIN, OUT_OF_PLANE, 2.0, 0, quick=True)
+    flat, twisted = (run_cell(replace(cell, phantom=name))[0] for name in ("flat", "twisting"))
+    assert flat.torsion[0] < 1.0
+    assert twisted.torsion[0] > 5.0
+    assert twisted.torsion[1] > 10 * flat.torsion[1]  # the wrench's axis is moved only if it slides, too

@@ -13,6 +13,7 @@ from contactbench.pipeline.simulation.scenes import (
     TrueSurface,
 )
 from contactbench.pipeline.simulation.scenes.platform import DOWN
+from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02
@@ -137,3 +138,23 @@ def test_a_command_out_of_reach_is_gone_to_within_the_mounts_limits(truth: TrueS
         before = scene.joints
     assert fastest[2] == pytest.approx(0.25, rel=0.03)
     assert fastest[4] == pytest.approx(np.pi / 2, rel=0.03)
+
+
+def test_a_cylinder_twists_a_long_face_that_lies_askew_and_its_normal_is_local(truth: TrueSurface) -> None:
+    def resting(askew: float) -> PlatformScene:
+        tissue = Tissue(friction=0.0, cylinder=TissueCylinder(0.1, askew))
+        scene = PlatformScene(truth, tissue=tissue, gap=-0.003)
+        scene.advance(0.3)
+        return scene
+
+    torsions = [1e3 * resting(np.radians(angle)).moment().torsion for angle in (0.0, 40.0, -40.0)]
+    assert abs(torsions[0]) < 0.05 < 0.5 < abs(torsions[1])
+    assert torsions[2] == pytest.approx(-torsions[1], rel=0.05)
+    # The axis lies along x; what was the top is 10 mm aside: there the normal leans by asin(10 / 100).
+    scene = resting(0.0)
+    scene.data.qpos[-5] = 0.01
+    place, normal = scene.surface()
+    assert np.degrees(np.arcsin(normal[1])) == pytest.approx(-np.degrees(np.arctan2(0.01, 0.1)), abs=0.3)
+    assert np.linalg.norm(place - [place[0], 0.01, -0.1]) == pytest.approx(0.1, abs=1e-3)
+    with pytest.raises(InputError, match="a cylinder of 0"):
+        TissueCylinder(0.0)

@@ -1,7 +1,7 @@
 """The confidence study in short: its cases are what they say, its judging is right, its page is made of its file."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -57,20 +57,28 @@ def test_the_same_seed_gives_the_same(report, monkeypatch):
 def test_bins_compare_what_is_stated_with_what_is_right(rng):
     stated = rng.uniform(0, 1, 20_000)
     honest = list(study.bins("probe", "case", stated, rng.random(20_000) < stated))
-    assert all(row.met for row in honest if row.stated < 99)
+    assert all(row.verdict != "missed" for row in honest if row.stated < 99)
     boastful = list(study.bins("probe", "case", stated, rng.random(20_000) < stated - 0.1))
-    assert not any(row.met for row in boastful if 20 < row.stated < 99)
-    assert not next(row for row in boastful if row.stated > 99).met
+    assert all(row.verdict == "missed" for row in boastful if 20 < row.stated < 99)
+    assert next(row for row in boastful if row.stated > 99).verdict == "missed"
     # Few answers prove nothing.
     few = list(study.bins("probe", "case", stated[:30], np.zeros(30, dtype=bool)))
-    assert all(row.met for row in few if row.stated < 99)
+    assert all(row.verdict != "missed" for row in few if row.stated < 99)
 
 
-def test_a_bound_is_judged_by_the_mean():
-    row = study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.1)
-    assert not row.met
-    assert study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.2).met
-    assert not study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 97.0, 90.0, 99.0, at_least=98.0).met
+def test_a_bound_is_missed_where_the_whole_interval_is_beyond():
+    row = study.ConfidenceRow("fin", "p", "c", "f", "%", 10, 0.2, 0.12, 0.28, at_most=0.1)
+    assert row.verdict == "missed"
+    assert replace(row, at_most=0.15).verdict == "open"
+    assert replace(row, at_most=0.2).verdict == "met"
+
+
+def test_seeds_give_the_mean_and_its_interval():
+    values = iter([0.001, 0.003, 0.002])
+    case = study.ConfidenceCase("fin", "p", "c", (0,), lambda _: {"sure": next(values)})
+    (row,) = case.rows(replace(TINY, seeds=3), 0)
+    assert (row.value, row.high) == pytest.approx((0.2, 0.2 + 4.303 * 0.1 / 3**0.5), rel=1e-3)
+    assert row.low == 0.0  # a share is no less
 
 
 def test_the_ellipse_holds_what_it_says_and_more_where_there_is_no_drift():
@@ -101,7 +109,7 @@ def test_the_page_is_made_from_the_file_alone(report, tmp_path):
         assert title in first
         assert text in first
     assert "No probe from a file was measured" in first
-    missed = [row for row in report.rows if not row.met]
+    missed = [row for row in report.rows if row.verdict != "met"]
     assert ("Every bound is kept." in first) == (not missed)
 
 
@@ -122,7 +130,7 @@ def test_the_command_prints_one_object():
     data = json.loads(result.stdout)
     assert result.exit_code == (0 if data["passed"] else 1)
     assert data["probes"] == ["linear"]
-    assert {"part", "case", "figure", "value", "met"} <= set(data["rows"][0])
+    assert {"part", "case", "figure", "value", "verdict"} <= set(data["rows"][0])
 
 
 @pytest.mark.parametrize(

@@ -112,7 +112,7 @@ def test_time_is_over_that_of_one_solve(monkeypatch):
 
 
 def test_the_command_asks_every_part_and_tells_by_its_exit_code(monkeypatch, tmp_path, benchmark):
-    names = ("efficiency", "bumped_poses", "light_load", "blind_sets", "plans", "speed")
+    names = ("efficiency", "bumped_poses", "light_load", "blind_sets", "plans", "forecasts", "speed")
     for name in names:
         figure = Figure(name, "is it?", float(name == "plans"), most=0)
         monkeypatch.setattr(gravity, name, lambda *given, figure=figure: [figure] * (given == (25, 3)))
@@ -129,3 +129,15 @@ def test_the_command_asks_every_part_and_tells_by_its_exit_code(monkeypatch, tmp
 def test_too_few_trials_are_refused(wrong):
     with pytest.raises(InputError, match="at least 20 trials"):
         gravity.run(**wrong)
+
+
+def test_forecasts_hold_and_a_wrong_one_is_noticed(monkeypatch):
+    figures = gravity.forecasts(40, 0)
+    assert all(figure.passed for figure in figures)
+    right = gravity.suggest_pose
+    monkeypatch.setattr(
+        gravity,
+        "suggest_pose",
+        lambda *given: replace(right(*given), error_after=right(*given).error_after / 3),
+    )
+    assert not any(figure.passed for figure in gravity.forecasts(40, 0) if "forecasts" in figure.name)

@@ -375,7 +375,8 @@ class ProbeStages(QObject):
     @property
     def _surface(self) -> object:
         """What a comparison of numbers of facets rests on."""
-        return (self.mesh, replace(self.plan, **dict.fromkeys(TARGETS)))
+        untargeted: dict[str, Any] = dict.fromkeys(TARGETS)
+        return (self.mesh, replace(self.plan, **untargeted))
 
     # ---- how many facets ---------------------------------------------------------------------------
 

@@ -271,26 +271,27 @@ class PatchReader:
             solved = self._solve(wanted, at, x)
             if solved is None:
                 return None
-            deep, x = solved
+            deep, found = solved
+            x = found
             height = float(deep @ self._places[:, 2]) / wanted
             at = (p + (height - p[2]) / F[2] * F)[:2] - self._middle
         inside = deep > 0
         if inside.sum() < _FEWEST:
             return None
-        middle = self._xi[inside].mean(axis=0)
+        middle: Array = self._xi[inside].mean(axis=0)
         centre = self._places[np.argmin(((self._xi - middle) ** 2).sum(axis=1))]
         # A place stands for its cell: where the middle runs through it, it counts to both sides.
         beyond = np.clip((self._xi - middle) / (0.5 * np.sqrt(self._area)), -1.0, 1.0)
-        balance = deep @ beyond / wanted
+        balance: Array = deep @ beyond / wanted
         pressure_S = np.array([*(at + self._middle), height])
-        row = np.concatenate([at - middle, x[1:], balance])
+        row: Array = np.concatenate([at - middle, found[1:], balance])
         patch = (
             pressure_S,
             np.array([*(middle + self._middle), centre[2]]),
             float(inside.sum() * self._area),
             float(deep.max()),
         )
-        return row, patch, x
+        return row, patch, found
 
     def _solve(self, wanted: float, at: Array, near: Array | None) -> tuple[Array, Array] | None:
         """Return the depths of all places (n,), and depth and lean (3,); None where no lean has its pressure there."""

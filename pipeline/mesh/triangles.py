@@ -39,7 +39,10 @@ def vertex_normals(
     normals = np.zeros((count, 3))
     for corner in range(3):
         np.add.at(normals, faces[:, corner], area_vectors)
-    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    unit: NDArray[np.float64] = normals / np.maximum(
+        np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny
+    )
+    return unit
 
 
 def six_volumes(

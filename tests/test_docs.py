@@ -8,10 +8,11 @@ import pytest
 import typer
 from benchmarks.__main__ import BENCHMARKS, function_of, options_of
 
+from contactbench import __version__
 from contactbench.app.cli import app
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)")
 BLOCK = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
@@ -72,3 +73,9 @@ def test_every_command_that_is_printed_exists_with_its_options(words):
     for word in rest:
         if word.startswith("--"):
             assert word.partition("=")[0] in known, word
+
+
+def test_a_citation_has_the_version_that_is_installed():
+    cited = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text("utf-8"), re.MULTILINE)
+    assert cited is not None
+    assert cited[1] == __version__

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _PAUSE_MS = 10  # for what waits: paint, keys, the heartbeat
+_REST_MS = 60  # for what is drawn in more than one turn
 
 
 class Turns(QObject):
@@ -20,7 +21,7 @@ class Turns(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._left: list[Callable[[], None]] = []
+        self._left: list[Callable[[], object] | None] = []
         self._timer = QTimer(self, interval=_PAUSE_MS, singleShot=True)
         self._timer.timeout.connect(self._do_one)
 
@@ -29,15 +30,16 @@ class Turns(QObject):
         """Whether something is left to do."""
         return bool(self._left)
 
-    def run(self, *pieces: Callable[[], None]) -> None:
-        """Do these, after those before."""
+    def run(self, *pieces: Callable[[], object] | None) -> None:
+        """Do these, after those before; None is a rest, in which what was begun is drawn."""
         self._left += pieces
-        self._timer.start()
+        self._timer.start(_PAUSE_MS)
 
     def _do_one(self) -> None:
         piece = self._left[0]
         try:
-            piece()
+            if piece is not None:
+                piece()
         except Exception:  # noqa: BLE001 - told by the hook, as what Qt calls itself
             self._left.clear()
             sys.excepthook(*sys.exc_info())
@@ -45,4 +47,4 @@ class Turns(QObject):
             return
         self._left.pop(0)
         if self._left:
-            self._timer.start()
+            self._timer.start(_PAUSE_MS if piece is not None else _REST_MS)

@@ -162,9 +162,15 @@ class MainWindow(QMainWindow):
         self._turns.run(
             self._make_scene,
             self._show_scene,
-            lambda: self.docks.set_charts(self.live.make_charts()),
+            None,  # its first frame is drawn in two halves
+            self.live.make_charts,
+            lambda: self.docks.set_charts(self.live.charts),
+            # Laid out in one turn, painted in the next: both at once are felt.
+            lambda: self.setUpdatesEnabled(False),
             lambda: self.docks.restore(self.settings.now.docks),
+            lambda: self.setUpdatesEnabled(True),
             partial(self._begin, opened),
+            lambda: self.pages.make(step or self.pages.first()),
             partial(self._show_first, step, opened.desk.notes),
         )
 
@@ -220,6 +226,7 @@ class MainWindow(QMainWindow):
     def _not_shown(self) -> None:
         """Give a session back that could not be shown: its desk must not keep the lock."""
         opened, self._arriving = self._arriving, None
+        self.setUpdatesEnabled(True)
         self.start.set_busy(False)
         if opened is not None:
             self.jobs.start(self.tr("Closing the session"), lambda _progress, _cancelled: opened.desk.close())

@@ -58,7 +58,7 @@ class Pages(QObject):
         self._read = -1  # after which action the facts were read
         self.step: Step | None = None
         self.statuses: Mapping[Step, StepStatus] = {}
-        self._ahead = QTimer(self, interval=_PAUSE_MS)
+        self._ahead = QTimer(self, interval=_PAUSE_MS, singleShot=True)
         self._ahead.timeout.connect(self._make_one_ahead)
 
     # ---- opened and closed -------------------------------------------------------------------------
@@ -68,7 +68,6 @@ class Pages(QObject):
         self._bench, self._facts, self.step, self._read = bench, None, None, -1
         self.statuses = {}
         self.read_statuses()
-        self._ahead.start()
 
     def close(self) -> None:
         """Have the pages end what they do, and keep what they were recording."""
@@ -96,6 +95,11 @@ class Pages(QObject):
                 return step
         return Step.DEVICES
 
+    def make(self, step: Step) -> None:
+        """Make the page of a step, and do not show it yet."""
+        if self._bench is not None:
+            self._page(step)
+
     def show(self, step: Step) -> None:
         """Show the page of a step; a locked one says what is missing."""
         if self._bench is None:
@@ -112,6 +116,8 @@ class Pages(QObject):
             guard_wheels(page)
             finish(page)
         self._tell_state(step)
+        if not self.made:
+            self._ahead.start()  # anew: never at once after a page was shown
 
     def tick(self) -> None:
         """Have the page that is shown show what is live."""
@@ -220,8 +226,9 @@ class Pages(QObject):
             self._page(missing[0])
             self._tell_state(missing[0])
         if self.made:
-            self._ahead.stop()
             self.complete.emit()
+        else:
+            self._ahead.start()  # a pause after each, however long it took
 
     def _guarded(self, page: Page, method: str, *arguments: object) -> bool:
         """Call a page; what it raises is told, and leaves the window alive."""

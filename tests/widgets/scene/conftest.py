@@ -27,7 +27,8 @@ class Bench:
 
     def settle(self):
         """Wait until a frame shows all that was asked for."""
-        self.qtbot.waitUntil(lambda: not self.scene._pacing.waiting, timeout=20_000)
+        scene = self.scene
+        self.qtbot.waitUntil(lambda: not (scene._pacing.waiting or scene.ahead.busy), timeout=20_000)
         frames = []
         self.scene.drawn.connect(frames.append)
         self.scene.view.update()

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
-    from contactbench.pipeline.verification.figures import Verification
+    from contactbench.pipeline.verification.figures import TouchFigure, Verification
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
@@ -167,7 +167,13 @@ def touches_of(verification: Verification) -> Contacts:
         counted="touches",
         times=np.array([t.time_s for t in used]) - float(starts.min()),
         known_errors=1e-3 * np.array([t.distance_mm for t in used], dtype=np.float64),
+        confidences=_confidences(used),
     )
+
+
+def _confidences(touches: list[TouchFigure]) -> NDArray[np.float64] | None:
+    sure = [touch.confidence for touch in touches if touch.confidence is not None]
+    return np.array(sure) if len(sure) == len(touches) else None  # a verification of before does not say it
 
 
 def locate_recording(

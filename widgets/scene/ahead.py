@@ -89,8 +89,9 @@ class Ahead(QObject):
 def prepare(probe: Probe) -> Prepared:
     """Compute what is needed of a probe; NumPy leaves the interpreter to others while it sorts."""
     likeness = thinned(probe.vertices, probe.faces) if len(probe.faces) > MANY else None
-    edges = crease_edges(probe.faces, probe.normals, len(probe.vertices))
-    drawn, narrow = edges[long_creases(edges, probe.vertices, probe.size)], narrow_patches(probe)
+    edges, clear = crease_edges(probe.faces, probe.normals, len(probe.vertices))
+    drawn, narrow = edges[clear], narrow_patches(probe)
+    drawn = drawn[long_creases(drawn, probe.vertices, probe.size)]
     return Prepared(
         probe,
         likeness,

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
 
 _LINES = 70  # across the probe's size
+_BEFORE = 0.003  # of the probe's size: how far the lines are before the surface
 _FEWEST = 3.0  # lines across a patch that are read as hatching
 # The direction in which the lines follow each other, by the axis along which a facet's normal is longest: it is
 # never along the normal, so every facet gets its lines.
@@ -55,15 +56,26 @@ def narrow_patches(probe: Probe) -> NDArray[np.bool_]:
 
 def hatches(probe: Probe, narrow: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Return the ends (2 k, 3) of the lines across what was made up, but not across narrow patches (m,)."""
-    chosen = probe.faces[probe.invented & ~narrow]
-    return hatch_segments(probe.vertices, chosen, probe.size / _LINES)
+    return _before(probe, np.flatnonzero(probe.invented & ~narrow), _ACROSS)
+
+
+def _before(
+    probe: Probe, faces: NDArray[np.intp] | NDArray[np.int32], directions: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """
+    Return lines (2 k, 3) a little before facets (c,).
+
+    Not upon them: at the edge of what closes a cavity, those of the far side would come through the thin wall, and look
+    like cracks.
+    """
+    corners = probe.vertices[probe.faces[faces]] + _BEFORE * probe.size * probe.normals[faces][:, None]
+    own = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
+    return hatch_segments(corners.reshape(-1, 3), own, probe.size / _LINES, directions)
 
 
 def crosses(probe: Probe, faces: NDArray[np.intp] | NDArray[np.int32]) -> Any:
     """Return crossed lines over the given facets, for VTK."""
-    chosen, spacing = probe.faces[faces], probe.size / _LINES
-    both = [hatch_segments(probe.vertices, chosen, spacing, across) for across in (_ACROSS, _CROSSED)]
-    return segments(np.concatenate(both))
+    return segments(np.concatenate([_before(probe, faces, across) for across in (_ACROSS, _CROSSED)]))
 
 
 def hatch_segments(

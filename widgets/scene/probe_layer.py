@@ -9,8 +9,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
 from contactbench.widgets.scene.ahead import MANY
-from contactbench.widgets.scene.fields import cividis
 from contactbench.widgets.scene.hatch import crosses
 from contactbench.widgets.scene.picker import Picker
 from contactbench.widgets.scene.shapes import segments, thinned, triangles
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from contactbench.widgets.scene.smooth import SmoothSurface
     from contactbench.widgets.scene.stage import SceneStage
 
+_LIFT = 0.001  # of the depth of all: half a millimetre; with more, edges of the far side come through a wall
 _NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness
-PLAIN = 205  # grey of facets without a region, of 255
 
 
 class ProbeLayer:
@@ -66,7 +66,7 @@ class ProbeLayer:
         self._coarse.show(False)
         for lines in (self._edges, self._hatching, self._crossed):
             lines.plain()
-            lines.lift(0.02)
+            lines.lift(_LIFT)
         self._field.show(False)
         self._overlay.show(False)
         self._overlay.look.BackfaceCullingOn()
@@ -181,6 +181,14 @@ class ProbeLayer:
         return True
 
     @property
+    def marked(self) -> tuple[bool, bool, bool]:
+        """Whether there are facets that are hatched, pale because made up in a narrow seam, and crossed out."""
+        hatched, crossed = (
+            bool(shape.mapper.GetInput().GetNumberOfCells()) for shape in (self._hatching, self._crossed)
+        )
+        return hatched, self._narrow is not None, crossed
+
+    @property
     def coarse(self) -> bool:
         """Whether the likeness is shown."""
         return self._coarse.shown
@@ -270,8 +278,8 @@ class ProbeLayer:
 def _surface(stage: SceneStage) -> Shape:
     shape = Shape(stage, vtkPolyData(), live=False)
     shape.look.SetInterpolationToPhong()
-    shape.look.SetAmbient(0.3)
-    shape.look.SetDiffuse(0.72)
+    shape.look.SetAmbient(0.36)
+    shape.look.SetDiffuse(0.74)
     shape.look.SetSpecular(0.0)
     # The same corners must fall on the same depths in the whole surface and in a piece of it, and VTK's own
     # shift and scale depend on the extent.
@@ -291,7 +299,7 @@ def _colour_cells(data: Any, colours: NDArray[np.uint8]) -> Any:
 
 
 def _table(limits: tuple[float, float]) -> Any:
-    shades = cividis()
+    shades = colour_ramp()
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(shades))
     for i, (red, green, blue) in enumerate(shades):

@@ -12,20 +12,28 @@ if TYPE_CHECKING:
 
 CREASE = float(np.cos(np.radians(40.0)))
 """Cosine of the angle between two facets from which on their edge is meant to be one."""
+_DRAWN = float(np.cos(np.radians(60.0)))
 _SHORT = 0.12  # of the probe's size: a crease with all that joins it that is shorter looks like a crack
 
 
 @dataclass(frozen=True, eq=False)
 class SmoothSurface:
-    """The same facets in the same order, with normals at their corners; a vertex of a sharp edge is there repeatedly."""
+    """The same facets in the same order, with normals at their corners; vertices of sharp edges several times."""
 
     of: NDArray[np.int64]  # (k,) which vertex of the probe each is; the first n are the vertices
     faces: NDArray[np.int32]  # (m, 3) into these
     normals: NDArray[np.float64]  # (k, 3) of unit length
 
 
-def crease_edges(faces: NDArray[np.int32], normals: NDArray[np.float64], vertices: int) -> NDArray[np.int64]:
-    """Return the edges (k, 2), as numbers of vertices, of one facet, and of two that meet at more than 40 degrees."""
+def crease_edges(
+    faces: NDArray[np.int32], normals: NDArray[np.float64], vertices: int
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """
+    Return the edges (k, 2), as numbers of vertices, of one facet, and of two that meet at more than 40 degrees.
+
+    And which of them (k,) are sharp enough to be drawn, 60 degrees: in a fillet of few facets some edges are sharper
+    than others by chance, and lines along these alone are ragged.
+    """
     corners = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     key = corners.min(axis=1) * vertices + corners.max(axis=1)
     order = np.argsort(key)
@@ -36,8 +44,9 @@ def crease_edges(faces: NDArray[np.int32], normals: NDArray[np.float64], vertice
     one, other = order[pairs] % len(faces), order[pairs + 1] % len(faces)
     bend = np.einsum("ij,ij->i", normals[one], normals[other])
     sharp = np.concatenate([open_ones, pairs[bend < CREASE]])
+    drawn = np.concatenate([np.ones(len(open_ones), bool), bend[bend < CREASE] < _DRAWN])
     edges: NDArray[np.int64] = corners[order[sharp]]
-    return edges
+    return edges, drawn
 
 
 def long_creases(edges: NDArray[np.int64], vertices: NDArray[np.float64], size: float) -> NDArray[np.bool_]:

@@ -22,6 +22,7 @@ _DIRECTIONS: dict[str, tuple[Triple, Triple]] = {
 VIEWS = tuple(_DIRECTIONS)
 ANGLE = 30.0  # of the perspective view, degrees, from bottom to top
 _NEAREST, _FARTHEST = 2e-4, 5.0  # half of what is seen from bottom to top, m
+_LEVEL = 0.2  # across z: a normal with less has no side
 _STRAIGHT = 1e-6  # across the line of sight: less has no direction
 
 
@@ -100,19 +101,19 @@ def turned(look: SceneLook, right: float, down: float) -> SceneLook:
     return replace(look, position=_triple(np.add(look.focal, away * toward)), up=_triple(up))
 
 
-def facing(look: SceneLook, focal: NDArray[np.float64], outward: NDArray[np.float64]) -> SceneLook:
-    """Return the camera that looks at a point from outside, along its normal but from somewhat above; z stays up."""
+def facing(look: SceneLook, outward: NDArray[np.float64]) -> SceneLook:
+    """Return the camera that looks along a normal (3,) from outside, but from somewhat above; z stays up."""
     flat = outward * [1.0, 1.0, 0.0]
-    if np.linalg.norm(flat) < _STRAIGHT:  # a face that looks up or down: from where the camera is
+    if np.linalg.norm(flat) < _LEVEL:  # a face that looks up or down: from where the camera is
         flat = -look.axes[2] * [1.0, 1.0, 0.0]
-    if np.linalg.norm(flat) < _STRAIGHT:
+    if np.linalg.norm(flat) < _LEVEL:
         flat = np.array([0.0, -1.0, 0.0])
     azimuth = np.arctan2(flat[1], flat[0])
     rise = np.arcsin(np.clip(outward[2] / max(float(np.linalg.norm(outward)), 1e-300), -1.0, 1.0))
     height = float(np.clip(0.7 * rise + 0.3, -1.2, 1.2))
     toward = np.array([np.cos(azimuth) * np.cos(height), np.sin(azimuth) * np.cos(height), np.sin(height)])
     away = float(np.linalg.norm(np.subtract(look.position, look.focal)))
-    return replace(look, position=_triple(focal + away * toward), focal=_triple(focal), up=(0.0, 0.0, 1.0))
+    return replace(look, position=_triple(np.add(look.focal, away * toward)), up=(0.0, 0.0, 1.0))
 
 
 def moved(look: SceneLook, right: float, down: float) -> SceneLook:

@@ -15,15 +15,22 @@ from contactbench.widgets.scene.smooth import crease_edges, long_creases
 
 def test_the_creases_of_a_box_are_its_twelve_edges(make_box):
     box = make_box()
-    edges = crease_edges(box.faces, box.normals, len(box.vertices))
+    edges, drawn = crease_edges(box.faces, box.normals, len(box.vertices))
     assert len(edges) == 12
+    assert drawn.all()
     along = np.abs(box.vertices[edges[:, 1]] - box.vertices[edges[:, 0]])
     assert (np.count_nonzero(along > 1e-9, axis=1) == 1).all()  # no diagonal
 
 
 def test_an_open_edge_is_a_crease_and_a_smooth_one_is_not():
     faces = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
-    assert len(crease_edges(faces, np.array([[0.0, 0, 1], [0, 0, 1]]), 4)) == 4
+    edges, drawn = crease_edges(faces, np.array([[0.0, 0, 1], [0, 0, 1]]), 4)
+    assert len(edges) == 4
+    assert drawn.all()
+    bent = np.array([[0.0, 0, 1], [0, np.sin(0.8), np.cos(0.8)]])  # 46 degrees: shaded sharp, but no line
+    edges, drawn = crease_edges(faces, bent, 4)
+    assert len(edges) == 5
+    assert drawn.sum() == 4
 
 
 def test_a_short_crease_alone_is_not_drawn_and_one_of_many_pieces_is():

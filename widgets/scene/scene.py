@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
-from PySide6.QtGui import QImage
+from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
@@ -72,6 +72,7 @@ class Scene(QWidget):
         self.setAccessibleName(self.tr("3D view of the probe"))
         self._closed = False
         self._fitted = False
+        self._rough = False  # the picture that is kept has edges that are not smoothed
         self.view = SceneView(self)
         self._live = vtkRenderer()
         self._layers()
@@ -330,6 +331,14 @@ class Scene(QWidget):
         rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
         return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
 
+    def copy_picture(self) -> None:
+        """Put what is seen, with its legend and without its buttons, into the clipboard."""
+        self.buttons.hide()
+        try:
+            QGuiApplication.clipboard().setPixmap(self.grab())
+        finally:
+            self.buttons.show()
+
     def close_scene(self) -> None:
         """Give everything of VTK back; the widget is of no use afterwards."""
         if self._closed:
@@ -401,7 +410,13 @@ class Scene(QWidget):
         if not self.view.software or self.probe_layer.coarse:
             key = None  # a graphics card draws all, and any a likeness, faster than a picture is copied
         still = [*(shape.actor for shape in self.probe_layer.shapes), *self._poses.still]
-        self._still.prepare(key, still, fresh)
+        whole = self._still.prepare(key, still, fresh)
+        # Without a graphics card edges are smoothed once all is at rest: it costs as much as a frame of few facets.
+        smooth = self.view.software and whole and key is not None and not self._pacing.moving
+        self.view.renderer.SetUseFXAA(smooth)
+        self._rough = self.view.software and not smooth and (whole or self._rough or fresh is not None)
+        if fresh is not None:
+            self._pacing.settle()  # what was painted has smooth edges once nobody paints
 
     def after(self) -> None:
         """Put back what was hidden for the frame."""
@@ -429,9 +444,9 @@ class Scene(QWidget):
         self._pacing.settle()
 
     def _refine(self) -> None:
-        if self.mouse.dragging:
+        if self.mouse.dragging or self.mouse.painting:
             self._pacing.settle()
-        elif self.probe_layer.set_coarse(False):
+        elif self.probe_layer.set_coarse(False) or self._rough:
             self.stage.stir()
 
     @property

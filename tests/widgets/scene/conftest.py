@@ -29,6 +29,13 @@ class Bench:
         """Wait until a frame shows all that was asked for."""
         scene = self.scene
         self.qtbot.waitUntil(lambda: not (scene._pacing.waiting or scene.ahead.busy), timeout=20_000)
+        self.frame()
+        # without a graphics card edges are smoothed once all is at rest
+        self.qtbot.waitUntil(lambda: not (scene._pacing.moving or scene._rough), timeout=20_000)
+        self.frame()
+
+    def frame(self):
+        """Wait for a frame."""
         frames = []
         self.scene.drawn.connect(frames.append)
         self.scene.view.update()

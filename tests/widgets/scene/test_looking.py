@@ -203,7 +203,7 @@ def test_moves_of_a_drag_are_taken_together_until_a_frame(bench):
     for i in range(200):
         bench.move(QPointF(100 + i, 100), Qt.MouseButton.LeftButton)
     assert len(moves) == 0
-    bench.settle()
+    bench.frame()
     assert len(moves) == 1
     bench.qtbot.mouseRelease(scene.view, Qt.MouseButton.LeftButton, pos=QPoint(299, 100))
 

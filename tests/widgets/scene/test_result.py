@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QGuiApplication
 
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.pipeline.mesh.regions.region import Region
@@ -190,3 +191,20 @@ def test_regions_have_their_colours_and_names_on_every_page(bench, make_box):
     ]
     scene.show_probe(box)
     assert scene.key.signs == ()
+
+
+def test_the_picture_goes_to_the_clipboard_with_its_legend_and_without_buttons(bench):
+    scene = bench.scene
+    scene.resize(800, 380)
+    scene.show_errors(touches())
+    bench.settle()
+    scene.copy_picture()
+    image = QGuiApplication.clipboard().image()
+    ratio = scene.devicePixelRatioF()
+    assert (image.width(), image.height()) == (round(800 * ratio), round(380 * ratio))
+    bar = scene.colour_bar.geometry()
+    column = [image.pixelColor(round((bar.left() + 22) * ratio), y).lightness() for y in range(60, 200, 10)]
+    assert max(column) - min(column) > 80  # from light to dark
+    corner = scene.buttons.geometry().center()
+    assert image.pixelColor(round(corner.x() * ratio), round(corner.y() * ratio)).name() == "#f1f3f5"
+    assert scene.buttons.isVisible()

@@ -71,6 +71,13 @@ class Contacts:
         """The times (n,), s; all 0 where they are not known."""
         return np.zeros(len(self.points)) if self.times is None else self.times
 
+    @property
+    def onset(self) -> float:
+        """When the probe was touched first, s on the contacts' own clock: what two of them are aligned by."""
+        if self.counted == "touches":  # their clock begins with the first, and a touch stands at its end
+            return 0.0
+        return float(self.moments.min()) if len(self.points) else 0.0
+
     def errors(self, truth: ArrayLike, most: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Return the distance (n,) to the nearest of true points (k, 3), m, and which (n,) are within `most`."""
         from scipy.spatial import cKDTree

@@ -18,7 +18,7 @@ PLAIN = 200
 """Grey of a surface without a value, of 255: `contactbench.pipeline.mesh.colours.PLAIN` as a number."""
 
 _TOP = 95.0  # per cent of the known values are below the last colour
-_FAR_OUT = 3.0  # quartiles' distances above the upper quartile
+_FAR_OUT = 1.5  # quartiles' distances above the upper quartile, of the logarithms
 _NEARLY = 0.8  # of the largest value: nearer than that, the colours end at it
 
 # Red, green, blue at even steps.
@@ -48,13 +48,15 @@ def end_of_colours(values: NDArray[np.float64]) -> float:
     """
     Return where the colours of values (v,) end; 0 where none is known.
 
-    95 % are below, unless that is nearly the largest, and it is not beyond what is far out: three times the quartiles'
-    distance above the upper one (Tukey 1977). One wrong value would else leave a single colour for all the others.
+    95 % are below, unless that is nearly the largest, and it is not beyond Tukey's fence (1977) of the logarithms: by
+    as large a factor above the upper quartile as 1.5 times that between the quartiles. One wrong touch of ten would
+    else leave a single colour for all the others; what varies over decades, as a density does, is not cut.
     """
     known = values[np.isfinite(values)]
     if not len(known):
         return 0.0
     high, largest = float(np.percentile(known, _TOP)), float(known.max())
-    low, middle = np.percentile(known, [25.0, 75.0])
-    high = min(high, float(middle + _FAR_OUT * (middle - low)))
+    low, middle = np.percentile(known[known > 0], [25.0, 75.0]) if high > 0 else (0.0, 0.0)
+    if low > 0:
+        high = min(high, float(middle * (middle / low) ** _FAR_OUT))
     return high if 0 < high < _NEARLY * largest else largest

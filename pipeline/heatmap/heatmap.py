@@ -99,8 +99,7 @@ class Heatmap:
         """
         Where the colours end: 95 % of the touched surface is below, unless that is nearly the largest value.
 
-        One wrong contact would else leave a single colour for all the others. Nor do they go beyond what is far out,
-        three times the quartiles' distance above the upper one (Tukey 1977), where few places were touched at all.
+        One wrong contact would else leave a single colour for all the others, see `end_of_colours`.
         """
         return end_of_colours(self.values)
 

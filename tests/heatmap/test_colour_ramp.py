@@ -59,6 +59,11 @@ def test_wrong_values_do_not_swallow_the_scale(wrong):
     assert end_of_colours(values[: 100 - wrong]) == pytest.approx(0.5, abs=0.03)  # without them, all of it
 
 
+def test_what_varies_over_decades_keeps_its_scale():
+    density = np.exp(np.linspace(-9.0, 3.0, 1000))
+    assert end_of_colours(density) == pytest.approx(np.percentile(density, 95.0))
+
+
 def test_the_scale_of_what_is_alike_ends_at_it():
     assert end_of_colours(np.full(9, 3.0)) == 3.0
     assert end_of_colours(np.array([np.nan, 2.0])) == 2.0

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _USUAL, _LONGEST = 0.15, 0.4  # of the probe's size: nine of ten arrows, and the longest one, are no longer
 _MOST = 1000.0  # times: more shows nothing but rounding
-_HEAD = 0.035  # of the probe's size: an arrow's head
+_HEAD = 0.045  # of the probe's size: an arrow's head
 _ABOVE = 0.02  # a lift: an arrow some millimetres below the surface is seen, one behind the probe is not
 _SIDES = 12
 
@@ -91,8 +91,8 @@ class ErrorLayer:
         self._under.colour("#20242a")
         self._rivals.colour("#202020")
         for shape, width in (
-            (self._under, 5.0),
-            (self._shafts, 3.0),
+            (self._under, 4.0),
+            (self._shafts, 2.0),
             (self._ellipses, 2.0),
             (self._rivals, 2.0),
         ):
@@ -139,6 +139,14 @@ class ErrorLayer:
             places = touches.markers + share * self.times * (touches.points - touches.markers)
             for x, y, _ in screen.project(places @ turn[:3, :3].T + turn[:3, 3]):
                 board.keep_free(x, y, 4.0 * self._stage.ratio)
+
+    @property
+    def tips(self) -> NDArray[np.float64]:
+        """Where the arrows end (k, 3), S, m."""
+        touches = self.touches
+        if touches is None:
+            return np.zeros((0, 3))
+        return np.asarray(touches.markers + self.times * (touches.points - touches.markers))
 
     def _rings(
         self,
@@ -197,5 +205,5 @@ def _heads(
     ]
     vertices = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in made])
     shifts = len(points) * np.arange(len(made))
-    cells = (faces[None] + shifts[:, None, None]).reshape(-1, 3)
+    cells = (faces[None] + shifts[:, None, None]).reshape(-1, 3).astype(np.int32)
     return _coloured(triangles(vertices, cells), np.repeat(colours, len(faces), axis=0))

@@ -32,12 +32,15 @@ class Eye:
     Attributes
     ----------
     look : SceneLook
+    also : (k, 3)
+        What is to be seen beside the probe, S, m.
     reach : float
         How far from the origin there is anything, m; grows and shrinks in steps of two.
     """
 
     def __init__(self, view: SceneView, stage: SceneStage, probe: ProbeLayer, poses: PoseLayer) -> None:
         self._view, self._stage, self._probe, self._poses = view, stage, probe, poses
+        self.also: NDArray[np.float64] = np.zeros((0, 3))
         self.look = looking("oblique", (0.0, 0.0, 0.0), 0.08)
         self.reach = 0.1
 
@@ -142,7 +145,8 @@ class Eye:
             return radius * max(1.0, narrow)
         low, high = self._probe.bounds
         sides = 0.5 * (high - low)
-        right, up, _ = np.abs(look.axes) @ sides
+        beyond = np.abs((self.also - 0.5 * (low + high)) @ look.axes.T)
+        right, up, _ = np.maximum(np.abs(look.axes) @ sides, beyond.max(axis=0, initial=0.0))
         return float(max(up, right * narrow, 0.4 * radius))
 
     def _ball(self) -> tuple[tuple[float, float, float], float]:

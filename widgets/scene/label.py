@@ -24,6 +24,8 @@ class Label:
 
     Attributes
     ----------
+    plain : bool
+        Without a box: a letter, which stands right beside its point or nowhere.
     place : int
         Where it stood in the frame before, see `label_places`.
     width, height : int
@@ -31,7 +33,7 @@ class Label:
     """
 
     def __init__(self, stage: SceneStage, plain: bool = False) -> None:
-        self._stage, self._plain, self.place = stage, plain, 0
+        self._stage, self.plain, self.place = stage, plain, 0
         self.wanted = True
         self.width = self.height = 0
         self._drawn: tuple[object, ...] = ()
@@ -49,12 +51,12 @@ class Label:
 
     def write(self, text: str, colour: str, bold: bool = False) -> None:
         """Show a text in a colour, `#rrggbb`; nothing is done where it is so already."""
-        ground = self._stage.colours.background if self._plain else self._stage.colours.panel
+        ground = self._stage.colours.background if self.plain else self._stage.colours.panel
         now = (text, colour, bold, ground, self._stage.ratio)
         if now == self._drawn:
             return
         self._drawn = now
-        image = _painted(text, colour, ground, bold or self._plain, self._stage.ratio, boxed=not self._plain)
+        image = _painted(text, colour, ground, bold or self.plain, self._stage.ratio, boxed=not self.plain)
         self.width, self.height = image.width(), image.height()
         self._texture.SetInputData(_for_vtk(image))
         self._plane.SetOrigin(0.0, 0.0, 0.0)

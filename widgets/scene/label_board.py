@@ -56,7 +56,9 @@ class LabelBoard:
     def place(self, size: tuple[int, int], covered: Sequence[tuple[float, float, float, float]] = ()) -> None:
         """Place all labels in a picture of a size, and not below what lies over it; the next frame begins anew."""
         wanted = sorted(self._wanted, key=lambda each: each[:2])
-        words = [Word(x, y, label.width, label.height, label.place) for _, _, label, x, y in wanted]
+        words = [
+            Word(x, y, label.width, label.height, label.plain, label.place) for _, _, label, x, y in wanted
+        ]
         free = np.array([*self._free, *covered], float).reshape(-1, 4)
         leaders: list[tuple[float, float, float]] = []
         for (_, _, label, x, y), found in zip(

@@ -32,9 +32,8 @@ class Word:
     y: float
     width: float
     height: float
-    last: int = (
-        0  # where it stood in the frame before: there it stays as long as it can, so that nothing flickers
-    )
+    near: bool = False  # it stands right beside its point or nowhere
+    last: int = 0  # where it stood in the frame before: there it stays as long as it can
 
 
 def label_places(
@@ -75,6 +74,7 @@ def label_places(
             & (boxes[:, 3] > others[..., 1] - _GAP)
         ).any(axis=0)
         free = np.flatnonzero(inside & ~covers)
+        free = free[free < BESIDE] if word.near else free
         if not len(free):
             found.append(None)
             continue

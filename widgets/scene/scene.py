@@ -251,6 +251,7 @@ class Scene(QWidget):
         """Show how far touches were located from their markers; how many times as long is said beside the view."""
         probe = self.probe_layer.probe
         self._errors.show(touches, self.probe_layer.picker, None if probe is None else probe.normals)
+        self._eye.also = self._errors.tips
         self._tell_legend()
         self.redraw()
 
@@ -531,8 +532,8 @@ class Scene(QWidget):
         if left + bar.width() > room.width() - _MARGIN:
             left, low = _MARGIN, low - size.height() - _MARGIN
         bar.move(left, low)
-        for part in (self.buttons, bar):
-            part.raise_()
+        self.buttons.raise_()
+        bar.raise_()
 
     def _covered(self, ratio: float) -> list[tuple[float, float, float, float]]:
         """Return what lies over the view: left, top, right and bottom, device pixels."""

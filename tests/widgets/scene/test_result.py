@@ -54,6 +54,8 @@ def test_the_first_word_has_its_place_and_one_without_any_is_left_out():
 def test_a_word_stays_where_it_stood_as_long_as_it_can():
     word = Word(100.0, 100.0, 40.0, 20.0, last=5)
     assert label_places([word], np.zeros((0, 4)), (300, 300))[0][2] == 5
+    letter = Word(100.0, 100.0, 40.0, 20.0, near=True)
+    assert label_places([letter], np.array([[60.0, 60.0, 140.0, 140.0]]), (300, 300)) == [None]
     taken = label_places([word], np.array([[0.0, 0.0, 95.0, 300.0]]), (300, 300))
     assert taken[0][2] == 0
 

@@ -28,8 +28,9 @@ class LabelBoard:
 
     def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
-        self._wanted: list[tuple[int, int, Label, float, float]] = []
+        self._wanted: list[tuple[int, int, Label, float, float, int, int]] = []
         self._free: list[tuple[float, float, float, float]] = []
+        self._before: object = None
         self._mapper = vtkPolyDataMapper2D()
         self._mapper.SetInputData(vtkPolyData())
         self._lines: Any = vtkActor2D()
@@ -45,7 +46,7 @@ class LabelBoard:
     def want(self, label: Label, x: float, y: float, visible: bool, rank: int) -> None:
         """Have a label stand beside a place, device pixels; the lower the rank, the surer it is shown."""
         if visible and label.written:
-            self._wanted.append((rank, len(self._wanted), label, x, y))
+            self._wanted.append((rank, len(self._wanted), label, x, y, label.width, label.height))
         else:
             label.hide()
 
@@ -56,12 +57,14 @@ class LabelBoard:
     def place(self, size: tuple[int, int], covered: Sequence[tuple[float, float, float, float]] = ()) -> None:
         """Place all labels in a picture of a size, and not below what lies over it; the next frame begins anew."""
         wanted = sorted(self._wanted, key=lambda each: each[:2])
-        words = [
-            Word(x, y, label.width, label.height, label.plain, label.place) for _, _, label, x, y in wanted
-        ]
+        before, self._before = self._before, (tuple(wanted), tuple(self._free), tuple(covered), size)
+        if before == self._before:  # as under the brush: then no frame is spent on it
+            self._wanted, self._free = [], []
+            return
+        words = [Word(x, y, wide, high, label.plain, label.place) for _, _, label, x, y, wide, high in wanted]
         free = np.array([*self._free, *covered], float).reshape(-1, 4)
         leaders: list[tuple[float, float, float]] = []
-        for (_, _, label, x, y), found in zip(
+        for (_, _, label, x, y, *_), found in zip(
             wanted, label_places(words, free, size, self._stage.ratio), strict=True
         ):
             if found is None:

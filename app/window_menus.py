@@ -77,6 +77,9 @@ class Menus(QObject):
         self.undo.setShortcut("Ctrl+Z")
         self.redo.setShortcuts([QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")])
         menu.addActions([self.undo, self.redo])
+        menu.addSeparator()
+        words = self.tr("&Copy the picture of the 3D view")
+        self._add(menu, words, self.copy_picture, "Ctrl+Shift+C", only_open=True)
 
     def _view(self) -> None:
         window, menu = self._window, self._menu(self.tr("&View"))
@@ -122,6 +125,13 @@ class Menus(QObject):
         about.setMenuRole(QAction.MenuRole.AboutRole)
 
     # ---- what they do ------------------------------------------------------------------------------
+
+    def copy_picture(self) -> None:
+        """Put the picture of the 3D view into the clipboard."""
+        scene, bench = self._window.scene, self._window.bench
+        if scene is not None and bench is not None:
+            scene.copy_picture()
+            bench.tell(Weight.INFO, self.tr("The picture of the 3D view is in the clipboard."))
 
     def open_again(self) -> None:
         """Close the session and open it: what is to be done after a disk that was full."""

@@ -11,8 +11,11 @@ from PySide6.QtCore import QObject
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from contactbench.app.bench import Bench
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
 
 
 class SessionProbe(QObject):
@@ -27,20 +30,23 @@ class SessionProbe(QObject):
         if found is None:
             return
 
-        def read(_progress: object, _cancelled: object) -> Probe | None:
+        def read(_progress: object, _cancelled: object) -> tuple[Probe, Sequence[Region]] | None:
+            from contactbench.pipeline.mesh.sidecar import load_probe_file
             from contactbench.pipeline.session.recompute import lay_out
             from contactbench.pipeline.verification.result import load_surface
 
             try:
                 with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
                     files = lay_out(folder, state, {"probe": found.content}, Path(scratch))
-                    return load_surface(files["probe"])
+                    probe = load_surface(files["probe"])
+                    named = probe.region.any()
+                    return probe, load_probe_file(files["probe"]).regions.regions if named else ()
             except (InputError, OSError, LookupError):
                 return None  # the page that needs it says why
 
-        def came(probe: Probe | None) -> None:
-            if probe is not None and scene.probe_layer.probe is None:
-                scene.show_probe(probe)
+        def came(found: tuple[Probe, Sequence[Region]] | None) -> None:
+            if found is not None and scene.probe_layer.probe is None:
+                scene.show_probe(found[0], regions=found[1])
                 scene.look("fit")
 
         bench.jobs.start(self.tr("Reading the probe"), read, came)

@@ -52,6 +52,7 @@ class HeatmapControls(QWidget):
     changed = Signal()  # the quantity, what it adds up to, or the range of force
     widened = Signal(float)  # another bandwidth, m, and no further change of it for a moment
     compared = Signal(bool)
+    shifted = Signal()  # the second one against the first, in time
     asked_open = Signal(bool)  # True: the folder of a session
     asked_save = Signal(str)  # "picture", "film" or "mesh"
     asked_stop = Signal()
@@ -96,11 +97,21 @@ class HeatmapControls(QWidget):
         self.force.setAccessibleName(self.tr("Range of force in N"))
         self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
         self.by_confidence = QCheckBox(self.tr("Weigh by confidence"))
-        self.by_confidence.setToolTip(self.tr("Let each contact count as much as its place is sure."))
         self.compare = QCheckBox(self.tr("Compare two side by side"))
         self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
         for box in (self.by_confidence, self.compare):
             box.setMinimumHeight(HIGH)
+        self.clock = choice(
+            ((self.tr("from the first contact"), True), (self.tr("from each one's beginning"), False)),
+            self.tr("Time of two that are compared"),
+            tip=self.tr(
+                "Whether both times count from where the probe was touched first, or from where each file begins."
+            ),
+        )
+        self.later = QDoubleSpinBox(decimals=1, minimum=-3600.0, maximum=3600.0, singleStep=0.1, suffix=" s")
+        self.later.setMinimumSize(112, HIGH)
+        self.later.setAccessibleName(self.tr("How much later the second one is shown, s"))
+        self.later.setToolTip(self.tr("Moves the second one against the first in time."))
         self.message, self.reading = sentence_label(), ReadingBox()
         self.bar, self.stop = QProgressBar(), QPushButton(self.tr("Cancel"))
         self._confidences = False
@@ -147,6 +158,7 @@ class HeatmapControls(QWidget):
                 lambda: self.asked_save.emit("mesh"),
             ),
         ]
+        self._saving_tips = [button.toolTip() for button in self._saving]
         rows = QFormLayout()
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.setSpacing(4)
@@ -155,10 +167,18 @@ class HeatmapControls(QWidget):
         rows.addRow(self.tr("Bandwidth"), row((self.fine, 1), self.bandwidth))
         rows.addRow(self.tr("Force"), self.force)
         self._per_label = rows.labelForField(self.per)
+        self._two = QWidget()
+        two = QFormLayout(self._two)
+        two.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        two.setSpacing(4)
+        two.setContentsMargins(0, 0, 0, 0)
+        two.addRow(self.tr("Time"), self.clock)
+        two.addRow(self.tr("Second one later by"), self.later)
+        self._two.hide()
         inside = QWidget()
         layout = column(
             inside, plain_label(self.tr("Heatmap"), "title"), row(*((each, 1) for each in self._opening)),
-            rows, self.force_words, self.by_confidence, self.compare, plain_label(self.tr("Save"), "title"),
+            rows, self.force_words, self.by_confidence, self.compare, self._two, plain_label(self.tr("Save"), "title"),
             row(*((each, 1) for each in self._saving)), self.message, self.reading,
             margins=(12, 10, 12, 8),
         )  # fmt: skip
@@ -181,7 +201,10 @@ class HeatmapControls(QWidget):
         self.fine.valueChanged.connect(lambda value: self.bandwidth.setValue(value / 10))
         self.bandwidth.valueChanged.connect(self._bandwidth_changed)
         self._patience.timeout.connect(lambda: self.widened.emit(self.bandwidth_m()))
+        self.compare.toggled.connect(self._two.setVisible)
         self.compare.toggled.connect(self.compared)
+        self.clock.currentIndexChanged.connect(lambda _index: self.shifted.emit())
+        self.later.valueChanged.connect(lambda _seconds: self.shifted.emit())
         self.stop.clicked.connect(self.asked_stop)
 
     # ---- what is chosen ----------------------------------------------------------------------------
@@ -234,8 +257,14 @@ class HeatmapControls(QWidget):
         self._allow_weight()
 
     def _allow_weight(self) -> None:
-        # A peak is the largest force: nothing is weighed in it.
-        self.by_confidence.setEnabled(self._confidences and self.quantity.currentData() != "peak")
+        peak = self.quantity.currentData() == "peak"
+        self.by_confidence.setEnabled(self._confidences and not peak)
+        tip = self.tr("Let each contact count as much as its place is sure.")
+        if peak:
+            tip = self.tr("A peak is the largest force: nothing is weighed in it.")
+        elif not self._confidences:
+            tip = self.tr("What is shown does not say how sure its contacts are: locate them again.")
+        self.by_confidence.setToolTip(tip)
 
     def show_force(self) -> None:
         """Say the range of force."""
@@ -263,6 +292,10 @@ class HeatmapControls(QWidget):
         """Say whether there is something to show and to save."""
         for each in (self.quantity, self.per, self.bandwidth, self.fine, self.compare, *self._saving):
             each.setEnabled(ready)
+        for button, tip in zip(self._saving, self._saving_tips, strict=True):
+            button.setToolTip(
+                tip if ready else self.tr("Nothing is shown yet: open files or a session first.")
+            )
         # one accented button: before anything is open that one, later the one that plays
         accent(self._opening[0], not ready, "folder")
         if not ready:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,7 +36,7 @@ class HeatmapExport(QObject):
             return
         filters = {
             "picture": self.tr("Picture (*.png)"),
-            "film": self.tr("MP4 film (*.mp4);;Animated GIF (*.gif)"),
+            "film": ";;".join(self._films()),
             "mesh": self.tr("PLY mesh (*.ply);;Binary glTF (*.glb)"),
         }[what]
         name, chosen = QFileDialog.getSaveFileName(self._viewer, self.tr("Save"), "heatmap", filters)
@@ -43,6 +44,11 @@ class HeatmapExport(QObject):
             suffix = chosen.rsplit("*", 1)[-1].rstrip(")")
             file = Path(name)
             self.save(file if file.suffix.lower() in _SUFFIXES else file.with_name(file.name + suffix))
+
+    def _films(self) -> tuple[str, ...]:
+        """Return the kinds of film that can be made here: an MP4 needs a program that may be missing."""
+        there = find_spec("imageio_ffmpeg") is not None
+        return (*((self.tr("MP4 film (*.mp4)"),) if there else ()), self.tr("Animated GIF (*.gif)"))
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
@@ -56,11 +62,12 @@ class HeatmapExport(QObject):
             else [file.with_stem(f"{file.stem}-{end}") for end in ("left", "right")]
         )
         film = kind in (".mp4", ".gif")
-        selection = viewer.played_selection() if film else viewer.selection()
+        chosen = viewer.played_selection if film else viewer.selection
+        selections = [chosen(number) for number in range(viewer.visible())]
         settings = FilmSettings(viewer.time.speed_value(), viewer.time.seconds())
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> list[Path]:
-            for number, (source, name) in enumerate(zip(sources, names, strict=True)):
+            for number, (source, name, selection) in enumerate(zip(sources, names, selections, strict=True)):
 
                 def told(share: float, number: int = number) -> None:
                     progress((number + share) / len(sources))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtGui import QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from contactbench.app.heatmap_viewer.cameras import OneCamera
@@ -114,6 +114,7 @@ class HeatmapViewer(QWidget):
         controls.widened.connect(lambda _metres: self._make_all())
         controls.compared.connect(self._compare)
         controls.reading.changed.connect(self._read_again)
+        controls.shifted.connect(self._shifted)
         controls.asked_open.connect(self._ask_open)
         controls.asked_save.connect(self._saving.ask)
         self.time.changed.connect(self._redraw.start)
@@ -123,6 +124,7 @@ class HeatmapViewer(QWidget):
             ("P", self._play),
             ("Ctrl+O", lambda: self._ask_open(False)),
             ("Ctrl+S", lambda: self._saving.ask("picture")),
+            ("Ctrl+Shift+C", self._copy),
         ):
             shortcut = QShortcut(QKeySequence(keys), self)
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
@@ -148,6 +150,18 @@ class HeatmapViewer(QWidget):
                 and np.array_equal(here.probe.vertices, there.probe.vertices)
             )
             side.read_at(pick if same else None)
+
+    def _copy(self) -> None:
+        """Put what is seen into the clipboard; two that are compared side by side."""
+        if not self.sources:
+            self.controls.say(self.tr("Nothing is shown yet: open files or a session first."))
+            return
+        for side in self.sides:
+            side.scene.buttons.hide()
+        QGuiApplication.clipboard().setPixmap(self._stack.grab())
+        for side in self.sides:
+            side.scene.buttons.show()
+        self.controls.say(self.tr("The picture is in the clipboard."))
 
     def _play(self) -> None:
         if self.time.isEnabled():
@@ -218,15 +232,44 @@ class HeatmapViewer(QWidget):
         for number, side in enumerate(self.sides):
             side.set_sources(names, self._shown[number])
         seen = [self.sources[self._shown[number]] for number in range(self.visible())]
-        duration = max(max(s.contacts.duration, float(s.contacts.moments[-1])) for s in seen)
-        if duration != self.time.slider.limits()[1]:
-            self.time.set_duration(duration)
-        self.time.slider.set_profile(_counted([s.contacts.moments for s in seen], duration))
+        self._one_clock()
         forces = [s.contacts.forces for s in seen if s.contacts.forces is not None]
         largest = float(np.ceil(10 * max(f.max() for f in forces))) / 10 if forces else None
         self.controls.set_forces(largest, None if largest is None else _counted(forces, largest))
         self.controls.set_confidences(all(s.contacts.confidences is not None for s in seen))
         self._make_all()
+
+    def _one_clock(self) -> None:
+        """Show how long it all lasts on the one clock, and when how much was touched."""
+        seen = [(self.source(number).contacts, self.shift(number)) for number in range(self.visible())]
+        duration = max(max(each.duration, float(each.moments[-1])) - shift for each, shift in seen)
+        if duration != self.time.slider.limits()[1]:
+            self.time.set_duration(duration)
+        self.time.slider.set_profile(_counted([each.moments - shift for each, shift in seen], duration))
+
+    def shift(self, number: int) -> float:
+        """
+        Return what is added to the time that is shown to have a side's own time, s.
+
+        Of two that are compared, the first keeps its clock; the second is moved so that both are touched first at the
+        same moment, and by what is asked for. Where it would begin before zero, both are moved.
+        """
+        if self.visible() == 1:
+            return 0.0
+        shown = [self.source(side).contacts for side in range(2)]
+        aligned = bool(self.controls.clock.currentData())
+        second = (shown[1].onset - shown[0].onset if aligned else 0.0) - self.controls.later.value()
+        begin = min(0.0, float(shown[0].moments[0]), float(shown[1].moments[0]) - second)
+        return (second if number else 0.0) + begin
+
+    def _shifted(self) -> None:
+        if self.sources:
+            slider = self.time.slider
+            before = None if slider.whole() else slider.values()
+            self._one_clock()
+            if before is not None:  # the window stays where it is, and the second one moves under it
+                slider.set_values(*before)
+            self._redraw.start()
 
     def _choose(self, number: int, source: int) -> None:
         self._shown[number] = source
@@ -316,16 +359,20 @@ class HeatmapViewer(QWidget):
             self._camera.follow_first()
         self._redraw.start()
 
-    def selection(self) -> Selection:
-        """Return what is seen now."""
-        return self._selection(*self.time.chosen())
+    def selection(self, number: int = 0) -> Selection:
+        """Return what is seen of a side now, on its own clock."""
+        return self._selection(number, *self.time.chosen())
 
-    def played_selection(self) -> Selection:
-        """Return all that is played."""
-        return self._selection(*self.time.played_range())
+    def played_selection(self, number: int = 0) -> Selection:
+        """Return all that is played of a side, on its own clock."""
+        ends = self.time.played_range()
+        if self.visible() == 2 and ends == (None, None):  # both films begin at the same moment
+            ends = self.time.slider.limits()
+        return self._selection(number, *ends)
 
-    def _selection(self, *ends: float | None) -> Selection:
-        start, end = (None if each is None else round(each, 3) for each in ends)
+    def _selection(self, number: int, *ends: float | None) -> Selection:
+        shift = self.shift(number) if self.sources else 0.0
+        start, end = (None if each is None else round(each + shift, 3) for each in ends)
         return self.controls.selection(start, end)
 
     def source(self, number: int) -> HeatmapSource:
@@ -337,11 +384,10 @@ class HeatmapViewer(QWidget):
             return
         playing = self.time.slider.playhead() is not None
         window = self.time.seconds() if playing else None
-        sides, whole = self.sides[: self.visible()], self.played_selection()
-        top = max((side.top(whole, window) for side in sides), default=0.0)
-        selection = self.selection()
-        for side in sides:
-            side.show_selection(selection, top)
+        sides = list(enumerate(self.sides[: self.visible()]))
+        top = max((side.top(self.played_selection(number), window) for number, side in sides), default=0.0)
+        for number, side in sides:
+            side.show_selection(self.selection(number), top)
 
     # ---- dropping and closing ----------------------------------------------------------------------
 

@@ -102,6 +102,7 @@ class VerifyPage(Page):
         markers.refused.connect(self._read_again)
         markers.go_on.clicked.connect(lambda: self.tabs.setCurrentIndex(_TOUCH))
         result.again.clicked.connect(self.start)
+        result.worst.clicked.connect(self.scene_view.show_worst)
         result.go_on.clicked.connect(lambda: self.bench.go_to.emit(Step.EXPORT))
         self.bench.scene.picked.connect(self._picked)
 
@@ -233,7 +234,7 @@ class VerifyPage(Page):
             if self._closed:
                 return
             self.work.tool = tool = found[0]
-            self.scene_view.probe = tool.probe
+            self.scene_view.probe, self.scene_view.regions = tool.probe, tool.regions
             self.bench.live.set_model(tool.model)
             self.bench.live.set_solver(found[1])
             self.panel_markers.show_regions()
@@ -251,6 +252,7 @@ class VerifyPage(Page):
         if outcome is not None:
             outcome = replace(outcome, broken=self._broken)
         self.work.take_outcome(outcome)
+        self.scene_view.outcome = self.work.outcome
         self.panel_result.show_outcome(self.work.outcome)
 
     def _set(self, values: dict[str, object], text: str) -> None:
@@ -324,6 +326,7 @@ class VerifyPage(Page):
                 self._show_outcome(outcome)
                 self.panel_touch.say("")  # what was wrong while it was recorded: the verdict says it better
                 self.tabs.setCurrentIndex(_RESULT)
+                self.scene_view.show_worst()
                 self.panel_touch.sounds.play("done")
                 passed, failed = (
                     self.tr("The verification passed."),

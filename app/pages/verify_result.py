@@ -34,11 +34,17 @@ class ResultPanel(QWidget):
         self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
         self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
         self.open = push_button(self.tr("Open the report"), self._open, "folder")
+        self.worst = push_button(
+            self.tr("Show the worst marker"),
+            None,
+            "search",
+            tip=self.tr("Turn the 3D view to the marker with the largest error"),
+        )
         self.again = push_button(self.tr("Verify again"), None, "redo")
         self.go_on = push_button(self.tr("Go on: Export"), None, "export", primary=True)
         column(
             self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
-            row((self.open, 1), (self.again, 1)), self.go_on,
+            self.worst, row((self.open, 1), (self.again, 1)), self.go_on,
             margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
@@ -51,6 +57,7 @@ class ResultPanel(QWidget):
         self.again.setVisible(outcome is not None)
         holds = outcome is not None and outcome.passed and not (outcome.stale or outcome.broken)
         self.go_on.setVisible(holds)
+        self.worst.setVisible(outcome is not None and outcome.touches > 0 and not outcome.stale)
         if outcome is None:
             self._put(self.tr("Not verified yet"), "ready", "muted")
             self._texts("", "", "", "", "", "", "")

@@ -1,4 +1,4 @@
-"""From values to colours: cividis, which reads the same with every kind of colour vision; no data is grey."""
+"""From values to colours: `contactbench.pipeline.colour_ramp`, whose zero is the grey of no data."""
 
 from __future__ import annotations
 
@@ -6,23 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.colour_ramp import PLAIN, ramp_colours
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
 
-MAP = "cividis"
-NO_DATA = (0.85, 0.85, 0.87)
+NO_DATA = (PLAIN / 255,) * 3
 
 
 def colours(heatmap: Heatmap, largest: float | None = None) -> NDArray[np.float64]:
     """Return the sRGB colour (v, 3), 0 to 1, of each vertex; `largest`, or else its `top`, has the last colour."""
-    import matplotlib as mpl
-
     top = heatmap.top if largest is None else largest
-    share = np.clip(np.nan_to_num(heatmap.values) / (top or 1.0), 0.0, 1.0)
-    colour = np.asarray(mpl.colormaps[MAP](share), dtype=np.float64)[:, :3]
-    return np.where(heatmap.known[:, None], colour, NO_DATA)
+    return np.where(heatmap.known[:, None], ramp_colours(heatmap.values, top), NO_DATA)
 
 
 def linear(srgb: NDArray[np.float64]) -> NDArray[np.float64]:

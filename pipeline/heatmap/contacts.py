@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
-    from contactbench.pipeline.verification.figures import Verification
+    from contactbench.pipeline.verification.figures import TouchFigure, Verification
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
@@ -70,6 +70,13 @@ class Contacts:
     def moments(self) -> NDArray[np.float64]:
         """The times (n,), s; all 0 where they are not known."""
         return np.zeros(len(self.points)) if self.times is None else self.times
+
+    @property
+    def onset(self) -> float:
+        """When the probe was touched first, s on the contacts' own clock: what two of them are aligned by."""
+        if self.counted == "touches":  # their clock begins with the first, and a touch stands at its end
+            return 0.0
+        return float(self.moments.min()) if len(self.points) else 0.0
 
     def errors(self, truth: ArrayLike, most: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Return the distance (n,) to the nearest of true points (k, 3), m, and which (n,) are within `most`."""
@@ -167,7 +174,13 @@ def touches_of(verification: Verification) -> Contacts:
         counted="touches",
         times=np.array([t.time_s for t in used]) - float(starts.min()),
         known_errors=1e-3 * np.array([t.distance_mm for t in used], dtype=np.float64),
+        confidences=_confidences(used),
     )
+
+
+def _confidences(touches: list[TouchFigure]) -> NDArray[np.float64] | None:
+    sure = [touch.confidence for touch in touches if touch.confidence is not None]
+    return np.array(sure) if len(sure) == len(touches) else None  # a verification of before does not say it
 
 
 def locate_recording(

@@ -60,8 +60,12 @@ def moments(playback: Playback, selection: Selection, settings: FilmSettings, ra
     settings.check()
     start = selection.start or 0.0
     end = min(playback.duration, np.inf if selection.end is None else selection.end)
-    if not end > start or not playback.frame(selection).contacts:
+    if not playback.frame(selection).contacts:
         raise HeatmapError(empty_words(playback.contacts, selection))
+    if not end > start:
+        raise HeatmapError(
+            f"a film of {max(end - start, 0.0):g} s shows nothing that moves: widen the time window, or save a picture."
+        )
     count = int(np.ceil((end - start) / settings.speed * rate)) + 1
     if count > _MOST_FRAMES:
         raise HeatmapError(

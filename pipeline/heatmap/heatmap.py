@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
+from contactbench.pipeline.colour_ramp import end_of_colours
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 
@@ -19,8 +20,6 @@ Quantity = Literal["density", "force", "peak", "error", "uncertainty"]
 Normalisation = Literal["contacts", "seconds", "rate"]
 
 SMALLEST_BANDWIDTH = 1.5e-3  # m: the default where contacts are surer than that
-_TOP = 95.0  # per cent of the known vertices are below the last colour
-_NEARLY = 0.8  # of the largest value: nearer than that, the colours end at it
 _LARGEST_SHARE = 0.5  # of the probe's size: a wider bell says nothing of any place
 
 _UNITS = {"force": "N", "peak": "N", "error": "mm", "uncertainty": "mm"}
@@ -100,7 +99,7 @@ class Heatmap:
         """
         Where the colours end: 95 % of the touched surface is below, unless that is nearly the largest value.
 
-        One wrong contact would else leave a single colour for all the others.
+        One wrong contact would else leave a single colour for all the others, see `end_of_colours`.
         """
         return end_of_colours(self.values)
 
@@ -123,15 +122,6 @@ class Heatmap:
             "surface_mm2": 1e6 * float(areas.sum()),
             "notes": list(self.notes),
         }
-
-
-def end_of_colours(values: NDArray[np.float64]) -> float:
-    """Return where the colours of values (v,) end, see `Heatmap.top`; 0 where none is known."""
-    known = values[np.isfinite(values)]
-    if not len(known):
-        return 0.0
-    high, largest = float(np.percentile(known, _TOP)), float(known.max())
-    return high if 0 < high < _NEARLY * largest else largest
 
 
 def unit_of(quantity: Quantity, normalisation: Normalisation) -> str:

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.colours import MAP, NO_DATA, colours
+from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.pipeline.heatmap.colours import NO_DATA, colours
 from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
 
@@ -214,15 +215,15 @@ def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float]) -> None:
     """Draw the colours with numbers, and the grey of no data beside them."""
     axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
     largest = heatmap.top or 1.0
-    axes.imshow(np.linspace(0, 1, 256)[None], cmap=MAP, extent=(0, largest, 0, 1), aspect="auto")
+    axes.imshow(colour_ramp()[None], extent=(0, largest, 0, 1), aspect="auto")
     axes.set(yticks=[], xlim=(0, largest))
     axes.locator_params(axis="x", nbins=6)
     axes.tick_params(colors=_INK, labelsize=10, length=3)
-    over = f" (up to {heatmap.largest:.3g})" if heatmap.top < heatmap.largest else ""
+    over = f" (darkest above; up to {heatmap.largest:.3g})" if heatmap.top < heatmap.largest else ""
     axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
     key = figure.add_axes((0.72, 0.84 / size[1], 0.03, 0.16 / size[1]))
     key.set(xticks=[], yticks=[], facecolor=NO_DATA)
-    figure.text(0.76, 0.92 / size[1], "no data", va="center", color=_INK, fontsize=10)
+    figure.text(0.76, 0.92 / size[1], "no data, or 0", va="center", color=_INK, fontsize=10)
 
 
 def _note(heatmap: Heatmap) -> str:

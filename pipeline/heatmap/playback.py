@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.colour_ramp import end_of_colours
 from contactbench.pipeline.heatmap.heatmap import (
     Heatmap,
     HeatmapError,
     check_bandwidth,
     default_bandwidth,
-    end_of_colours,
     quantity_at,
     scale_of,
     unit_of,

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.markers import MarkerSet
 
@@ -44,6 +45,10 @@ class TouchLocation:
     ambiguous: bool
     # No single touch explains the wrench, unless with more torque about the normal than a tip can give
     implausible: bool = False
+    confidence: float = float("nan")  # How sure it is that it is there, and not at a rival place, 0 to 1
+    rivals: tuple[
+        tuple[float, float, float], ...
+    ] = ()  # Other places that explain the wrench, the likeliest first
 
 
 @dataclass(frozen=True)
@@ -123,6 +128,8 @@ class TouchLocator:
             drift_sigma=float(np.sqrt(np.linalg.eigvalsh(left)[-1].clip(0))),
             ambiguous=not whole.accepted,
             implausible=implausible,
+            confidence=float(whole.confidence),
+            rivals=_rivals(whole),
         )
 
     def moved(self, located: TouchLocation, wrenches: NDArray[np.float64]) -> float:
@@ -150,6 +157,12 @@ class TouchLocator:
         point: NDArray[np.float64], normal: NDArray[np.float64], force: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         return np.asarray(contact_sensitivity(point, normal, force[None])[0])
+
+
+def _rivals(contact: Contact) -> tuple[tuple[float, float, float], ...]:
+    if contact.reason not in (Reason.AMBIGUOUS, Reason.BY_REGION):
+        return ()
+    return tuple((float(x), float(y), float(z)) for x, y, z in (each.point for each in contact.candidates))
 
 
 def _norm_ratio(halves: NDArray[np.float64]) -> float:

@@ -354,6 +354,9 @@ def _where(touch: Touch, point: NDArray[np.float64], normal: NDArray[np.float64]
         "distance_mm": float(np.linalg.norm(error)),
         "predicted_mm": float(1e3 * np.sqrt(np.trace(located.covariance))),
         "torque_arm_mm": 1e3 * located.torque / size,
+        "covariance_mm2": tuple((1e6 * located.covariance[np.triu_indices(3)]).tolist()),
+        "confidence": located.confidence if np.isfinite(located.confidence) else None,
+        "rivals_mm": tuple(vector(1e3 * np.asarray(each)) for each in located.rivals),
     }
 
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.verification.figures import Verification
     from contactbench.pipeline.workbench.desk import Desk
@@ -85,6 +86,7 @@ class TouchTool:
     probe: Probe  # S
     model: GravityModel
     content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
+    regions: tuple[Region, ...] = ()  # Names and colours, in the order of their ranks
 
 
 def tool_of(folder: Path, state: State) -> TouchTool:
@@ -98,6 +100,7 @@ def tool_of(folder: Path, state: State) -> TouchTool:
     """
     from contactbench.pipeline.calibration import Level
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.mesh.sidecar import load_probe_file
     from contactbench.pipeline.verification.result import load_surface
 
     content = tool_key(state)
@@ -106,11 +109,12 @@ def tool_of(folder: Path, state: State) -> TouchTool:
     with laid_out(folder, state, dict(zip(("probe", "calibration"), content, strict=True))) as files:
         calibration = load_calibration(files["calibration"])
         probe = load_surface(files["probe"])
+        regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
     if calibration.verdict.level is Level.REFUSE:
         raise InputError(
             "The calibration was refused: nothing verified with it would count. Calibrate again."
         )
-    return TouchTool(probe, calibration.model, content)
+    return TouchTool(probe, calibration.model, content, regions)
 
 
 def tool_key(state: State) -> tuple[str, str] | None:

@@ -87,6 +87,7 @@ def test_the_whole_way_by_clicks(window):
     assert Step.VERIFY not in window.bench.running
     assert window.told[-1].weight is Weight.GOOD
     assert ("verification", "verification.json") in window.desk.state.current_results
+    the_result_is_seen(window, page.work.outcome.found)
     assert window.bench.undo.undoText() == "verify"
     window.bench.undo.undo()
     window.wait(lambda: page.work.outcome is None)
@@ -94,6 +95,27 @@ def test_the_whole_way_by_clicks(window):
     window.bench.undo.redo()
     window.wait(lambda: page.work.outcome is not None)
     assert page.panel_result.verdict.text() == "Passed"
+
+
+def the_result_is_seen(window, found):
+    """Errors, ellipses and the worst marker are in the 3D view, and what they are is said beside it."""
+    window.page.tick()
+    scene = window.scene
+    touches = scene._errors.touches
+    used = [each for each in found.touches if each.accepted]
+    np.testing.assert_allclose(1e3 * touches.points, [each.point_mm for each in used], atol=1e-9)
+    np.testing.assert_allclose(1e3 * touches.sizes, [each.distance_mm for each in used], atol=1e-9)
+    traces = 1e6 * np.trace(touches.covariances, axis1=1, axis2=2)
+    np.testing.assert_allclose(traces, [each.predicted_mm**2 for each in used], rtol=1e-9)
+    assert scene.colour_bar.isVisibleTo(scene)
+    assert [sign.kind for sign in scene.key.signs][-2:] == ["arrow", "ellipse"]
+    worst = max(found.per_marker, key=lambda each: each.max_mm)
+    at = next(each.point_S for each in window.page.work.markers.all if each.name == worst.name)
+    assert scene._eye.sees(at)
+    assert f"{worst.name}  {worst.max_mm:.2f} mm ✓" in [label._drawn[0] for label in scene._markers._labels]
+    scene.look("top")
+    window.click(window.page.panel_result.worst)
+    assert scene._eye.sees(at)
 
 
 def test_a_touch_that_does_not_count_is_said_in_words(window):
@@ -320,7 +342,10 @@ def test_how_sure_a_contact_is_and_where_it_could_be_as_well(
     said, is_sure, seen = shown(window, monkeypatch, contact)
     assert words in said
     assert is_sure is sure
-    (point, covariance, _, others, captions) = seen[-1]
+    (point, covariance, _, others, captions, sure_words) = seen[-1]
+    assert sure_words == (
+        "" if contact.reason is Reason.TWO_TOUCHES else f"{min(100 * contact.confidence, 99.9):.3g} %"
+    )
     assert point is contact.point
     assert (covariance is None) == (contact.reason is Reason.TWO_TOUCHES)
     assert (others is None) if rings is None else others.shape == (rings, 3)

@@ -7,21 +7,22 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from contactbench.widgets.scene.hatch import hatches, narrow_patches
 from contactbench.widgets.scene.shapes import thinned
+from contactbench.widgets.scene.smooth import SmoothSurface, crease_edges, long_creases, smoothed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    import numpy as np
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
 
 MANY = 30_000
 """Facets from which on a likeness stands in while all moves."""
-_CREASE = np.cos(np.radians(40.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,10 @@ class Prepared:
     # (vertices, faces, kept) or None: See `contactbench.widgets.scene.shapes.thinned`; None: it has few
     # facets
     likeness: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]] | None
-    creases: NDArray[np.float64]  # (2 k, 3): Ends of its sharp and open edges, S, m
+    creases: NDArray[np.float64]  # (2 k, 3): Ends of its sharp and open edges that are drawn, S, m
+    smooth: SmoothSurface
+    narrow: NDArray[np.bool_]  # (m,) See `contactbench.widgets.scene.hatch.narrow_patches`
+    hatched: NDArray[np.float64]  # (2 l, 3): Ends of the lines across what was made up, S, m
 
 
 class Ahead(QObject):
@@ -85,31 +89,14 @@ class Ahead(QObject):
 def prepare(probe: Probe) -> Prepared:
     """Compute what is needed of a probe; NumPy leaves the interpreter to others while it sorts."""
     likeness = thinned(probe.vertices, probe.faces) if len(probe.faces) > MANY else None
-    return Prepared(probe, likeness, crease_ends(probe.vertices, probe.faces, probe.normals))
-
-
-def crease_ends(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """
-    Return the ends (2 k, 3) of the edges of one facet, and of two that meet at more than 40 degrees.
-
-    Parameters
-    ----------
-    vertices : (n, 3)
-    faces : (m, 3)
-    normals : (m, 3)
-        Of unit length.
-    """
-    corners = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
-    key = corners.min(axis=1) * len(vertices) + corners.max(axis=1)
-    order = np.argsort(key)
-    key = key[order]
-    starts = np.flatnonzero(np.diff(key, prepend=-1))
-    counts = np.diff(starts, append=len(key))
-    open_ones, pairs = starts[counts == 1], starts[counts == 2]
-    one, other = order[pairs] % len(faces), order[pairs + 1] % len(faces)
-    bend = np.einsum("ij,ij->i", normals[one], normals[other])
-    sharp = np.concatenate([open_ones, pairs[bend < _CREASE]])
-    ends: NDArray[np.float64] = vertices[corners[order[sharp]]].reshape(-1, 3)
-    return ends
+    edges, clear = crease_edges(probe.faces, probe.normals, len(probe.vertices))
+    drawn, narrow = edges[clear], narrow_patches(probe)
+    drawn = drawn[long_creases(drawn, probe.vertices, probe.size)]
+    return Prepared(
+        probe,
+        likeness,
+        probe.vertices[drawn].reshape(-1, 3),
+        smoothed(probe.vertices, probe.faces, probe.normals, edges),
+        narrow,
+        hatches(probe, narrow),
+    )

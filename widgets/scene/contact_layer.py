@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.widgets.scene.label_board import LabelBoard
     from contactbench.widgets.scene.picker import Picker
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
@@ -36,8 +37,9 @@ class ContactLayer:
             shape.plain()
             shape.lift(lift)
             shape.show(False)
-        self._caption = Label(stage, (14.0, 14.0))
+        self._caption, self._here = Label(stage), Label(stage)
         self._captions, self._second = ("", ""), np.full(3, np.nan)
+        self._sure, self._point = "", np.full(3, np.nan)
         self.dress()
 
     def dress(self) -> None:
@@ -64,16 +66,20 @@ class ContactLayer:
         captions: tuple[str, str],
         picker: Picker | None,
         normals: NDArray[np.float64] | None,
+        sure: str = "",
     ) -> None:
         """
         Show a contact, or none; what the picker finds says how the surface lies where nobody told.
+
+        How sure it is stands beside it.
 
         The first candidate has a caption: one for where it is seen, and one for where it is behind the probe.
         """
         for shape in (self._disc, self._rim, self._dot):
             shape.show(point is not None)
+        self._sure, self._point = sure, np.full(3, np.nan) if point is None else np.asarray(point, float)
         if point is not None:
-            up = _normal(point, picker, normals) if normal is None else np.asarray(normal, float)
+            up = surface_normal(point, picker, normals) if normal is None else np.asarray(normal, float)
             radius = 0.006 * self._stage.size
             self._dot.place(frame_on(point, up, radius))
             ellipse = (
@@ -88,19 +94,23 @@ class ContactLayer:
         self._captions, self._second = captions, rows[0] if len(rows) else np.full(3, np.nan)
         if len(rows):
             radius = 0.025 * self._stage.size
-            frames = np.array([frame_on(row, _normal(row, picker, normals), radius) for row in rows])
+            frames = np.array([frame_on(row, surface_normal(row, picker, normals), radius) for row in rows])
             self._lost.give(segments(ring_segments(frames)))
 
-    def label(self, screen: Screen, seen: Callable[[NDArray[np.float64]], bool]) -> None:
-        """Put the caption beside the first candidate."""
-        there = bool(np.isfinite(self._second).all()) and any(self._captions)
-        if not there:
-            self._caption.put(0.0, 0.0, False, screen.height)
-            return
-        turn, place = self._stage.turn, self._second
-        self._caption.write(self._captions[0 if seen(place) else 1], self._stage.colours.text)
-        x, y = screen.project((turn[:3, :3] @ place + turn[:3, 3])[None])[0, :2]
-        self._caption.put(x, y, True, screen.height)
+    def label(self, screen: Screen, seen: Callable[[NDArray[np.float64]], bool], board: LabelBoard) -> None:
+        """Put the words beside the contact, and beside the first candidate."""
+        turn = self._stage.turn
+        for label, place, words in (
+            (self._here, self._point, (self._sure, self._sure)),
+            (self._caption, self._second, self._captions),
+        ):
+            if not np.isfinite(place).all() or not any(words):
+                label.hide()
+                continue
+            label.write(words[0 if seen(place) else 1], self._stage.colours.text)
+            x, y = screen.project((turn[:3, :3] @ place + turn[:3, 3])[None])[0, :2]
+            board.keep_free(x, y, 0.02 * self._stage.size / screen.metres_per_pixel)
+            board.want(label, x, y, True, 1)
 
 
 def ellipse_frame(
@@ -128,9 +138,10 @@ def ellipse_frame(
     return T
 
 
-def _normal(
+def surface_normal(
     point: NDArray[np.float64], picker: Picker | None, normals: NDArray[np.float64] | None
 ) -> NDArray[np.float64]:
+    """Return the normal (3,) of the surface that is nearest to a point of S; z where there is none."""
     if picker is None or normals is None:
         return np.array([0.0, 0.0, 1.0])
     return np.asarray(normals[picker.nearest(np.asarray(point, float)).face])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.widgets.scene.views import SceneLook, Screen, fitted, looking, moved
+from contactbench.widgets.scene.views import SceneLook, Screen, facing, fitted, looking, moved, turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from contactbench.widgets.scene.view import SceneView
 
 _AROUND = 1.25  # room about the probe for the arrow of a force
+# Right and down, radians: from where else a point is looked at if something hides it.
+_SWINGS = [(turn, tilt) for tilt in (0.0, 0.5, -0.6, -1.2) for turn in (0.0, 0.6, -0.6, 1.2, -1.2, 2.0, -2.0)]
 _COVERED = 64.0  # px along the lower edge: buttons and the scale bar
 
 
@@ -30,12 +32,15 @@ class Eye:
     Attributes
     ----------
     look : SceneLook
+    also : (k, 3)
+        What is to be seen beside the probe, S, m.
     reach : float
         How far from the origin there is anything, m; grows and shrinks in steps of two.
     """
 
     def __init__(self, view: SceneView, stage: SceneStage, probe: ProbeLayer, poses: PoseLayer) -> None:
         self._view, self._stage, self._probe, self._poses = view, stage, probe, poses
+        self.also: NDArray[np.float64] = np.zeros((0, 3))
         self.look = looking("oblique", (0.0, 0.0, 0.0), 0.08)
         self.reach = 0.1
 
@@ -74,15 +79,37 @@ class Eye:
     def fit(self, view: str | None) -> SceneLook:
         """Return the camera in which all of the probe is seen, from a named side or from where it is."""
         middle, radius = self._ball()
-        high = max(self._view.height(), 1)
-        radius *= _AROUND * max(1.0, high / max(self._view.width(), 1))
-        # what lies along the lower edge must not cover it
-        covered = min(_COVERED / high, 0.3)
-        radius /= 1.0 - covered
         found = fitted(self.look, middle, radius)
         if view is not None:
             found = looking(view, middle, radius, self.look.perspective)
-        return moved(found, 0.0, -covered * radius)
+        high, wide = max(self._view.height(), 1), max(self._view.width(), 1)
+        # what lies along the lower edge must not cover it
+        covered = min(_COVERED / high, 0.3)
+        scale = _AROUND * self._half(found, radius, high / wide) / (1.0 - covered)
+        return moved(replace(found, scale=scale), 0.0, -covered * scale)
+
+    def facing(self, point: NDArray[np.float64]) -> SceneLook:
+        """Return the camera in which all of the probe is seen, and a point of its surface (3,), S, m, faces it."""
+        picker, turn = self._probe.picker, self._stage.turn[:3, :3]
+        outward = np.array([0.0, -1.0, 0.0])
+        if picker is not None and self._probe.probe is not None:
+            outward = self._probe.probe.normals[picker.nearest(point).face]
+        whole, before = self.fit(None), self.look
+        best = facing(whole, turn @ outward)
+        for swing in _SWINGS:  # something may stand before it
+            self.look = self._centred(turned(best, *swing))
+            if self.sees(point):
+                break
+        else:
+            self.look = self._centred(best)
+        found, self.look = self.look, before
+        return found
+
+    def _centred(self, look: SceneLook) -> SceneLook:
+        """Return a camera that looks in the same direction, with the whole probe as `fit` has it."""
+        before, self.look = self.look, look
+        found, self.look = self.fit(None), before
+        return found
 
     def with_perspective(self, perspective: bool) -> SceneLook:
         """Return the camera in the other way of looking."""
@@ -111,6 +138,16 @@ class Eye:
             into = (world - eye) / max(float(np.linalg.norm(world - eye)), 1e-9)
         begin, end = world - 4.0 * self.reach * into, world - 0.01 * self._stage.size * into
         return picker.along(turn.T @ (begin - origin), turn.T @ (end - origin)) is None
+
+    def _half(self, look: SceneLook, radius: float, narrow: float) -> float:
+        """Return half of what must be seen from bottom to top: of the probe's box, as it is turned, or of its ball."""
+        if self._poses.in_world or look.perspective:
+            return radius * max(1.0, narrow)
+        low, high = self._probe.bounds
+        sides = 0.5 * (high - low)
+        beyond = np.abs((self.also - 0.5 * (low + high)) @ look.axes.T)
+        right, up, _ = np.maximum(np.abs(look.axes) @ sides, beyond.max(axis=0, initial=0.0))
+        return float(max(up, right * narrow, 0.4 * radius))
 
     def _ball(self) -> tuple[tuple[float, float, float], float]:
         """Return the middle and the radius of what is to be seen: in the world, whichever way the tool is held."""

@@ -13,8 +13,6 @@ from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkPolyDataMapper2D, vtkTexture, vtkTexturedActor2D
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from contactbench.widgets.scene.stage import SceneStage
 
 _POINTS = 11.0
@@ -26,19 +24,16 @@ class Label:
 
     Attributes
     ----------
-    point : (3,)
-        World, m.
-    offset : (right, up)
-        Of its left edge's middle from the point, in pixels.
+    plain : bool
+        Without a box: a letter, which stands right beside its point or nowhere.
+    place : int
+        Where it stood in the frame before, see `label_places`.
     width, height : int
         Device pixels.
     """
 
-    def __init__(
-        self, stage: SceneStage, offset: tuple[float, float] = (10.0, 0.0), plain: bool = False
-    ) -> None:
-        self._stage, self.offset, self._plain = stage, offset, plain
-        self.point: NDArray[np.float64] = np.zeros(3)
+    def __init__(self, stage: SceneStage, plain: bool = False) -> None:
+        self._stage, self.plain, self.place = stage, plain, 0
         self.wanted = True
         self.width = self.height = 0
         self._drawn: tuple[object, ...] = ()
@@ -56,26 +51,32 @@ class Label:
 
     def write(self, text: str, colour: str, bold: bool = False) -> None:
         """Show a text in a colour, `#rrggbb`; nothing is done where it is so already."""
-        ground = self._stage.colours.background if self._plain else self._stage.colours.panel
+        ground = self._stage.colours.background if self.plain else self._stage.colours.panel
         now = (text, colour, bold, ground, self._stage.ratio)
         if now == self._drawn:
             return
         self._drawn = now
-        image = _painted(text, colour, ground, bold or self._plain, self._stage.ratio, boxed=not self._plain)
+        image = _painted(text, colour, ground, bold or self.plain, self._stage.ratio, boxed=not self.plain)
         self.width, self.height = image.width(), image.height()
         self._texture.SetInputData(_for_vtk(image))
         self._plane.SetOrigin(0.0, 0.0, 0.0)
         self._plane.SetPoint1(float(self.width), 0.0, 0.0)
         self._plane.SetPoint2(0.0, float(self.height), 0.0)
 
-    def put(self, x: float, y: float, visible: bool, height: int) -> None:
-        """Stand beside a place on screen, device pixels from the left and the top, in a picture of a height."""
-        visible = visible and self.wanted and bool(self._drawn)
-        self.actor.SetVisibility(visible)
-        if visible:
-            right, up = (value * self._stage.ratio for value in self.offset)
-            # whole pixels: a texture between two of them is blurred
-            self.actor.SetPosition(round(x + right), round(height - y + up - self.height / 2))
+    def stand(self, left: float, top: float, height: int) -> None:
+        """Stand at a place, device pixels from the left and the top, in a picture of a height."""
+        self.actor.VisibilityOn()
+        # whole pixels: a texture between two of them is blurred
+        self.actor.SetPosition(round(left), round(height - top - self.height))
+
+    def hide(self) -> None:
+        """Stand nowhere."""
+        self.actor.VisibilityOff()
+
+    @property
+    def written(self) -> bool:
+        """Whether there is anything to read, and it is wanted."""
+        return self.wanted and bool(self._drawn)
 
     def remove(self) -> None:
         """Take it off the stage."""

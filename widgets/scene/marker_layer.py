@@ -1,4 +1,4 @@
-"""Where the probe should be touched: markers with their names, and where each was found."""
+"""Where the probe should be touched: markers with their names."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from contactbench.widgets.scene.label import Label
-from contactbench.widgets.scene.shapes import cone, frame_on, segments
 from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
@@ -19,11 +17,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.widgets.scene.label_board import LabelBoard
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
 _SIGNS = {"open": "", "done": " ✓", "failed": " ✗"}
-_LONGER = 10.0  # how much longer than the error its arrow is
+_RADIUS = 0.014  # of a marker's ball, of the probe's size
 
 
 class MarkerLayer:
@@ -35,12 +34,10 @@ class MarkerLayer:
         self._states: tuple[str, ...] = ()
         self._names: tuple[str, ...] = ()
         self._next: int | None = None
+        self._worst: int | None = None
+        self._tints: tuple[str, ...] = ()
         self._balls: list[Shape] = []
         self._labels: list[Label] = []
-        self._arrows: list[Shape] = []
-        self._errors = Shape(stage, vtkPolyData())
-        self._errors.plain()
-        self._errors.show(False)
 
     @property
     def pulses(self) -> bool:
@@ -53,8 +50,11 @@ class MarkerLayer:
         names: Sequence[str],
         states: Sequence[str],
         next_one: int | None,
+        tints: Sequence[str] = (),
+        worst: int | None = None,
     ) -> None:
-        """Show markers (k, 3), S, m."""
+        """Show markers (k, 3), S, m, in the colours of their states, or in tints ``#rrggbb`` where these are given."""
+        self._tints, self._worst = tuple(tints), worst
         self._points = np.array(points, float).reshape(-1, 3)
         count = len(self._points)
         self._names = (*names, *(str(i + 1) for i in range(len(names), count)))[:count]
@@ -75,23 +75,18 @@ class MarkerLayer:
         for i, (ball, label) in enumerate(zip(self._balls, self._labels, strict=True)):
             state = self._states[i]
             first = i == self._next
-            ball.colour(colours.accent if first else tints.get(state, colours.stale))
+            tint = self._tints[i] if i < len(self._tints) else ""
+            ball.colour(colours.accent if first else tint or tints.get(state, colours.stale))
             ball.look.SetAmbient(0.45)
             sign = "▸ " if first else ""
-            label.offset = (10.0, 14.0) if first else (8.0, 0.0)
-            label.write(f"{sign}{self._names[i]}{_SIGNS.get(state, '')}", colours.text, bold=first)
-        self._errors.colour(colours.bad)
-        for head in self._arrows:
-            head.colour(colours.bad)
-        self._errors.look.SetLineWidth(3.0 * self._stage.ratio)
+            words = f"{sign}{self._names[i]}{_SIGNS.get(state, '')}"
+            label.write(words, colours.text, bold=first or i == self._worst)
         self.turn()
 
     def turn(self) -> None:
         """Follow the tool."""
         for i in range(len(self._balls)):
             self._place(i, 1.0)
-        for arrow in (self._errors, *self._arrows):
-            arrow.place()
 
     def pulse(self) -> None:
         """Draw the next marker as large as it is at this moment of its second."""
@@ -99,39 +94,25 @@ class MarkerLayer:
             self._place(self._next, 1.4 + 0.4 * math.sin(2.0 * math.pi * time.monotonic()))
 
     def _place(self, i: int, times: float) -> None:
-        radius = 0.014 * self._stage.size * times
+        radius = _RADIUS * self._stage.size * times
         T = np.diag([radius, radius, radius, 1.0])
         T[:3, 3] = self._points[i]
         self._balls[i].place(T)
 
-    def label(self, screen: Screen, seen: Callable[[NDArray[np.float64]], bool]) -> None:
+    def label(self, screen: Screen, seen: Callable[[NDArray[np.float64]], bool], board: LabelBoard) -> None:
         """Put the names where the markers are on screen; of those behind the probe only the next one has its name."""
         if not len(self._points):
             return
         turn = self._stage.turn
         places = screen.project(self._points @ turn[:3, :3].T + turn[:3, 3])
+        radius = _RADIUS * self._stage.size / screen.metres_per_pixel
         for i, label in enumerate(self._labels):
-            visible = i == self._next or seen(self._points[i])
-            label.put(places[i, 0], places[i, 1], visible, screen.height)
-
-    def show_errors(self, starts: NDArray[np.float64], ends: NDArray[np.float64]) -> None:
-        """Show where markers (k, 3) were found (k, 3), as arrows that are longer than the errors."""
-        starts, ends = np.reshape(starts, (-1, 3)), np.reshape(ends, (-1, 3))
-        good = np.isfinite(starts).all(axis=1) & np.isfinite(ends).all(axis=1)
-        starts, along = starts[good], _LONGER * (ends - starts)[good]
-        for arrow in self._arrows:
-            arrow.remove()
-        self._arrows = []
-        self._errors.show(len(starts) > 0)
-        self._errors.give(segments(np.stack([starts, starts + along], axis=1).reshape(-1, 3)))
-        for start, step in zip(starts, along, strict=True):
-            length = float(np.linalg.norm(step))
-            if length > 0.0:
-                head = min(0.025 * self._stage.size, 0.5 * length)
-                arrow = Shape(self._stage, cone())
-                arrow.place(frame_on(start + step, step) @ np.diag([0.4 * head, 0.4 * head, head, 1.0]))
-                self._arrows.append(arrow)
-        self.dress()
+            x, y = places[i, :2]
+            first = i in (self._next, self._worst)
+            visible = first or seen(self._points[i])
+            if visible:
+                board.keep_free(x, y, radius * (1.8 if i == self._next else 1.0))
+            board.want(label, x, y, visible, 0 if first else 3 if self._states[i] == "failed" else 4)
 
 
 def _ball() -> Any:

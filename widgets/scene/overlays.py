@@ -1,14 +1,14 @@
-"""What lies over the view: buttons, a scale bar, a colour bar."""
+"""What lies over the view: buttons, and a scale bar."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QToolButton, QWidget
 
-from contactbench.widgets.scene.fields import cividis, round_length, ticks
+from contactbench.widgets.scene.fields import round_length
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent
@@ -122,59 +122,3 @@ class ScaleBar(QWidget):
             painter.drawLine(QPointF(x, y - 5), QPointF(x, y + 5))
         where = QRectF(0, 0, self.width(), y - 4)
         painter.drawText(where, Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignBottom, self.text)
-
-
-class ColourBar(QWidget):
-    """Which colour is which value."""
-
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.title = ""
-        self.limits = (0.0, 1.0)
-        self._text = self._panel = self._line = "#000000"
-        self.resize(self.sizeHint())
-        self.hide()
-
-    def sizeHint(self) -> QSize:
-        """Return its size: as wide as its title, where that is not too long."""
-        wide = self.fontMetrics().horizontalAdvance(self.title) + 24
-        return QSize(min(max(wide, 96), 240), 236)
-
-    def dress(self, colours: Colours) -> None:
-        """Take the theme's colours."""
-        self._text, self._panel, self._line = colours.text, colours.panel, colours.line
-        self.update()
-
-    def tell(self, title: str, limits: tuple[float, float]) -> None:
-        """Show a title, with its unit, and the values of both ends."""
-        self.title, self.limits = title, limits
-        self.setAccessibleName(
-            self.tr("{title}: from {low:.3g} to {high:.3g}").format(
-                title=title, low=limits[0], high=limits[1]
-            )
-        )
-        self.resize(self.sizeHint())
-        self.update()
-
-    def paintEvent(self, _event: QPaintEvent) -> None:
-        """Draw it."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(QColor(self._line), 1))
-        painter.setBrush(QColor(self._panel))
-        painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7, 7)
-        painter.setPen(QColor(self._text))
-        title = painter.fontMetrics().elidedText(self.title, Qt.TextElideMode.ElideRight, self.width() - 16)
-        painter.drawText(QRectF(8, 6, self.width() - 16, 22), Qt.AlignmentFlag.AlignLeft, title)
-        bar = QRectF(12, 40, 20, self.height() - 56)
-        shades = QLinearGradient(bar.bottomLeft(), bar.topLeft())
-        for i, (red, green, blue) in enumerate(cividis(17)):
-            shades.setColorAt(i / 16, QColor.fromRgbF(red, green, blue))
-        painter.fillRect(bar, shades)
-        low, high = self.limits
-        for value in ticks(low, high):
-            y = bar.bottom() - (value - low) / (high - low) * bar.height()
-            painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5, y))
-            place = QRectF(bar.right() + 9, y - 11, self.width() - bar.right() - 12, 22)
-            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, f"{value:.4g}".replace("-", "\u2212"))

@@ -23,6 +23,7 @@ from contactbench.widgets.scene.stage import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from contactbench.widgets.scene.label_board import LabelBoard
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 
@@ -55,14 +56,14 @@ class PoseLayer:
     def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
         self._frame = [Arrow(stage, turns=True) for _ in range(3)]
-        self._letters = [Label(stage, offset=(-6.0, 0.0), plain=True) for _ in range(3)]
+        self._letters = [Label(stage, plain=True) for _ in range(3)]
         self._ends: NDArray[np.float64] = np.zeros((3, 3))
         self._ghost = Shape(stage, vtkPolyData(), turns=False)
         self._ghost_R: NDArray[np.float64] | None = None
         self._stand_in = Shape(stage, vtkPolyData(), turns=True)
         self._alone = True  # there is no probe: something stands in for it
         self._down = Arrow(stage, turns=False)
-        self._down_word = Label(stage, offset=(8.0, 0.0))
+        self._down_word = Label(stage)
         self._floor = Shape(stage, vtkPolyData(), live=False, turns=False)
         self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, rim())
         self.dark = self.in_world = False
@@ -86,7 +87,7 @@ class PoseLayer:
         """Be as large as suits the probe."""
         size = self._stage.size
         for i, arrow in enumerate(self._frame):
-            self._ends[i] = 0.46 * size * np.eye(3)[i]
+            self._ends[i] = 0.42 * size * np.eye(3)[i]
             arrow.draw(np.zeros(3), 0.4 * size * np.eye(3)[i], 0.008 * size)
         self._reach = 1.35 * size
         steps = np.linspace(-1.0, 1.0, _GRID + 1)
@@ -169,7 +170,7 @@ class PoseLayer:
             self._phantom.place(T)
             self._phantom_rim.place(T)
 
-    def label(self, screen: Screen) -> None:
+    def label(self, screen: Screen, board: LabelBoard) -> None:
         """Put the letters where the axes end."""
         turn = self._stage.turn
         ends = np.vstack(
@@ -180,7 +181,7 @@ class PoseLayer:
         )
         places = screen.project(ends)
         for place, label in zip(places, (*self._letters, self._down_word), strict=True):
-            label.put(place[0], place[1], True, screen.height)
+            board.want(label, place[0], place[1], True, 2)
 
 
 def _tool(size: float) -> Any:

@@ -9,11 +9,12 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
 from contactbench.widgets.scene.ahead import MANY
-from contactbench.widgets.scene.fields import cividis
-from contactbench.widgets.scene.hatch import crosses, hatches
+from contactbench.widgets.scene.hatch import crosses
 from contactbench.widgets.scene.picker import Picker
 from contactbench.widgets.scene.shapes import segments, thinned, triangles
+from contactbench.widgets.scene.smooth import rounded
 from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
@@ -21,10 +22,11 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.widgets.scene.ahead import Prepared
+    from contactbench.widgets.scene.smooth import SmoothSurface
     from contactbench.widgets.scene.stage import SceneStage
 
+_LIFT = 0.001  # of the depth of all: half a millimetre; with more, edges of the far side come through a wall
 _NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness
-PLAIN = 205  # grey of facets without a region, of 255
 
 
 class ProbeLayer:
@@ -49,6 +51,9 @@ class ProbeLayer:
         self._scalars: Any = None
         self._pending: list[NDArray[np.int32]] = []
         self._kept: NDArray[np.int64] | None = None  # of which facet each of the likeness is one
+        self._field_of: tuple[NDArray[np.float64], tuple[float, float], Probe | None] | None = None
+        self._narrow: NDArray[np.bool_] | None = None  # facets that are pale, see `hatch`; None: none
+        self._smooth: SmoothSurface | None = None  # None: not known yet, each facet is flat
         self.surface = _surface(stage)
         self._coarse = _surface(stage)
         self.fresh = _surface(stage)  # facets painted since the picture was kept
@@ -61,7 +66,7 @@ class ProbeLayer:
         self._coarse.show(False)
         for lines in (self._edges, self._hatching, self._crossed):
             lines.plain()
-            lines.lift(0.02)
+            lines.lift(_LIFT)
         self._field.show(False)
         self._overlay.show(False)
         self._overlay.look.BackfaceCullingOn()
@@ -92,8 +97,9 @@ class ProbeLayer:
 
     def show(self, probe: Probe | None, colours: NDArray[np.uint8] | None) -> None:
         """Show another probe."""
-        self.probe, self._kept, self._pending = probe, None, []
+        self.probe, self._kept, self._smooth, self._pending = probe, None, None, []
         self._field.show(False)
+        self._field_of = None
         self._coarse.show(False)
         self.surface.show(probe is not None)
         if probe is None:
@@ -110,7 +116,8 @@ class ProbeLayer:
         self.surface.give(data)
         self.picker = Picker(self.surface.mapper.GetInput())
         self._edges.give(vtkPolyData())
-        self._hatching.give(hatches(probe))
+        self._hatching.give(vtkPolyData())
+        self._narrow = None
         self.cross(np.flatnonzero(np.isin(probe.region, probe.untouchable)))
 
     def cross(self, faces: NDArray[np.intp] | NDArray[np.int32]) -> None:
@@ -123,9 +130,18 @@ class ProbeLayer:
         if self.probe is not prepared.probe:
             return
         self._edges.give(segments(prepared.creases))
+        self._smooth = smooth = prepared.smooth
+        data = triangles(prepared.probe.vertices[smooth.of], smooth.faces, smooth.normals)
+        data.GetCellData().SetScalars(self._scalars)
+        self.surface.give(data)
+        if self._field.shown and self._field_of is not None:
+            self.show_field(*self._field_of)
+        self._hatching.give(segments(prepared.hatched))
+        if prepared.narrow.any():
+            self._narrow = prepared.narrow
+            self._make_pale(None)
         if prepared.likeness is not None and self._kept is None:
-            vertices, faces, self._kept = prepared.likeness
-            self._coarse.give(triangles(vertices, faces))
+            self._give_likeness(prepared.likeness)
 
     def build_picker(self) -> None:
         """Make ready to find facets: about 0.1 ms per 1,000 facets."""
@@ -138,9 +154,11 @@ class ProbeLayer:
             return False
         if faces is None:
             self._colours[:] = colours
+            self._make_pale(None)
             self._pending = []
         else:
             self._colours[faces] = colours
+            self._make_pale(faces)
             self._pending.append(np.asarray(faces))
         if self._field.shown:
             self._pending = []  # they are seen when the field has gone
@@ -155,10 +173,20 @@ class ProbeLayer:
         faces = np.unique(np.concatenate(self._pending))
         self._pending = []
         corners = self.probe.vertices[self.probe.faces[faces]].reshape(-1, 3)
-        data = triangles(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
+        smooth = self._smooth
+        normals = None if smooth is None else smooth.normals[smooth.faces[faces]].reshape(-1, 3)
+        data = triangles(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3), normals)
         _colour_cells(data, self._colours[faces])
         self.fresh.give(data)
         return True
+
+    @property
+    def marked(self) -> tuple[bool, bool, bool]:
+        """Whether there are facets that are hatched, pale because made up in a narrow seam, and crossed out."""
+        hatched, crossed = (
+            bool(shape.mapper.GetInput().GetNumberOfCells()) for shape in (self._hatching, self._crossed)
+        )
+        return hatched, self._narrow is not None, crossed
 
     @property
     def coarse(self) -> bool:
@@ -191,9 +219,20 @@ class ProbeLayer:
         if self.probe is None or len(self.probe.faces) <= MANY:
             return self._fine()
         if self._kept is None:
-            vertices, faces, self._kept = thinned(self.probe.vertices, self.probe.faces)
-            self._coarse.give(triangles(vertices, faces))
+            self._give_likeness(thinned(self.probe.vertices, self.probe.faces))
         return self._coarse.mapper.GetInput()
+
+    def _give_likeness(self, made: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]) -> None:
+        vertices, faces, self._kept = made
+        self._coarse.give(triangles(vertices, faces, rounded(vertices, faces)))
+
+    def _make_pale(self, faces: NDArray[np.int32] | None) -> None:
+        """Make narrow patches that were made up pale, of all facets or of these (c,): lines would look like cracks."""
+        if self._narrow is None:
+            return
+        those = np.flatnonzero(self._narrow) if faces is None else faces[self._narrow[faces]]
+        self._colours[those] = (self._colours[those].astype(np.uint16) + 2 * 255) // 3
+        self._scalars.Modified()
 
     def _fine(self) -> Any:
         return self.picker.data if self.picker is not None else vtkPolyData()
@@ -211,15 +250,20 @@ class ProbeLayer:
     ) -> None:
         """Show a scalar per vertex, of the probe or of `on`, as colours, or the facets' own colours again."""
         shown = values is not None and self.probe is not None
+        self._field_of = None if values is None else (values, limits, on)
         self._field.show(shown)
         self._coarse.show(False)
         self.surface.show(self.probe is not None and not shown)
         if values is None or self.probe is None:
             return
-        data = vtkPolyData()
-        data.ShallowCopy(self._fine() if on is None else triangles(on.vertices, on.faces))
+        data, given = vtkPolyData(), np.asarray(values, np.float64)
+        if on is not None:
+            data.ShallowCopy(triangles(on.vertices, on.faces))
+        else:
+            data.ShallowCopy(self.surface.mapper.GetInput())
+            given = given if self._smooth is None else given[self._smooth.of]
         data.GetCellData().SetScalars(None)
-        data.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values, np.float64), deep=True))
+        data.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(given), deep=True))
         mapper = self._field.mapper
         mapper.SetInputData(data)
         mapper.ScalarVisibilityOn()
@@ -233,9 +277,9 @@ class ProbeLayer:
 
 def _surface(stage: SceneStage) -> Shape:
     shape = Shape(stage, vtkPolyData(), live=False)
-    shape.look.SetInterpolationToFlat()
-    shape.look.SetAmbient(0.42)
-    shape.look.SetDiffuse(0.62)
+    shape.look.SetInterpolationToPhong()
+    shape.look.SetAmbient(0.36)
+    shape.look.SetDiffuse(0.74)
     shape.look.SetSpecular(0.0)
     # The same corners must fall on the same depths in the whole surface and in a piece of it, and VTK's own
     # shift and scale depend on the extent.
@@ -255,7 +299,7 @@ def _colour_cells(data: Any, colours: NDArray[np.uint8]) -> Any:
 
 
 def _table(limits: tuple[float, float]) -> Any:
-    shades = cividis()
+    shades = colour_ramp()
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(shades))
     for i, (red, green, blue) in enumerate(shades):

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
-from PySide6.QtGui import QImage
+from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from contactbench.widgets.scene.ahead import Ahead
 from contactbench.widgets.scene.brush_layer import BrushLayer
 from contactbench.widgets.scene.contact_layer import ContactLayer
+from contactbench.widgets.scene.error_layer import ErrorLayer, LocatedTouches
 from contactbench.widgets.scene.eye import Eye
 from contactbench.widgets.scene.fields import limits_of
 from contactbench.widgets.scene.force_layer import ForceLayer
 from contactbench.widgets.scene.frame_pacer import FramePacer
+from contactbench.widgets.scene.label_board import LabelBoard
+from contactbench.widgets.scene.legend import ColourBar, KeySign, SceneKey
 from contactbench.widgets.scene.marker_layer import MarkerLayer
 from contactbench.widgets.scene.mouse import Mouse
-from contactbench.widgets.scene.overlays import ColourBar, ScaleBar, ViewButtons
+from contactbench.widgets.scene.overlays import ScaleBar, ViewButtons
 from contactbench.widgets.scene.picker import Pick
 from contactbench.widgets.scene.pose_layer import PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer
@@ -38,11 +41,13 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
     from contactbench.widgets.scene.ahead import Prepared
 
 __all__ = ["Pick", "Scene"]
 
 _MARGIN = 12
+_WIDE = 560  # px: of a view that has its legend beside it, and not below
 
 
 class Scene(QWidget):
@@ -67,6 +72,7 @@ class Scene(QWidget):
         self.setAccessibleName(self.tr("3D view of the probe"))
         self._closed = False
         self._fitted = False
+        self._rough = False  # the picture that is kept has edges that are not smoothed
         self.view = SceneView(self)
         self._live = vtkRenderer()
         self._layers()
@@ -95,6 +101,10 @@ class Scene(QWidget):
         self._force = ForceLayer(self.stage)
         self._contact = ContactLayer(self.stage)
         self._markers = MarkerLayer(self.stage)
+        self._errors = ErrorLayer(self.stage)
+        self._board = LabelBoard(self.stage)
+        self._field_bar: tuple[str, tuple[float, float], float | None] | None = None
+        self._region_signs: tuple[KeySign, ...] = ()
         self._poses = PoseLayer(self.stage)
         self._brush = BrushLayer(self.stage)
         self._still = StillPicture(window, still)
@@ -103,7 +113,7 @@ class Scene(QWidget):
 
     def _children(self) -> None:
         self.buttons = ViewButtons(self)
-        self.scale_bar, self.colour_bar = ScaleBar(self), ColourBar(self)
+        self.scale_bar, self.colour_bar, self.key = ScaleBar(self), ColourBar(self), SceneKey(self)
         self.buttons.chosen.connect(self.look)
         self.buttons.perspective.connect(self.set_perspective)
         self.view.dropped.connect(self.dropped)
@@ -112,14 +122,29 @@ class Scene(QWidget):
 
     # ---- the probe ---------------------------------------------------------------------------------
 
-    def show_probe(self, probe: Probe | None, colours: NDArray[np.uint8] | None = None) -> None:
+    def show_probe(
+        self,
+        probe: Probe | None,
+        colours: NDArray[np.uint8] | None = None,
+        regions: Sequence[Region] = (),
+    ) -> None:
         """
-        Show another probe, with a colour (m, 3) per facet; the view stays.
+        Show another probe, with a colour (m, 3) per facet, or else in those of its regions; the view stays.
 
-        Invented facets are hatched, those that nothing can touch are crossed out.
+        Invented facets are hatched, those that nothing can touch are crossed out; beside the view stands what that
+        means, with the names of the regions that are given, in the order of their ranks.
         """
+        named = [(region.name, region.colour) for region in regions]
+        if colours is None and probe is not None and probe.region.any():
+            # not before there is a probe: the window opens sooner without it
+            from contactbench.pipeline.mesh.colours import facet_colours
+
+            colours = facet_colours(
+                probe.region, np.zeros(len(probe.faces), bool), [each[1] for each in named]
+            )
+        self._region_signs = tuple(KeySign("area", name, colour) for name, colour in named)
         self.probe_layer.show(probe, colours)
-        self.colour_bar.hide()
+        self._field_bar = None
         self._poses.show_stand_in(probe is None)
         self._brush.show(None, None)
         self.ahead.begin(None if self._closed else probe)
@@ -134,6 +159,7 @@ class Scene(QWidget):
             if not self._fitted:
                 self._fitted = True
                 self._set_look(self._eye.fit("oblique"))
+        self._tell_legend()
         self.stage.stir()
 
     def paint(self, faces: NDArray[np.int32] | None, colours: NDArray[np.uint8]) -> None:
@@ -146,6 +172,7 @@ class Scene(QWidget):
     def show_untouchable(self, faces: NDArray[np.int32]) -> None:
         """Cross out other facets (c,) than those that the probe says nothing can touch."""
         self.probe_layer.cross(faces)
+        self._tell_legend()
         self.stage.stir()
 
     def show_overlay(self, probe: Probe | None, opacity: float = 0.25) -> None:
@@ -161,15 +188,17 @@ class Scene(QWidget):
         on: Probe | None = None,
     ) -> None:
         """
-        Show a scalar per vertex (n,) as colours (cividis) with a bar; None: none. NaN stays plain.
+        Show a scalar per vertex (n,) as colours with a bar beside the view; None: none. NaN stays plain.
 
         The vertices are those of the probe that is shown, or of `on`: its surface in other facets.
         """
         ends = limits or (limits_of(values) if values is not None else (0.0, 1.0))
         self.probe_layer.show_field(values, ends, on)
-        self.colour_bar.setVisible(values is not None and self.probe_layer.probe is not None)
-        self.colour_bar.tell(title, ends)
-        self._arrange()
+        shown = values is not None and self.probe_layer.probe is not None
+        finite = values[np.isfinite(values)] if values is not None else np.zeros(0)
+        largest = float(finite.max()) if len(finite) else None
+        self._field_bar = (title, ends, largest) if shown else None
+        self._tell_legend()
         self.stage.stir()
 
     # ---- what happens to it ------------------------------------------------------------------------
@@ -186,16 +215,18 @@ class Scene(QWidget):
         normal: NDArray[np.float64] | None = None,
         candidates: NDArray[np.float64] | None = None,
         captions: tuple[str, str] = ("", ""),
+        sure: str = "",
     ) -> None:
         """
         Show the contact as a disc of the 95 % ellipse, and candidates (k, 3) that are rivals to it as hollow rings.
 
-        Beside the first candidate stands the first of the captions, or the second where it is behind the probe.
+        Beside the contact stands how sure it is; beside the first candidate the first of the captions, or the second
+        where it is behind the probe.
         """
         probe = self.probe_layer.probe
         normals = None if probe is None else probe.normals
         picker = self.probe_layer.picker
-        self._contact.show(point, covariance, normal, candidates, captions, picker, normals)
+        self._contact.show(point, covariance, normal, candidates, captions, picker, normals, sure)
         self.redraw()
 
     def show_markers(
@@ -204,16 +235,29 @@ class Scene(QWidget):
         names: Sequence[str] = (),
         states: Sequence[str] = (),
         next_one: int | None = None,
+        tints: Sequence[str] = (),
+        worst: int | None = None,
     ) -> None:
-        """Show markers (k, 3) with names; states "open", "done" or "failed"; the next one pulses at 1 Hz."""
-        self._markers.show(points, names, states, next_one)
+        """
+        Show markers (k, 3) with names; states "open", "done" or "failed"; the next one pulses at 1 Hz.
+
+        They have the colours of their states, or tints ``#rrggbb``; the name of the worst is always seen.
+        """
+        self._markers.show(points, names, states, next_one, tints, worst)
         self._start_pulse()
         self.redraw()
 
-    def show_error_arrows(self, starts: NDArray[np.float64], ends: NDArray[np.float64]) -> None:
-        """Show where each marker (k, 3) was found (k, 3), drawn ten times as long."""
-        self._markers.show_errors(starts, ends)
+    def show_errors(self, touches: LocatedTouches | None) -> None:
+        """Show how far touches were located from their markers; how many times as long is said beside the view."""
+        probe = self.probe_layer.probe
+        self._errors.show(touches, self.probe_layer.picker, None if probe is None else probe.normals)
+        self._eye.also = self._errors.tips
+        self._tell_legend()
         self.redraw()
+
+    def bring_into_view(self, point: NDArray[np.float64]) -> None:
+        """Look at all of the probe from where a point of its surface is seen best; z stays up."""
+        self.move_camera(self._eye.facing(point))
 
     # ---- how it stands -----------------------------------------------------------------------------
 
@@ -222,7 +266,7 @@ class Scene(QWidget):
     ) -> None:
         """Show the tool as it stands in the world, and where (3,), m; None: show it in S."""
         self.stage.turn = homogeneous(R_WS, p_WS_W)
-        for layer in (self.probe_layer, self._force, self._contact, self._markers, self._poses, self._brush):
+        for layer in self._turning:
             layer.turn()
         self._poses.show_orientation(R_WS is not None, self.tr("down"))
         self._moves()
@@ -278,7 +322,7 @@ class Scene(QWidget):
         self.stage.colours = colours
         self._poses.dark = dark
         self.view.renderer.SetBackground(*rgb(colours.background))
-        for part in (self.buttons, self.scale_bar, self.colour_bar):
+        for part in (self.buttons, self.scale_bar, self.colour_bar, self.key):
             part.dress(colours)
         self._dress()
 
@@ -287,6 +331,14 @@ class Scene(QWidget):
         image = self.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
         rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
         return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
+
+    def copy_picture(self) -> None:
+        """Put what is seen, with its legend and without its buttons, into the clipboard."""
+        self.buttons.hide()
+        try:
+            QGuiApplication.clipboard().setPixmap(self.grab())
+        finally:
+            self.buttons.show()
 
     def close_scene(self) -> None:
         """Give everything of VTK back; the widget is of no use afterwards."""
@@ -347,9 +399,11 @@ class Scene(QWidget):
             self._dress()
         screen = self.projection()
         self._eye.aim()
-        self._markers.label(screen, self._eye.sees)
-        self._contact.label(screen, self._eye.sees)
-        self._poses.label(screen)
+        self._markers.label(screen, self._eye.sees, self._board)
+        self._contact.label(screen, self._eye.sees, self._board)
+        self._errors.label(screen, self._board)
+        self._poses.label(screen, self._board)
+        self._board.place((screen.width, screen.height), self._covered(ratio))
         self.scale_bar.setVisible(not self._eye.look.perspective)
         self.scale_bar.set_scale(screen.metres_per_pixel * ratio)
         fresh = self.probe_layer.fresh.actor if self.probe_layer.take_fresh() else None
@@ -357,7 +411,13 @@ class Scene(QWidget):
         if not self.view.software or self.probe_layer.coarse:
             key = None  # a graphics card draws all, and any a likeness, faster than a picture is copied
         still = [*(shape.actor for shape in self.probe_layer.shapes), *self._poses.still]
-        self._still.prepare(key, still, fresh)
+        whole = self._still.prepare(key, still, fresh)
+        # Without a graphics card edges are smoothed once all is at rest: it costs as much as a frame of few facets.
+        smooth = self.view.software and whole and key is not None and not self._pacing.moving
+        self.view.renderer.SetUseFXAA(smooth)
+        self._rough = self.view.software and not smooth and (whole or self._rough or fresh is not None)
+        if fresh is not None:
+            self._pacing.settle()  # what was painted has smooth edges once nobody paints
 
     def after(self) -> None:
         """Put back what was hidden for the frame."""
@@ -369,7 +429,7 @@ class Scene(QWidget):
     # ---- the rest ----------------------------------------------------------------------------------
 
     def _dress(self) -> None:
-        for layer in (self.probe_layer, self._force, self._contact, self._markers, self._poses, self._brush):
+        for layer in (*self._turning, self._board):
             layer.dress()
         self.stage.stir()
 
@@ -385,13 +445,19 @@ class Scene(QWidget):
         self._pacing.settle()
 
     def _refine(self) -> None:
-        if self.mouse.dragging:
+        if self.mouse.dragging or self.mouse.painting:
             self._pacing.settle()
-        elif self.probe_layer.set_coarse(False):
+        elif self.probe_layer.set_coarse(False) or self._rough:
             self.stage.stir()
+
+    @property
+    def _turning(self) -> tuple[Any, ...]:
+        probe, contact, markers = self.probe_layer, self._contact, self._markers
+        return probe, self._force, contact, markers, self._errors, self._poses, self._brush
 
     def _prepared(self, prepared: Prepared) -> None:
         self.probe_layer.take(prepared)
+        self._tell_legend()
         self.stage.stir()
 
     def _beat(self) -> None:
@@ -401,27 +467,78 @@ class Scene(QWidget):
     def _start_pulse(self) -> None:
         self._pacing.set_pulse(self._markers.pulses and self.isVisible())
 
-    def _arrange(self) -> None:
-        self.view.setGeometry(self.rect())
-        size = self.buttons.sizeHint()
-        self.buttons.setGeometry(
-            QRect(_MARGIN, self.height() - size.height() - _MARGIN, size.width(), size.height())
+    def _tell_legend(self) -> None:
+        """Have beside the view what is needed to read it, and no more."""
+        touches, bar = self._errors.touches, self._field_bar
+        if touches is not None and bar is None:
+            bar = (self.tr("error, mm"), (0.0, 1e3 * touches.top or 1e-3), 1e3 * float(touches.sizes.max()))
+        if bar is not None:
+            self.colour_bar.tell(*bar)
+        self.colour_bar.setVisible(bar is not None)
+        signs = [*self._region_signs, *self._surface_signs(), *self._error_signs()]
+        self.key.tell(signs)
+        self.key.setVisible(bool(signs))
+        self._arrange()
+
+    def _surface_signs(self) -> list[KeySign]:
+        lines, pale, crossed = self.probe_layer.marked
+        known = (
+            (lines, KeySign("lines", self.tr("made up: hatched"))),
+            (pale, KeySign("pale", self.tr("made up: a narrow seam"))),
+            (crossed, KeySign("crossed", self.tr("untouchable: crossed"))),
         )
-        bar = self.scale_bar
-        left = min(self.buttons.geometry().right() + 2 * _MARGIN, self.width() - bar.width())
-        low = self.height() - bar.height() - _MARGIN - 4
-        colour = self.colour_bar
-        room = self.width() - (0 if colour.isHidden() else colour.width() + _MARGIN) - _MARGIN
-        if left + bar.width() > room:
+        return [sign for there, sign in known if there]
+
+    def _error_signs(self) -> list[KeySign]:
+        touches = self._errors.touches
+        if touches is None:
+            return []
+        times = f"{self._errors.times:g}"
+        signs = [KeySign("arrow", self.tr("error, {times} times").format(times=times))]
+        if touches.covariances is not None and np.isfinite(touches.covariances).any():
+            signs.append(KeySign("ellipse", self.tr("95 % of noise, {times} times").format(times=times)))
+        if touches.rivals is not None and len(touches.rivals):
+            signs.append(KeySign("ring", self.tr("could also be here")))
+        return signs
+
+    def _arrange(self) -> None:
+        """Have the view, and beside or below it what is read with it; over it only what can be pressed."""
+        shown = [part for part in (self.colour_bar, self.key) if not part.isHidden()]
+        lying = self.width() < _WIDE
+        room = self.rect()
+        if shown and not lying:
+            sizes = [part.wanted(False, 0) for part in shown]
+            wide = max(size.width() for size in sizes) + _MARGIN
+            top = _MARGIN
+            for part, size in zip(shown, sizes, strict=True):
+                part.setGeometry(self.width() - wide, top, wide - _MARGIN, size.height())
+                top += size.height() + _MARGIN
+            room.setWidth(self.width() - wide)
+        elif shown:
+            sizes = [part.wanted(True, self.width()) for part in shown]
+            top = self.height() - sum(size.height() for size in sizes)
+            room.setHeight(max(top, 1))
+            for part, size in zip(shown, sizes, strict=True):
+                part.setGeometry(0, top, size.width(), size.height())
+                top += size.height()
+        if self.view.geometry() != room:
+            self.view.setGeometry(room)
+        size, bar = self.buttons.sizeHint(), self.scale_bar
+        self.buttons.setGeometry(
+            QRect(_MARGIN, room.height() - size.height() - _MARGIN, size.width(), size.height())
+        )
+        left = self.buttons.geometry().right() + 2 * _MARGIN
+        low = room.height() - bar.height() - _MARGIN - 4
+        if left + bar.width() > room.width() - _MARGIN:
             left, low = _MARGIN, low - size.height() - _MARGIN
         bar.move(left, low)
-        narrow = self.buttons.geometry().right() > self.width() - colour.width() - 2 * _MARGIN
-        above = size.height() + _MARGIN if narrow else 0
-        colour.move(
-            self.width() - colour.width() - _MARGIN, self.height() - colour.height() - _MARGIN - above
-        )
-        for part in (self.buttons, bar, colour):
-            part.raise_()
+        self.buttons.raise_()
+        bar.raise_()
+
+    def _covered(self, ratio: float) -> list[tuple[float, float, float, float]]:
+        """Return what lies over the view: left, top, right and bottom, device pixels."""
+        boxes = [part.geometry() for part in (self.buttons, self.scale_bar) if not part.isHidden()]
+        return [(ratio * b.left(), ratio * b.top(), ratio * b.right(), ratio * b.bottom()) for b in boxes]
 
     def resizeEvent(self, _event: QResizeEvent) -> None:
         """Keep everything in its corner."""

@@ -16,11 +16,15 @@ if TYPE_CHECKING:
 _CIRCLE = 64
 
 
-def triangles(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> Any:
-    """Return a surface (n, 3), (m, 3)."""
+def triangles(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64] | None = None
+) -> Any:
+    """Return a surface (n, 3), (m, 3), with normals (n, 3) that it is shaded by; None: each facet is flat."""
     data = vtkPolyData()
     data.SetPoints(_points(vertices))
     data.SetPolys(_cells(np.asarray(faces), 3))
+    if normals is not None:
+        data.GetPointData().SetNormals(numpy_to_vtk(np.ascontiguousarray(normals, np.float32), deep=True))
     return data
 
 

@@ -109,7 +109,7 @@ class Shape:
         self.look.LightingOff()
 
     def lift(self, amount: float = 1.0) -> None:
-        """Draw it before the surface it lies on, as far as depth can be told apart."""
+        """Draw it before the surface it lies on, by a share of the depth of all that is seen; 1: before everything."""
         self.mapper.SetResolveCoincidentTopologyToPolygonOffset()
         units = -60000.0 * amount
         self.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, units)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import Qt, Signal
 from pyvistaqt import QtInteractor
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkRenderingCore import vtkLight
 
 from contactbench.widgets.software_gl import spare_cores
 
@@ -22,6 +23,9 @@ _LOG = logging.getLogger("contactbench.scene")
 _GL_RENDERER = 0x1F01
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "swiftshader", "gdi generic", "software")
 _SAMPLES = 4
+# Where they are, seen by the camera: right, up, toward it; and how bright. The main one from above on the left, as
+# people expect it, and one beside the eye, so that nothing is black. Each more costs every pixel of every frame.
+_LIGHTS = (((-0.6, 0.9, 1.0), 0.75), ((0.4, -0.1, 1.0), 0.35))
 
 
 def log_vtk() -> None:
@@ -51,7 +55,13 @@ class SceneView(QtInteractor):  # type: ignore[misc]
     def __init__(self, parent: QWidget) -> None:
         log_vtk()
         spare_cores()
-        super().__init__(parent, auto_update=False, multi_samples=0, off_screen=False)
+        super().__init__(parent, auto_update=False, multi_samples=0, off_screen=False, lighting=None)
+        for place, bright in _LIGHTS:
+            light = vtkLight()
+            light.SetLightTypeToCameraLight()
+            light.SetPosition(*place)
+            light.SetIntensity(bright)
+            self.renderer.AddLight(light)
         self.mouse: Mouse | None = None
         self.stage_hands: Any = None  # has before() and after()
         self.software = True

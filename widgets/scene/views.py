@@ -22,6 +22,8 @@ _DIRECTIONS: dict[str, tuple[Triple, Triple]] = {
 VIEWS = tuple(_DIRECTIONS)
 ANGLE = 30.0  # of the perspective view, degrees, from bottom to top
 _NEAREST, _FARTHEST = 2e-4, 5.0  # half of what is seen from bottom to top, m
+_LEVEL = 0.2  # across z: a normal with less has no side
+_STRAIGHT = 1e-6  # across the line of sight: less has no direction
 
 
 @dataclass(frozen=True)
@@ -77,11 +79,41 @@ def fitted(look: SceneLook, focal: Triple, radius: float) -> SceneLook:
 
 
 def turned(look: SceneLook, right: float, down: float) -> SceneLook:
-    """Return the camera after the scene was dragged by angles, radians, about the focal point."""
-    axes = look.axes
-    R = _rotation(axes[1], -right) @ _rotation(axes[0], -down)
-    away = np.subtract(look.position, look.focal)
-    return replace(look, position=_triple(np.add(look.focal, R @ away)), up=_triple(R @ axes[1]))
+    """
+    Return the camera after the scene was dragged by angles, radians, about the focal point, as on a turntable.
+
+    Across the screen it turns about z, down the screen about what lies level, and no further than to look straight
+    down or up: z stays upwards on screen, so that nobody loses where the flange is.
+    """
+    toward = -look.axes[2]
+    level = np.array([-toward[1], toward[0], 0.0])
+    if (
+        np.hypot(*toward[:2]) < _STRAIGHT
+    ):  # straight from above or below: what is to the right says how it is turned
+        level = look.axes[0] * [1.0, 1.0, 0.0]
+    level = _rotation(np.array([0.0, 0.0, 1.0]), -right) @ level / max(float(np.linalg.norm(level)), 1e-300)
+    height = np.arcsin(np.clip(toward[2], -1.0, 1.0)) + down
+    height = float(np.clip(height, -np.pi / 2, np.pi / 2))
+    outward = np.array([level[1], -level[0], 0.0])
+    toward = np.cos(height) * outward + np.array([0.0, 0.0, np.sin(height)])
+    up = np.cos(height) * np.array([0.0, 0.0, 1.0]) - np.sin(height) * outward
+    away = float(np.linalg.norm(np.subtract(look.position, look.focal)))
+    return replace(look, position=_triple(np.add(look.focal, away * toward)), up=_triple(up))
+
+
+def facing(look: SceneLook, outward: NDArray[np.float64]) -> SceneLook:
+    """Return the camera that looks along a normal (3,) from outside, but from somewhat above; z stays up."""
+    flat = outward * [1.0, 1.0, 0.0]
+    if np.linalg.norm(flat) < _LEVEL:  # a face that looks up or down: from where the camera is
+        flat = -look.axes[2] * [1.0, 1.0, 0.0]
+    if np.linalg.norm(flat) < _LEVEL:
+        flat = np.array([0.0, -1.0, 0.0])
+    azimuth = np.arctan2(flat[1], flat[0])
+    rise = np.arcsin(np.clip(outward[2] / max(float(np.linalg.norm(outward)), 1e-300), -1.0, 1.0))
+    height = float(np.clip(0.7 * rise + 0.3, -1.2, 1.2))
+    toward = np.array([np.cos(azimuth) * np.cos(height), np.sin(azimuth) * np.cos(height), np.sin(height)])
+    away = float(np.linalg.norm(np.subtract(look.position, look.focal)))
+    return replace(look, position=_triple(np.add(look.focal, away * toward)), up=(0.0, 0.0, 1.0))
 
 
 def moved(look: SceneLook, right: float, down: float) -> SceneLook:

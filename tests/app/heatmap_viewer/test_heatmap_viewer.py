@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent
+from PySide6.QtGui import QDropEvent, QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from typer.testing import CliRunner
 from weighing_files import weighed
@@ -24,20 +24,24 @@ N = 400
 LONG = 20_000  # ms
 
 
-def record(file, probe, model, along, hardest):
-    """Write a stroke over the head, ever harder, with the weight in it."""
+def record(file, probe, model, along, hardest, wait=0):
+    """Write a stroke over the head, ever harder, with the weight in it, after so many samples without a touch."""
     centroids = probe.vertices[probe.faces].mean(axis=1)
     top = np.flatnonzero((probe.normals[:, 2] > 0.9) & (centroids[:, 2] > 0.1))
     order = top[np.argsort(centroids[top, along])]
     chosen = order[np.arange(N) * len(order) // N]
     force = -np.linspace(1, hardest, N)[:, None] * probe.normals[chosen]
+    idle = np.random.default_rng(1).normal(
+        0.0, 1e-3, (wait, 3)
+    )  # readings that are all the same are taken as frozen
+    force, chosen = np.vstack([idle, force]), np.append(np.full(wait, chosen[0]), chosen)
     raw = np.hstack([force, np.cross(centroids[chosen], force)]) + model.predict(np.eye(3))
     devices = (
         DeviceInfo("wrench", "/wrench", "sri://x", "M", "1", 100.0),
         DeviceInfo("flange", "/flange", "elfin://y"),
     )
     with RecordingWriter(file, RecordingInfo(0, 100.0, devices)) as writer:
-        for t, w in zip((100 + 0.01 * np.arange(N)).tolist(), raw.tolist(), strict=True):
+        for t, w in zip((100 + 0.01 * np.arange(wait + N)).tolist(), raw.tolist(), strict=True):
             writer.wrench(WrenchSample(t, tuple(w[:3]), tuple(w[3:])))
             writer.flange(FlangeSample(t, np.eye(3), np.zeros(3)))
 
@@ -54,6 +58,7 @@ def files(tmp_path_factory):
     save_calibration(calibration, folder / "c.json")
     record(folder / "one.mcap", probe, calibration.model, 0, 8.0)
     record(folder / "two.mcap", probe, calibration.model, 1, 5.0)
+    record(folder / "late.mcap", probe, calibration.model, 0, 8.0, wait=150)
     return folder
 
 
@@ -184,6 +189,75 @@ def test_two_have_one_camera_and_one_scale(qtbot, viewer, files):
     assert "mm" in first.place.text() == second.place.text()
     assert first.value.text() != second.value.text()
     assert np.allclose(np.concatenate(first.scene.camera()), np.concatenate(second.scene.camera()))
+
+
+def test_two_are_on_one_clock_from_their_first_contact(qtbot, viewer, files, tmp_path, monkeypatch):
+    opened(qtbot, viewer, files, "one.mcap", "late.mcap", "p.ply", "c.json")
+    viewer.controls.compare.setChecked(True)
+    qtbot.waitUntil(lambda: settled(viewer) and viewer.sides[1].frame is not None, timeout=LONG)
+    assert viewer.controls.clock.isVisible()
+    late = viewer.sources[1].contacts
+    assert late.onset == pytest.approx(1.5, abs=0.05)
+
+    def counts():
+        viewer._show()
+        return [side.frame.contacts for side in viewer.sides]
+
+    viewer.time.slider.set_values(0.0, 1.0)
+    first, second = counts()
+    assert first > 80
+    assert second == pytest.approx(first, abs=3)
+    viewer.controls.later.setValue(0.5)
+    assert counts() == [pytest.approx(first, abs=3), pytest.approx(first - 50, abs=5)]
+    viewer.controls.later.setValue(-0.5)  # earlier than the first: both begin with it
+    assert counts() == [pytest.approx(first - 50, abs=5), pytest.approx(first, abs=3)]
+    viewer.controls.later.setValue(0.0)
+    # what is saved is what is seen, each on its own clock
+    file = tmp_path / "pair.ply"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(file), ""))
+    viewer.controls.asked_save.emit("mesh")
+    qtbot.waitUntil(lambda: "Saved" in viewer.controls.message.text(), timeout=LONG)
+    selection = viewer.selection(1)
+    assert (selection.start, selection.end) == (
+        late.onset - viewer.sources[0].contacts.onset,
+        pytest.approx(2.5, abs=0.05),
+    )
+    command(
+        files / "late.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json",
+        "--bandwidth", 1e3 * selection.bandwidth, "--from", selection.start, "--to", selection.end,
+        "--out", tmp_path / "theirs.ply",
+    )  # fmt: skip
+    assert (tmp_path / "pair-right.ply").read_bytes() == (tmp_path / "theirs.ply").read_bytes()
+    viewer.controls.clock.setCurrentIndex(1)
+    assert counts() == [pytest.approx(first, abs=3), 0]
+    viewer.controls.compare.setChecked(False)
+    assert viewer.shift(0) == 0.0
+
+
+def test_nothing_is_disabled_without_a_reason(qtbot, viewer, files):
+    controls = viewer.controls
+    assert all("open files" in button.toolTip() for button in controls._saving)
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    assert not any("open files" in button.toolTip() for button in controls._saving)
+    controls.quantity.setCurrentIndex(controls.quantity.findData("peak"))
+    assert "nothing is weighed" in controls.by_confidence.toolTip()
+
+
+def test_only_films_that_can_be_made_are_offered(viewer, monkeypatch):
+    monkeypatch.setattr("contactbench.app.heatmap_viewer.export.find_spec", lambda _name: None)
+    assert viewer._saving._films() == ("Animated GIF (*.gif)",)
+
+
+def test_the_picture_is_copied_with_a_key(qtbot, viewer, files):
+    QGuiApplication.clipboard().clear()
+    viewer._copy()
+    assert "Nothing is shown yet" in viewer.controls.message.text()
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    qtbot.keyClick(
+        viewer, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
+    )
+    assert QGuiApplication.clipboard().image().width() >= viewer.sides[0].width()
+    assert viewer.sides[0].scene.buttons.isVisible()
 
 
 def test_a_place_under_the_cursor_is_read(qtbot, viewer, files):

@@ -27,7 +27,15 @@ class Bench:
 
     def settle(self):
         """Wait until a frame shows all that was asked for."""
-        self.qtbot.waitUntil(lambda: not self.scene._pacing.waiting, timeout=20_000)
+        scene = self.scene
+        self.qtbot.waitUntil(lambda: not (scene._pacing.waiting or scene.ahead.busy), timeout=20_000)
+        self.frame()
+        # without a graphics card edges are smoothed once all is at rest
+        self.qtbot.waitUntil(lambda: not (scene._pacing.moving or scene._rough), timeout=20_000)
+        self.frame()
+
+    def frame(self):
+        """Wait for a frame."""
         frames = []
         self.scene.drawn.connect(frames.append)
         self.scene.view.update()

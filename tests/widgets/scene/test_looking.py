@@ -54,6 +54,32 @@ def test_turning_keeps_the_distance_and_the_focal_point():
     )  # right, up and into the screen: a left-handed triple
 
 
+@pytest.mark.parametrize("view", ["front", "side", "top", "oblique"])
+def test_a_turntable_keeps_z_up(view):
+    look = looking(view, (0.0, 0.0, 0.05), 0.05)
+    rng = np.random.default_rng(0)
+    for right, down in rng.uniform(-2.0, 2.0, (200, 2)):
+        look = turned(look, right, down)
+        level, up, into = look.axes
+        assert abs(level[2]) < 1e-9  # never rolled
+        assert up[2] > -1e-9  # never upside down
+        assert abs(into[2]) <= 1.0
+
+
+def test_a_turntable_turns_as_it_is_dragged():
+    look = looking("front", (0.0, 0.0, 0.0), 0.05)
+    left = turned(look, 0.3, 0.0)  # what is seen goes to the right, so the camera to the left
+    assert left.position[0] < -0.01
+    assert left.position[2] == pytest.approx(0.0, abs=1e-12)
+    down = turned(look, 0.0, 0.3)
+    assert down.position[2] == pytest.approx(look.distance * np.sin(0.3))
+    steep = turned(look, 0.0, 5.0)
+    np.testing.assert_allclose(steep.axes[2], [0, 0, -1], atol=1e-12)
+    np.testing.assert_allclose(steep.axes[0], [1, 0, 0], atol=1e-12)
+    quarter = turned(steep, np.pi / 2, 0.0)  # seen from above it turns about z as well
+    np.testing.assert_allclose(quarter.axes[0], [0, -1, 0], atol=1e-12)
+
+
 def test_what_is_dragged_follows_the_pointer():
     look = looking("front", (0.0, 0.0, 0.05), 0.05)
     screen, after = Screen(look, 600, 400), Screen(moved(look, 0.01, 0.02), 600, 400)
@@ -177,7 +203,7 @@ def test_moves_of_a_drag_are_taken_together_until_a_frame(bench):
     for i in range(200):
         bench.move(QPointF(100 + i, 100), Qt.MouseButton.LeftButton)
     assert len(moves) == 0
-    bench.settle()
+    bench.frame()
     assert len(moves) == 1
     bench.qtbot.mouseRelease(scene.view, Qt.MouseButton.LeftButton, pos=QPoint(299, 100))
 

@@ -12,7 +12,7 @@ import pytest
 from benchmarks.window.balls import ball, measure
 
 from contactbench.widgets.scene import Scene
-from contactbench.widgets.scene.fields import cividis, round_length, ticks
+from contactbench.widgets.scene.fields import round_length, ticks
 from contactbench.widgets.scene.hatch import hatch_segments
 from contactbench.widgets.scene.shapes import thinned
 
@@ -71,13 +71,6 @@ def test_hatching_lies_on_its_facets_at_its_spacing():
     total = lines.sum(axis=1)
     np.testing.assert_allclose(total[::2], total[1::2])
     assert len(hatch_segments(vertices, np.zeros((0, 3), int), 0.1)) == 0
-
-
-def test_colours_are_cividis():
-    import matplotlib as mpl
-
-    wanted = mpl.colormaps["cividis"](np.linspace(0, 1, 256))[:, :3]
-    assert np.abs(cividis() - wanted).max() < 5 / 255
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 60.0), (-0.3, 0.7), (1e-4, 1.3e-4), (5.0, 5.001)])

@@ -1,0 +1,238 @@
+"""What stands beside the view, and covers nothing of it: which colour is which value, and what the signs mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPen, QPolygonF
+from PySide6.QtWidgets import QWidget
+
+from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.widgets.scene.fields import ticks
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from PySide6.QtGui import QPaintEvent
+
+    from contactbench.widgets.theme import Colours
+
+_LEAST, _MOST = 96, 220  # px, of what stands beside the view
+_LINE, _CAP = 20, 9  # px: of a line of text; of the arrow that says that there is more
+_TALL, _FLAT = 230, 66  # px: of a bar upright, and lying
+_SIGN = 26  # px, of a sign of the key
+
+
+class LegendPart(QWidget):
+    """A part of the legend: upright beside a wide view, lying below a narrow one."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._text = self._muted = self._line = "#000000"
+        self.hide()
+
+    def dress(self, colours: Colours) -> None:
+        """Take the theme's colours."""
+        self._text, self._muted, self._line = colours.text, colours.muted, colours.line
+        self.update()
+
+    def wanted(self, lying: bool, width: int) -> QSize:
+        """Return the size that it needs, in a column, or `lying` in so many pixels."""
+        raise NotImplementedError
+
+    def _wide(self, texts: Sequence[str], beside: int = 0) -> int:
+        widest = max((self.fontMetrics().horizontalAdvance(text) for text in texts), default=0)
+        return min(max(widest + beside + 16, _LEAST), _MOST)
+
+
+class ColourBar(LegendPart):
+    """Which colour is which value, and how far values go that are beyond the last colour."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.title = self.over = ""
+        self.limits = (0.0, 1.0)
+
+    def tell(self, title: str, limits: tuple[float, float], largest: float | None = None) -> None:
+        """Show a title, with its unit, the values of both ends, and the largest if that is beyond the end."""
+        self.title, self.limits = title, limits
+        beyond = largest is not None and largest > limits[1] * (1.0 + 1e-6)
+        self.over = self.tr("darkest: up to {largest:.3g}").format(largest=largest) if beyond else ""
+        words = self.tr("{title}: from {low:.3g} to {high:.3g}").format(
+            title=title, low=limits[0], high=limits[1]
+        )
+        self.setAccessibleName("; ".join(filter(None, (words, self.over))))
+        self.update()
+
+    def wanted(self, lying: bool, width: int) -> QSize:
+        """Return the size that it needs."""
+        return QSize(width, _FLAT) if lying else QSize(self._wide((*self._lines(), self.over)), _TALL)
+
+    def _lines(self) -> list[str]:
+        """Return the title in as many lines as it needs beside the view: its unit goes to the next one."""
+        if self.fontMetrics().horizontalAdvance(self.title) + 16 <= _MOST or ", " not in self.title:
+            return [self.title]
+        return [part.strip() for part in self.title.rsplit(",", 1)]
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self.width() > 1.5 * self.height():
+            self._paint_lying(painter)
+        else:
+            self._paint_upright(painter)
+
+    def _paint_upright(self, painter: QPainter) -> None:
+        painter.setPen(QColor(self._text))
+        lines = self._lines()
+        for number, line in enumerate(lines):
+            self._write(painter, QRectF(8, 4 + number * _LINE, self.width() - 12, _LINE), line)
+        top = 8 + len(lines) * _LINE
+        if self.over:
+            painter.setPen(QColor(self._muted))
+            self._write(painter, QRectF(8, top, self.width() - 12, _LINE), self.over)
+            top += _LINE
+        bar = QRectF(12, top + 6 + _CAP, 20, self.height() - top - 20 - _CAP)
+        self._fill(painter, bar, bar.bottomLeft(), bar.topLeft())
+        if self.over:
+            self._cap(painter, [bar.topLeft(), QPointF(bar.center().x(), bar.top() - _CAP), bar.topRight()])
+        low, high = self.limits
+        painter.setPen(QColor(self._text))
+        for value in ticks(low, high):
+            y = bar.bottom() - (value - low) / (high - low) * bar.height()
+            painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5, y))
+            self._write(
+                painter, QRectF(bar.right() + 9, y - 11, self.width() - bar.right() - 12, 22), _said(value)
+            )
+
+    def _paint_lying(self, painter: QPainter) -> None:
+        painter.setPen(QColor(self._text))
+        words = f"{self.title} ({self.over})" if self.over else self.title
+        self._write(painter, QRectF(12, 2, self.width() - 24, _LINE), words)
+        bar = QRectF(12, 4 + _LINE, self.width() - 32 - _CAP, 14)
+        self._fill(painter, bar, bar.topLeft(), bar.topRight())
+        if self.over:
+            self._cap(
+                painter, [bar.topRight(), QPointF(bar.right() + _CAP, bar.center().y()), bar.bottomRight()]
+            )
+        low, high = self.limits
+        painter.setPen(QColor(self._text))
+        for value in ticks(low, high):
+            x = bar.left() + (value - low) / (high - low) * bar.width()
+            painter.drawLine(QPointF(x, bar.bottom()), QPointF(x, bar.bottom() + 4))
+            wide = painter.fontMetrics().horizontalAdvance(_said(value))
+            left = min(max(x - wide / 2, 2.0), self.width() - wide - 2.0)
+            painter.drawText(QRectF(left, bar.bottom() + 4, wide + 2, _LINE), 0, _said(value))
+
+    def _fill(self, painter: QPainter, bar: QRectF, begin: QPointF, end: QPointF) -> None:
+        shades = QLinearGradient(begin, end)
+        for i, (red, green, blue) in enumerate(colour_ramp(33)):
+            shades.setColorAt(i / 32, QColor.fromRgbF(red, green, blue))
+        painter.fillRect(bar, shades)
+        painter.setPen(QPen(QColor(self._line), 1))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(bar)
+
+    def _cap(self, painter: QPainter, corners: list[QPointF]) -> None:
+        red, green, blue = colour_ramp(2)[1]
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor.fromRgbF(red, green, blue))
+        painter.drawPolygon(QPolygonF(corners))
+
+    @staticmethod
+    def _write(painter: QPainter, place: QRectF, text: str) -> None:
+        short = painter.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, int(place.width()))
+        painter.drawText(place, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, short)
+
+
+@dataclass(frozen=True)
+class KeySign:
+    """A sign that is seen in the view, and what it means."""
+
+    kind: str  # "area", "lines", "crossed", "pale", "arrow", "ellipse", "ring" or "cross"
+    words: str
+    colour: str = ""  # of an area, ``#rrggbb``; empty: that of a surface without a region
+
+
+class SceneKey(LegendPart):
+    """What the signs in the view mean: told apart by their form, and not by a colour alone."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.signs: tuple[KeySign, ...] = ()
+
+    def tell(self, signs: Sequence[KeySign]) -> None:
+        """Show other signs."""
+        self.signs = tuple(signs)
+        self.setAccessibleName("; ".join(sign.words for sign in signs))
+        self.update()
+
+    def wanted(self, lying: bool, width: int) -> QSize:
+        """Return the size that it needs."""
+        words = [sign.words for sign in self.signs]
+        if not lying:
+            return QSize(self._wide(words, _SIGN + 8), len(words) * (_LINE + 2) + 10)
+        return QSize(width, (self._places(width)[-1][1] if words else 0) + _LINE + 8)
+
+    def _places(self, width: int) -> list[tuple[int, int]]:
+        """Return where each sign stands, one beside the other, in so many pixels."""
+        places, x, y = [], 8, 4
+        for sign in self.signs:
+            wide = min(_SIGN + 8 + self.fontMetrics().horizontalAdvance(sign.words), width - 16)
+            if x > 8 and x + wide > width - 8:
+                x, y = 8, y + _LINE + 2
+            places.append((x, y))
+            x += wide + 14
+        return places
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        lying = self.width() > _MOST
+        column = [(8, 4 + number * (_LINE + 2)) for number in range(len(self.signs))]
+        for sign, (x, y) in zip(self.signs, self._places(self.width()) if lying else column, strict=True):
+            self._sign(painter, sign, QRectF(x, y + 3, _SIGN, _LINE - 6))
+            painter.setPen(QColor(self._text))
+            room = self.width() - x - _SIGN - 12
+            words = painter.fontMetrics().elidedText(sign.words, Qt.TextElideMode.ElideRight, room)
+            painter.drawText(QRectF(x + _SIGN + 8, y, room + 2, _LINE), Qt.AlignmentFlag.AlignVCenter, words)
+
+    def _sign(self, painter: QPainter, sign: KeySign, box: QRectF) -> None:
+        plain = QColor("#c8c8c8")
+        painter.setPen(QPen(QColor(self._line), 1))
+        if sign.kind in ("area", "lines", "crossed", "pale"):
+            fill = {"area": QColor(sign.colour or "#c8c8c8"), "pale": QColor("#ededed")}.get(sign.kind, plain)
+            painter.fillRect(box, fill)
+            style = {"lines": Qt.BrushStyle.BDiagPattern, "crossed": Qt.BrushStyle.DiagCrossPattern}
+            if sign.kind in style:
+                painter.fillRect(box, QBrush(QColor("#2b2f33"), style[sign.kind]))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(box)
+            return
+        red, green, blue = colour_ramp(9)[6]
+        painter.setPen(QPen(QColor.fromRgbF(red, green, blue), 2))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        middle = box.center()
+        if sign.kind == "arrow":
+            tip = QPointF(box.right(), middle.y())
+            painter.drawLine(box.topLeft() + QPointF(0, box.height() / 2), tip)
+            painter.drawPolyline([tip + QPointF(-6, -4), tip, tip + QPointF(-6, 4)])
+        elif sign.kind == "ellipse":
+            painter.drawEllipse(box.adjusted(2, 2, -2, -2))
+        elif sign.kind == "ring":
+            painter.setPen(QPen(QColor(self._text), 2))
+            painter.drawEllipse(middle, 6, 6)
+        else:
+            painter.setPen(QPen(QColor(self._text), 2))
+            for step in (QPointF(5, 5), QPointF(5, -5)):
+                painter.drawLine(middle - step, middle + step)
+
+
+def _said(value: float) -> str:
+    return f"{value:.4g}".replace("-", "\u2212")

@@ -1,0 +1,142 @@
+"""A surface that is shaded as it is meant: round where its facets only approximate a curve, sharp at its edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+CREASE = float(np.cos(np.radians(40.0)))
+"""Cosine of the angle between two facets from which on their edge is meant to be one."""
+_DRAWN = float(np.cos(np.radians(60.0)))
+_SHORT = 0.12  # of the probe's size: a crease with all that joins it that is shorter looks like a crack
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothSurface:
+    """The same facets in the same order, with normals at their corners; vertices of sharp edges several times."""
+
+    of: NDArray[np.int64]  # (k,) which vertex of the probe each is; the first n are the vertices
+    faces: NDArray[np.int32]  # (m, 3) into these
+    normals: NDArray[np.float64]  # (k, 3) of unit length
+
+
+def crease_edges(
+    faces: NDArray[np.int32], normals: NDArray[np.float64], vertices: int
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """
+    Return the edges (k, 2), as numbers of vertices, of one facet, and of two that meet at more than 40 degrees.
+
+    And which of them (k,) are sharp enough to be drawn, 60 degrees: in a fillet of few facets some edges are sharper
+    than others by chance, and lines along these alone are ragged.
+    """
+    corners = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    key = corners.min(axis=1) * vertices + corners.max(axis=1)
+    order = np.argsort(key)
+    key = key[order]
+    starts = np.flatnonzero(np.diff(key, prepend=-1))
+    counts = np.diff(starts, append=len(key))
+    open_ones, pairs = starts[counts == 1], starts[counts == 2]
+    one, other = order[pairs] % len(faces), order[pairs + 1] % len(faces)
+    bend = np.einsum("ij,ij->i", normals[one], normals[other])
+    sharp = np.concatenate([open_ones, pairs[bend < CREASE]])
+    drawn = np.concatenate([np.ones(len(open_ones), bool), bend[bend < CREASE] < _DRAWN])
+    edges: NDArray[np.int64] = corners[order[sharp]]
+    return edges, drawn
+
+
+def long_creases(edges: NDArray[np.int64], vertices: NDArray[np.float64], size: float) -> NDArray[np.bool_]:
+    """
+    Return which edges (k, 2) belong to a line that is meant, (k,).
+
+    What is joined to nothing else, and short, is where a surface was closed or made smaller: drawn, it would look like
+    a crack.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    if not len(edges):
+        return np.zeros(0, dtype=bool)
+    used, ends = np.unique(edges, return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(used), len(used)))
+    _, group = connected_components(graph, directed=False)
+    of_edge = group[ends[:, 0]]
+    length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    whole = np.bincount(of_edge, length)
+    return np.asarray(whole[of_edge] > _SHORT * size)
+
+
+def smoothed(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    normals: NDArray[np.float64],
+    edges: NDArray[np.int64],
+) -> SmoothSurface:
+    """
+    Return corners with normals: the mean of the facets around, weighted by their angles (Thürmer and Wüthrich, 1998).
+
+    At a vertex of a sharp edge, only those facets are in a corner's mean that turn less than 40 degrees from its own.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    normals : (m, 3)
+        Of unit length.
+    edges : (k, 2)
+        Those that are sharp, see `crease_edges`.
+    """
+    count = len(vertices)
+    weights = _angles(vertices[faces])
+    at, facet = faces.ravel().astype(np.int64), np.repeat(np.arange(len(faces)), 3)
+    scaled = weights.ravel()[:, None] * normals[facet]
+    total = np.column_stack([np.bincount(at, scaled[:, k], minlength=count) for k in range(3)])
+    sharp = np.zeros(count, dtype=bool)
+    sharp[edges.ravel()] = True
+    corners = np.flatnonzero(sharp[at])  # each of them gets a normal of its own
+    corners = corners[np.argsort(at[corners], kind="stable")]
+    own = np.zeros((len(corners), 3))
+    if len(corners):
+        _, first, many = np.unique(at[corners], return_index=True, return_counts=True)
+        # all pairs of corners at the same vertex
+        here = np.repeat(np.arange(len(corners)), np.repeat(many, many))
+        begins = np.repeat(np.repeat(first, many), np.repeat(many, many))
+        steps = np.arange(len(here)) - np.repeat(
+            np.cumsum(np.repeat(many, many)) - np.repeat(many, many), np.repeat(many, many)
+        )
+        there = begins + steps
+        alike = np.einsum("ij,ij->i", normals[facet[corners[here]]], normals[facet[corners[there]]]) >= CREASE
+        here, there = here[alike], there[alike]
+        for k in range(3):
+            own[:, k] = np.bincount(here, scaled[corners[there], k], minlength=len(corners))
+    new = at.copy()
+    new[corners] = count + np.arange(len(corners))
+    both = np.concatenate([total, own])
+    length = np.linalg.norm(both, axis=1, keepdims=True)
+    return SmoothSurface(
+        np.concatenate([np.arange(count), at[corners]]),
+        new.reshape(-1, 3).astype(np.int32),
+        both / np.maximum(length, 1e-300),
+    )
+
+
+def rounded(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return normals (n, 3) of a likeness that is seen for a moment: the mean of the facets around, edges or not."""
+    a, b, c = np.moveaxis(vertices[faces], 1, 0)
+    area = np.repeat(np.cross(b - a, c - a), 3, axis=0)
+    at = faces.ravel()
+    total = np.column_stack([np.bincount(at, area[:, k], minlength=len(vertices)) for k in range(3)])
+    return np.asarray(total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300))
+
+
+def _angles(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the angle (m, 3) at each corner (m, 3, 3) of a facet, radians."""
+    after = np.roll(corners, -1, axis=1) - corners
+    before = np.roll(corners, 1, axis=1) - corners
+    across = np.linalg.norm(np.cross(after, before), axis=2)
+    return np.asarray(np.arctan2(across, np.einsum("mcj,mcj->mc", after, before)))

@@ -24,6 +24,7 @@ from contactbench.widgets.controls import (
     choice,
     column,
     finish,
+    form,
     plain_label,
     push_button,
     row,
@@ -147,7 +148,7 @@ class HeatmapControls(QWidget):
                 lambda: self.asked_save.emit("mesh"),
             ),
         ]
-        rows = QFormLayout()
+        rows = form()
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.setSpacing(4)
         rows.addRow(self.tr("Quantity"), self.quantity)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QHBoxLayout, QVBoxLayout, QWidget
 
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
     choice,
     column,
+    form,
     named,
     plain_label,
     push_button,
@@ -95,7 +96,7 @@ class MotionControls(QWidget):
         self.show_state(None)
 
     def _lay_out(self) -> None:
-        rows = QFormLayout()
+        rows = form()
         rows.setSpacing(4)
         for box in (self.robot, self.motion, self.size_of, self.period, self.variant):
             rows.addRow(box.accessibleName(), box)

@@ -34,12 +34,9 @@ class ResultPanel(QWidget):
         self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
         self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
         self.open = push_button(self.tr("Open the report"), self._open, "folder")
-        self.again = push_button(self.tr("Verify again"), None, "redo")
-        self.go_on = push_button(self.tr("Go on: Export"), None, "export", primary=True)
         column(
             self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
-            row((self.open, 1), (self.again, 1)), self.go_on,
-            margins=(0, 8, 0, 0),
+            self.open, margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
 
@@ -48,8 +45,6 @@ class ResultPanel(QWidget):
         self._report = None if outcome is None else outcome.report
         self.open.setVisible(self._report is not None)
         self.open.setToolTip(str(self._report or ""))
-        self.again.setVisible(outcome is not None)
-        self.go_on.setVisible(outcome is not None and outcome.passed and not outcome.stale)
         if outcome is None:
             self._put(self.tr("Not verified yet"), "ready", "muted")
             self._texts("", "", "", "", "", "", "")

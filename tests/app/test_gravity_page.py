@@ -93,7 +93,8 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
     assert panel.verdict.text.startswith("Good")
 
-    w.press(page.primary)  # check one more pose
+    assert page.primary.text() == "Next: Probe"
+    w.press(page.second)  # check one more pose
     w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
     assert not page.primary.isEnabled()
     w.press(panel.turn)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import QCoreApplication, QSize, Qt
 from PySide6.QtGui import QAction, QFontDatabase, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QDialog,
@@ -24,7 +24,7 @@ from contactbench.app.translation import in_use
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
 
-_MARGIN_PX = 16
+_MARGIN_PX, _FRAME_PX = 16, 40
 
 
 class ShowDialog(QDialog):
@@ -43,7 +43,7 @@ class ShowDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(title)
-        self.resize(*size)
+        self.resize(QSize(*size).boundedTo(self.screen().availableSize() - QSize(_MARGIN_PX, _FRAME_PX)))
 
     def fill(self, *widgets: QWidget) -> None:
         """Put widgets above the button that closes it."""
@@ -159,6 +159,7 @@ class CheatSheet(ShowDialog):
             Key(self.tr("Wheel"), self.tr("Nearer or farther")),
             Key(self.tr("Ctrl and wheel"), self.tr("Larger or smaller brush")),
             Key(self.tr("Shift, held"), self.tr("The brush erases, the eraser paints")),
+            Key(self.tr("Esc"), self.tr("Have the probe go back (motion control)")),
             Key(self.tr("P"), self.tr("Play or pause (heatmap viewer)")),
             Key(self.tr("Ctrl+S"), self.tr("Save a picture (heatmap viewer)")),
         )

@@ -127,7 +127,7 @@ def geometry_text(window: QMainWindow) -> str:
     return base64.b64encode(window.saveGeometry().data()).decode()
 
 
-def first_size(window: QMainWindow) -> QSize:
+def first_size(window: QWidget) -> QSize:
     """Return how large a window is that nobody has sized yet: larger on a large screen, and always within it."""
     room = window.screen().availableSize()
     wanted = (max(usual, round(_SHARE * given)) for usual, given in zip(_USUAL, room.toTuple(), strict=True))

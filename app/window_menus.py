@@ -15,6 +15,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog, page_text
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
+from contactbench.app.window_docks import first_size
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.icons import icon
 
@@ -181,7 +182,7 @@ class Menus(QObject):
         viewer.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         viewer.setWindowTitle(title)
         self._viewers = [each for each in self._viewers if isValid(each)] + [viewer]
-        viewer.resize(1280, 800)
+        viewer.resize(first_size(viewer))
         viewer.show()
 
     def close_windows(self) -> None:

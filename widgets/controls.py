@@ -271,6 +271,7 @@ def choice(
     made = QComboBox()
     for words, value in entries:
         made.addItem(words, value)
+    made.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)  # also in a font that comes later
     if short:
         made.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         made.setMinimumContentsLength(_SHORT)

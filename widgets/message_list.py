@@ -92,6 +92,7 @@ class NewestMessage(QToolButton):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Newest message"))
+        self.setStyleSheet("padding: 0px 4px; min-height: 20px;")  # the status bar is as low as it is
         self.clicked.connect(lambda _=False: self.forget(show_list))
         kept = self.sizePolicy()
         kept.setRetainSizeWhenHidden(True)

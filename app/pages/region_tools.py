@@ -10,7 +10,6 @@ from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QButtonGroup,
     QDoubleSpinBox,
-    QGridLayout,
     QGroupBox,
     QLabel,
     QLayout,
@@ -212,22 +211,18 @@ class ToolPanel(QWidget):
 
     def _make_box(self) -> QWidget:
         self.box_hint, self.box_plan = sentence_label(self._box_words(), "muted"), sentence_label("", "muted")
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        lines = []
         self.lows: list[QDoubleSpinBox] = []
         self.highs: list[QDoubleSpinBox] = []
-        for axis, name in enumerate(_AXES):
-            grid.addWidget(QLabel(name), axis, 0)
-            for place, fields, end in ((1, self.lows, self.tr("low")), (2, self.highs, self.tr("high"))):
+        for name in _AXES:
+            for fields, end in ((self.lows, self.tr("low")), (self.highs, self.tr("high"))):
                 words = self.tr("{0} {1}, mm in the sensor frame S").format(name, end)
                 field = _length(-2000, 2000, words)
                 field.setValue(-10 if fields is self.lows else 10)
                 field.valueChanged.connect(self.plan)
                 fields.append(field)
-                grid.addWidget(field, axis, place)
-        for place in (1, 2):
-            grid.setColumnStretch(place, 1)
-        return _page(self.box_hint, grid, self.box_plan, self._make_giving())
+            lines.append(row(QLabel(name), (self.lows[-1], 1), (self.highs[-1], 1), space=4))
+        return _page(self.box_hint, *lines, self.box_plan, self._make_giving())
 
     def _make_plane(self) -> QWidget:
         words = self.tr("Click on the probe to move the plane there, or type the number.")

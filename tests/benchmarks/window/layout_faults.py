@@ -39,20 +39,15 @@ from PySide6.QtWidgets import (
 from contactbench.widgets.scene import Scene
 
 CONTROLS = (QAbstractButton, QComboBox, QAbstractSpinBox, QLineEdit, QAbstractSlider, QListView)
-LEAST = 4.5  # contrast, as WCAG 2.1 asks for
 
 
 def layout_faults(window: QWidget) -> list[str]:
     """Return what does not fit, lies over something else, or cannot be seen."""
-    seen = _Seen(window)
-    return list(
-        chain(
-            _cut(seen), _cut_tables(seen), _sideways(seen), _outside(seen), _overlaps(seen), _nameless(seen)
-        )
-    )
+    seen = VisibleWidgets(window)
+    return list(chain(_cut(seen), _cut_tables(seen), _sideways(seen), _outside(seen), _overlaps(seen)))
 
 
-class _Seen:
+class VisibleWidgets:
     """The visible widgets of a window, looked for once, without the insides of other controls and of the 3D view."""
 
     def __init__(self, window: QWidget) -> None:
@@ -90,7 +85,7 @@ def what(widget: QWidget) -> str:
 # ---- words that do not fit -----------------------------------------------------------------------------
 
 
-def _cut(seen: _Seen):
+def _cut(seen: VisibleWidgets):
     for button in seen.of(QPushButton, QToolButton, QCheckBox, QRadioButton):
         if (
             button.text()
@@ -101,6 +96,11 @@ def _cut(seen: _Seen):
     for label in seen.of(QLabel):
         if label.text() and not _fits(label):
             yield f"words are cut: {what(label)}"
+    yield from _cut_fields(seen)
+    yield from _cut_titles(seen)
+
+
+def _cut_fields(seen: VisibleWidgets):
     for box in seen.of(QComboBox):
         option = QStyleOptionComboBox()
         box.initStyleOption(option)
@@ -116,6 +116,9 @@ def _cut(seen: _Seen):
         hint = line.placeholderText()
         if hint and not line.text() and _wide(line, hint) > line.width() - 16 and hint not in line.toolTip():
             yield f"a hint is cut: {hint} ({line.width()} px)"
+
+
+def _cut_titles(seen: VisibleWidgets):
     for box in seen.of(QGroupBox):
         if _wide(box, box.title()) > box.width():
             yield f"a heading is cut: {box.title()}"
@@ -129,7 +132,7 @@ def _cut(seen: _Seen):
             yield f"a dock's title is cut: {dock.windowTitle()}"
 
 
-def _cut_tables(seen: _Seen):
+def _cut_tables(seen: VisibleWidgets):
     for table in seen.of(QTableView):
         header: QHeaderView = table.horizontalHeader()
         if header.isHidden():
@@ -183,7 +186,7 @@ def _fits(label: QLabel) -> bool:
 # ---- room that is not there ----------------------------------------------------------------------------
 
 
-def _sideways(seen: _Seen):
+def _sideways(seen: VisibleWidgets):
     for area in seen.of(QAbstractScrollArea):
         if isinstance(area, (QTableView, QHeaderView, QGraphicsView)):
             continue  # a table may be scrolled: its first column says which row it is
@@ -196,16 +199,13 @@ def _sideways(seen: _Seen):
 def _widest(area: QAbstractScrollArea) -> str:
     """Say which of what a scroll area shows needs the most room, and has no part that does."""
     room = area.viewport().width() - 24
-    wide = [
-        each
-        for each in area.findChildren(QWidget)
-        if each.minimumSizeHint().width() > room and not each.isHidden()
-    ]
+    inside = [each for each in area.findChildren(QWidget) if not each.isHidden()]
+    wide = [each for each in inside if each.minimumSizeHint().width() > room]
     deepest = [each for each in wide if not any(each.isAncestorOf(other) for other in wide)]
     return ", ".join(f"{what(each)} needs {each.minimumSizeHint().width()}" for each in deepest[:3])
 
 
-def _outside(seen: _Seen):
+def _outside(seen: VisibleWidgets):
     """What reaches out of what it lies in: nobody can see or press all of it."""
     for parent, below in seen.children.items():
         if (
@@ -222,7 +222,7 @@ def _outside(seen: _Seen):
                 yield f"reaches out of its place: {what(each)} at {each.geometry().getRect()} in {what(parent)}"
 
 
-def _overlaps(seen: _Seen):
+def _overlaps(seen: VisibleWidgets):
     for parent, below in seen.children.items():
         if isinstance(parent, (Scene, QStackedWidget, QMainWindow)):
             continue
@@ -237,20 +237,3 @@ def _overlaps(seen: _Seen):
 def _drawn(widget: QWidget) -> bool:
     through = widget.testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
     return not through and isinstance(widget, (*CONTROLS, QLabel, QAbstractScrollArea, QGroupBox))
-
-
-# ---- names and keys ------------------------------------------------------------------------------------
-
-
-def _nameless(seen: _Seen):
-    for control in seen.of(*CONTROLS):
-        if control.isEnabled() and not named(control):
-            yield f"has no name: {type(control).__name__} {control.objectName()} in {type(control.parent()).__name__}"
-
-
-def named(control: QWidget) -> bool:
-    """Whether a control says what it is."""
-    if control.accessibleName() or (isinstance(control, QAbstractButton) and control.text()):
-        return True
-    labels = control.parentWidget().findChildren(QLabel) if control.parentWidget() else []
-    return any(label.buddy() is control for label in labels)

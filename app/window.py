@@ -315,7 +315,9 @@ class MainWindow(QMainWindow):
         self.jobs.start(self.tr("Remembering the page"), lambda _progress, _cancelled: self.settings.write())
         self.steps.show_step(step)
         self.docks.page_dock.setWindowTitle(
-            self.tr("Step {} of {}").format(1 + list(Step).index(step), len(Step))
+            self.tr("Step {} of {}: {}").format(
+                1 + list(Step).index(step), len(Step), self.steps.name_of(step)
+            )
         )
 
     # ---- what is live ------------------------------------------------------------------------------

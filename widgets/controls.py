@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from PySide6.QtCore import QEvent, QObject, QRect, QSignalBlocker, QSize, Qt
@@ -25,6 +26,7 @@ from PySide6.QtWidgets import (
     QSizePolicy,
     QSpinBox,
     QTableView,
+    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -32,7 +34,7 @@ from PySide6.QtWidgets import (
 from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
     from PySide6.QtGui import QFontMetrics, QResizeEvent
     from PySide6.QtWidgets import QLayoutItem, QProgressBar
@@ -536,6 +538,10 @@ class PanelScroll(QScrollArea):
         if panel is not None:
             self.setWidget(panel)
 
+    def minimumSizeHint(self) -> QSize:
+        """Return the room of one line: the rest is scrolled to."""
+        return QSize(super().minimumSizeHint().width(), HIGH)
+
 
 class HeightStack(QWidget):
     """A stack as high as its current page; a `QStackedWidget` is as high as its highest."""
@@ -559,6 +565,38 @@ def finish(root: QWidget) -> None:
     for each in root.findChildren(QFormLayout):
         if each.rowWrapPolicy() is not QFormLayout.RowWrapPolicy.WrapAllRows:
             _line_up(each)
+    _order_keys(root)
+
+
+def _order_keys(root: QWidget) -> None:
+    """Let the tabulator key go through the layouts as they are read, not as their parts happened to be made."""
+    stops = [each for each in _as_laid_out(root) if each.focusPolicy() & Qt.FocusPolicy.TabFocus]
+    for one, other in pairwise(stops):
+        QWidget.setTabOrder(one, other)
+
+
+def _as_laid_out(widget: QWidget) -> Iterator[QWidget]:
+    yield widget
+    if isinstance(widget, QScrollArea):
+        below = [widget.widget()]
+    elif isinstance(widget, QTabWidget):
+        below = [widget.tabBar(), *(widget.widget(index) for index in range(widget.count()))]
+    else:
+        below = _parts(widget.layout())
+    for each in below:
+        if each is not None:
+            yield from _as_laid_out(each)
+
+
+def _parts(layout: QLayout | None) -> list[QWidget]:
+    found: list[QWidget] = []
+    for index in range(0 if layout is None else layout.count()):
+        item = layout.itemAt(index)  # type: ignore[union-attr]
+        if item is not None and item.widget() is not None:
+            found.append(item.widget())
+        elif item is not None:
+            found += _parts(item.layout())
+    return found
 
 
 def _line_up(layout: QFormLayout) -> None:

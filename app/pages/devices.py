@@ -17,7 +17,7 @@ from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.controls import PanelScroll, column, form, plain_label, row, sentence_label
+from contactbench.widgets.controls import PanelScroll, column, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.phrases import said
 
@@ -67,11 +67,12 @@ class DevicesPage(Page):
         self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
         mounting = QGroupBox(self.tr("Mounting"))
-        rows = form(mounting)
-        rows.setRowWrapPolicy(rows.RowWrapPolicy.WrapAllRows)
-        rows.setContentsMargins(9, 9, 9, 9)
-        rows.addRow(self.tr("Sensor on the flange"), row(*self.mount))
-        rows.addRow(self.tr("Serial number"), self.serial)
+        label = plain_label(self.tr("Serial number"))
+        label.setBuddy(self.serial)
+        column(
+            mounting, plain_label(self.tr("Sensor on the flange")), row(*((each, 1) for each in self.mount)),
+            label, self.serial, margins=(9, 9, 9, 9),
+        )  # fmt: skip
         measured, inside = QGroupBox(self.tr("Measured")), QWidget()
         column(measured, self.channels, margins=(2, 2, 2, 2))
         column(

@@ -32,7 +32,7 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
     why_locked,
 )
-from contactbench.widgets.controls import PanelScroll, column, plain_label
+from contactbench.widgets.controls import PanelScroll, column
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,8 +80,7 @@ class VerifyPage(Page):
         ):
             self.tabs.addTab(PanelScroll(panel), name)
         body = QWidget()
-        title = plain_label(self.tr("Verify"), "title")
-        column(body, title, self.tabs, margins=(6, 8, 6, 0), space=6).setStretch(1, 1)
+        column(body, self.tabs, margins=(6, 4, 6, 0))
         kept = self.tabs.sizePolicy()
         kept.setRetainSizeWhenHidden(True)
         self.tabs.setSizePolicy(kept)

@@ -18,8 +18,11 @@ from PySide6.QtWidgets import QLabel, QMainWindow, QPushButton, QScrollArea, QTo
 from workbench.touch_session import make_session, verify
 
 from contactbench.app.window_docks import SMALLEST, first_size
+from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.theme import colours, contrast, use_theme
+
+from .conftest import beats, shown
 
 LEAST = 4.5  # contrast, as WCAG 2.1 asks for
 LONG_S = 500
@@ -53,6 +56,32 @@ def test_every_page_is_whole_at_every_size(made, tmp_path, scale, more):
     assert done.returncode == 0, done.stderr[-3000:]
     found = json.loads(done.stdout)["found"]
     assert not found, "\n".join(f"{what} ({', '.join(where)})" for what, where in found.items())
+
+
+def test_pages_without_anything_are_whole(qtbot, make_window, tmp_path):
+    use_theme("light")
+    window = make_window()
+    window.resize(*SMALLEST)
+    window.start.question.ask("What shall be done with it?", (("This", lambda: None), ("That", lambda: None)))
+    assert lasting(qtbot, window) == []
+    accented = [each.text() for each in window.start.findChildren(QPushButton) if each.property("primary")]
+    assert accented == ["This"]
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "a session"))
+    for step in Step:
+        window.show_step(step)
+        qtbot.waitUntil(lambda: not window.bench.jobs.running, timeout=60_000)
+        assert lasting(qtbot, window) == [], step
+        assert window.pages.current.bar.primary.text(), step
+
+
+def lasting(qtbot, window):
+    """Faults that are still there when everything has found its place."""
+    for _ in range(20):
+        beats(qtbot, window, 2)
+        found = layout_faults(window)
+        if not found:
+            break
+    return found
 
 
 class Screen:

@@ -62,7 +62,7 @@ class VisibleWidgets:
             for each in parent.children()
             if isinstance(each, QWidget) and not each.isHidden() and not each.isWindow()
         ]
-        if isinstance(parent, (QComboBox, QAbstractSpinBox, QTabBar)):
+        if isinstance(parent, (QComboBox, QAbstractSpinBox, QTabBar, Scene)):
             return
         self.children[parent] = below
         for each in below:
@@ -163,7 +163,7 @@ def _room(button: QAbstractButton) -> int:
         button.initStyleOption(option)
         inner = button.style().subElementRect(QStyle.SubElement.SE_PushButtonContents, option, button)
         used = 0 if button.icon().isNull() else button.iconSize().width() + 4
-        return min(inner.width(), button.width() - 4) - used
+        return min(inner.width(), button.width() - 4) - used + 4  # a little of the padding
     if isinstance(button, (QCheckBox, QRadioButton)):
         return button.width() - 24
     return button.width()
@@ -218,8 +218,21 @@ def _outside(seen: VisibleWidgets):
                 seen.window
             ):
                 continue
-            if not parent.rect().adjusted(-2, -2, 2, 2).contains(each.geometry()):
+            if not _whole(each, parent, seen.window):
                 yield f"reaches out of its place: {what(each)} at {each.geometry().getRect()} in {what(parent)}"
+
+
+def _whole(widget: QWidget, parent: QWidget, window: QWidget) -> bool:
+    """Whether all of a widget can be seen in everything that it lies in, or scrolled to."""
+    rect = widget.geometry()
+    while parent.objectName() != "qt_scrollarea_viewport":
+        if not parent.rect().adjusted(-2, -2, 2, 2).contains(rect):
+            return False
+        if parent is window:
+            break
+        rect = rect.translated(parent.pos())
+        parent = parent.parentWidget()
+    return True
 
 
 def _overlaps(seen: VisibleWidgets):

@@ -57,6 +57,7 @@ class Walk:
     def __init__(self, session: Path, mesh: Path, pictures: Path | None, theme: str) -> None:
         self.found: dict[str, list[str]] = {}
         self._session, self._mesh, self._pictures, self._theme = session, mesh, pictures, theme
+        self._loud = pictures is not None
         self._bars: dict[tuple[int, int], tuple[int, ...]] = {}
 
     def go(self, language: str, sizes, access: bool) -> None:
@@ -122,7 +123,8 @@ class Walk:
             found += self._moved(size)
             if self._access and size == self._sizes[-1]:
                 found += self._hidden_from_some()
-            print(f"{time.process_time():.1f} {page} {self._language} {size} {found}", file=sys.stderr)
+            if self._loud:
+                print(f"{time.process_time():.1f} s: {page} {size} {found}", file=sys.stderr)  # noqa: T201
             for each in found:
                 self.found.setdefault(f"{page}: {each}", []).append(f"{self._language} {size[0]}x{size[1]}")
             if self._pictures is not None:
@@ -195,14 +197,18 @@ def main() -> int:
     parser.add_argument("mesh", type=Path)
     parser.add_argument("--pictures", type=Path)
     parser.add_argument("--theme", default="light")
+    parser.add_argument("--sizes", help="such as 640x340,1366x728")
     parser.add_argument("--languages", default=",".join(LANGUAGES))
     parser.add_argument("--access", action="store_true", help="names, keys, focus and contrast, in English")
     options = parser.parse_args()
+    sizes = SIZES
+    if options.sizes:
+        sizes = tuple(tuple(map(int, each.split("x"))) for each in options.sizes.split(","))
     prepared()
     use_theme(options.theme)
     walk = Walk(options.session, options.mesh, options.pictures, options.theme)
     for language in options.languages.split(","):
-        walk.go(language, SIZES, options.access and language == "en")
+        walk.go(language, sizes, options.access and language == "en")
     json.dump({"found": walk.found, "cpu": time.process_time()}, sys.stdout, indent=1)
     sys.stdout.flush()
     os._exit(0)

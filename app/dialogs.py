@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QFontDatabase, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QDialog,
@@ -19,6 +19,8 @@ from PySide6.QtWidgets import (
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
+
+_MARGIN_PX, _FRAME_PX = 16, 40
 
 
 class ShowDialog(QDialog):
@@ -37,7 +39,7 @@ class ShowDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(title)
-        self.resize(*size)
+        self.resize(QSize(*size).boundedTo(self.screen().availableSize() - QSize(_MARGIN_PX, _FRAME_PX)))
 
     def fill(self, *widgets: QWidget) -> None:
         """Put widgets above the button that closes it."""
@@ -126,6 +128,7 @@ class CheatSheet(ShowDialog):
             Key(self.tr("Wheel"), self.tr("Nearer or farther")),
             Key(self.tr("Ctrl and wheel"), self.tr("Larger or smaller brush")),
             Key(self.tr("Shift, held"), self.tr("The brush erases, the eraser paints")),
+            Key(self.tr("Esc"), self.tr("Have the probe go back (motion control)")),
             Key(self.tr("P"), self.tr("Play or pause (heatmap viewer)")),
             Key(self.tr("Ctrl+S"), self.tr("Save a picture (heatmap viewer)")),
         )

@@ -123,6 +123,19 @@ class HelpBook(ShowDialog):
         find.activated.connect(self.search.setFocus)
         self.turn_to(name)
 
+    @classmethod
+    def beside(cls, window: QWidget, name: str) -> HelpBook:
+        """Show a page of the help beside a window, in the book that is open there if there is one."""
+        book = window.findChild(cls)
+        if book is None:
+            book = cls(name, window)
+        else:
+            book.turn_to(name)
+        book.show()
+        book.raise_()
+        book.activateWindow()
+        return book
+
     @property
     def name(self) -> str:
         """The page that is shown."""

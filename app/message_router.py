@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from contactbench.app.bench import Weight
 from contactbench.app.errors import LOG, in_words
@@ -28,7 +28,14 @@ class MessageRouter(QObject):
         With the message list.
     bench : callable
         Returns what is open and not being closed, or None.
+
+    Signals
+    -------
+    told : str, str
+        Weight and text of a message that matters.
     """
+
+    told = Signal(str, str)
 
     def __init__(self, docks: Docks, bench: Callable[[], Bench | None], parent: QObject) -> None:
         super().__init__(parent)
@@ -36,11 +43,11 @@ class MessageRouter(QObject):
         self._noted: set[str] = set()
 
     def tell(self, weight: str, text: str, details: str = "") -> None:
-        """Put a message into the list; one that matters makes the list be seen."""
+        """Put a message into the list; one that matters is also seen where the list is not shown."""
         LOG.info("%s: %s", weight, text)
         self._docks.messages.add(str(weight), text, details)
-        if weight in (Weight.WARNING, Weight.ERROR) and self._docks.message_dock.isHidden():
-            self._docks.message_dock.show()
+        if weight in (Weight.WARNING, Weight.ERROR):
+            self.told.emit(str(weight), text)
 
     def message(self, message: Notice) -> None:
         """Put a page's message into the list."""

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.opening import holds_session
-from contactbench.widgets.controls import accent, sentence_label
+from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 
@@ -84,7 +84,7 @@ class StartPage(QWidget):
         column.addWidget(self._heading)
         self._recent = QListWidget()
         self._recent.setAccessibleName(self.tr("Recent sessions"))
-        self._recent.setMinimumHeight(190)
+        self._recent.setMinimumHeight(110)
         self._recent.setWordWrap(True)
         self._recent.itemActivated.connect(self._open_recent)
         self._recent.itemClicked.connect(self._open_recent)
@@ -93,13 +93,17 @@ class StartPage(QWidget):
         hint.setProperty("role", "muted")
         column.addWidget(hint)
         column.addStretch(1)
-        row = QHBoxLayout(self)
+        middle = QWidget()
+        row = QHBoxLayout(middle)
         row.addStretch(1)
         row.addWidget(inner, 8)
         row.addStretch(1)
+        everything = QHBoxLayout(self)
+        everything.setContentsMargins(0, 0, 0, 0)
+        everything.addWidget(PanelScroll(middle))
         self.show_recent(())
 
-    def _buttons(self) -> QHBoxLayout:
+    def _buttons(self) -> FoldRow:
         self.virtual_button = QPushButton(icon("play", "panel"), self.tr("Try the virtual bench"))
         self.virtual_button.setProperty("primary", True)
         self.virtual_button.setToolTip(
@@ -109,7 +113,7 @@ class StartPage(QWidget):
         self.new_button.setToolTip(self.tr("Begin with an empty folder for one sensor and one probe"))
         self.open_button = QPushButton(icon("folder"), self.tr("Open session"))
         self.open_button.setToolTip(self.tr("Go on with a session that is on this computer"))
-        row = QHBoxLayout()
+        buttons = FoldRow()
         for button, signal in (
             (self.virtual_button, self.virtual),
             (self.new_button, self.new),
@@ -117,8 +121,8 @@ class StartPage(QWidget):
         ):
             button.setProperty("large", True)
             button.clicked.connect(signal)
-            row.addWidget(button, 1)
-        return row
+            buttons.add(button, 1)
+        return buttons
 
     def show_recent(self, recent: Sequence[Recent], missing: Collection[str] = ()) -> None:
         """Show sessions that were open; those whose folder is missing are grey and say so."""
@@ -164,7 +168,7 @@ class QuestionCard(QFrame):
         self.setProperty("role", "card")
         self._icon, self._words = Sign(28), sentence_label()
         self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._weighed, self._buttons = QGridLayout(), QHBoxLayout()
+        self._weighed, self._buttons = QGridLayout(), FoldRow()
         self._weighed.setColumnStretch(1, 1)
         column = QVBoxLayout()
         column.addWidget(self._words)
@@ -214,10 +218,9 @@ class QuestionCard(QFrame):
                 self._weighed.addWidget(cost, number, 1)
                 button.setAccessibleDescription(costs[number])
             else:
-                self._buttons.addWidget(button)
+                self._buttons.add(button)
             if number == 0:
                 button.setFocus()
-        self._buttons.addStretch(1)
         self.setAccessibleName(sentence)
         self.show()
         self.asked.emit(True)

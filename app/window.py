@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
-from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
+from PySide6.QtWidgets import QMainWindow, QStackedWidget
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.app.departure import Departure
@@ -20,7 +20,7 @@ from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.turns import Turns
-from contactbench.app.window_docks import Docks, geometry_text, restore_geometry
+from contactbench.app.window_docks import SMALLEST, Docks, first_size, geometry_text, restore_geometry
 from contactbench.app.window_header import HeaderBar
 from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
@@ -28,6 +28,8 @@ from contactbench.app.window_pages import Pages
 from contactbench.app.window_probe import SessionProbe
 from contactbench.app.window_sessions import Sessions
 from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.widgets.controls import ElidedLabel
+from contactbench.widgets.message_list import NewestMessage
 from contactbench.widgets.progress_strip import ProgressStrip
 from contactbench.widgets.theme import is_dark, use_theme
 
@@ -41,8 +43,7 @@ if TYPE_CHECKING:
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
-_STATUS_PX = 40
-_SMALLEST = (1024, 700)
+_STATUS_PX = 36
 
 
 class MainWindow(QMainWindow):
@@ -78,7 +79,7 @@ class MainWindow(QMainWindow):
         self.jobs, self.undo, self._turns = Jobs(self), QUndoGroup(self), Turns(self)
         self.heartbeat, self.garbage = Heartbeat(self), Garbage(self)
         self.setWindowTitle("contactbench")
-        self.setMinimumSize(*_SMALLEST)
+        self.setMinimumSize(*SMALLEST)
         self.setAcceptDrops(True)
         self.setDockNestingEnabled(True)
         self.start, self._middle = StartPage(), QStackedWidget()
@@ -112,17 +113,19 @@ class MainWindow(QMainWindow):
         self._slow = QTimer(self, interval=_SLOW_MS)
         self._slow.timeout.connect(self._show_rates)
         if not restore_geometry(self, self.settings.now.geometry):
-            self.resize(1280, 800)
+            self.resize(first_size(self))
         self._show_start()
         self.garbage.settle()
         self.heartbeat.start()
 
     def _make_status_bar(self) -> None:
         self.strip = ProgressStrip(self._running)
-        self._rates = QLabel()
-        self._rates.setProperty("role", "muted")
-        self._rates.setStyleSheet("padding-left: 8px;")
+        self._rates = ElidedLabel(role="muted")
+        self._rates.setContentsMargins(8, 0, 0, 0)
+        self._newest = NewestMessage(self.docks.show_messages)
+        self._router.told.connect(self._newest.show_message)
         self.statusBar().addWidget(self._rates)
+        self.statusBar().addWidget(self._newest, 1)
         self.statusBar().addPermanentWidget(self.strip)
         self.statusBar().setSizeGripEnabled(False)
         self.statusBar().setFixedHeight(_STATUS_PX)  # as with a button in it: the scene never jumps
@@ -328,7 +331,9 @@ class MainWindow(QMainWindow):
         self.jobs.start(self.tr("Remembering the page"), lambda _progress, _cancelled: self.settings.write())
         self.steps.show_step(step)
         self.docks.page_dock.setWindowTitle(
-            self.tr("Step {} of {}").format(1 + list(Step).index(step), len(Step))
+            self.tr("Step {} of {}: {}").format(
+                1 + list(Step).index(step), len(Step), self.steps.name_of(step)
+            )
         )
 
     # ---- what is live ------------------------------------------------------------------------------

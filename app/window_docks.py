@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QTimer
+from PySide6.QtCore import QByteArray, QCoreApplication, QSize, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QStackedWidget, QWidget
 
 from contactbench.widgets.message_list import MessageList
@@ -15,8 +15,13 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QMainWindow
 
 _VERSION = 1  # of the docks: an older layout is not restored
-_PAGE_PX, _STEPS_PX, _BOTTOM_PX = 380, 150, 190
-_LOW, _CHART_SHARE = 900, 0.6
+_STEPS_PX, _BOTTOM_PX = 150, 190
+_PAGE_PX = (320, 560)  # the least that every page fits into, and the most that it makes use of
+_HIGH, _LOW, _CHART_SHARE = 900, 560, 0.6
+_FRAME_PX = (4, 36)  # what a window manager puts around a window
+_USUAL, _SHARE = (1280, 800), 0.75  # of a window that nobody sized: px, and of a large screen
+SMALLEST = (640, 320)
+"""The least that a window needs: half of a screen of 1366 x 768, which a scale of 200 % leaves."""
 
 
 class Docks:
@@ -42,7 +47,7 @@ class Docks:
             self.messages,
             area.BottomDockWidgetArea,
         )
-        self.pages.setMinimumWidth(340)
+        self.pages.setMinimumWidth(_PAGE_PX[0])
         # The steps and the page reach down to the edge: the page has the most to show.
         window.setCorner(Qt.Corner.BottomRightCorner, area.RightDockWidgetArea)
         window.setCorner(Qt.Corner.BottomLeftCorner, area.LeftDockWidgetArea)
@@ -65,13 +70,19 @@ class Docks:
         """Whether somebody can see the charts."""
         return self._charts.isVisible() and not self._charts.visibleRegion().isEmpty()
 
+    def show_messages(self) -> None:
+        """Show the list of messages: somebody wants to read it."""
+        self.message_dock.show()
+        self.message_dock.raise_()
+        self.messages.setFocus()
+
     def hide(self) -> None:
         """Hide all of them."""
         for dock in self.all:
             dock.hide()
 
     def arrange(self) -> None:
-        """Lay them out as they are at first."""
+        """Lay them out as they are at first; where there is hardly any room, without those at the bottom."""
         window, area = self._window, Qt.DockWidgetArea
         for dock, where in (
             (self.step_dock, area.LeftDockWidgetArea),
@@ -81,13 +92,14 @@ class Docks:
         ):
             dock.setFloating(False)
             window.addDockWidget(where, dock)
-            dock.show()
+            dock.setVisible(where is not area.BottomDockWidgetArea or window.height() >= _LOW)
         window.splitDockWidget(self.chart_dock, self.message_dock, Qt.Orientation.Horizontal)
         sideways, high = Qt.Orientation.Horizontal, window.height()
-        window.resizeDocks([self.step_dock, self.page_dock], [_STEPS_PX, _PAGE_PX], sideways)
-        bottom = _BOTTOM_PX if high < _LOW else round(high * 0.22)
+        page = min(max(round(0.2 * window.width()) + 124, _PAGE_PX[0]), _PAGE_PX[1])
+        window.resizeDocks([self.step_dock, self.page_dock], [_STEPS_PX, page], sideways)
+        bottom = _BOTTOM_PX if high < _HIGH else round(high * 0.22)
         window.resizeDocks([self.chart_dock, self.message_dock], [bottom, bottom], Qt.Orientation.Vertical)
-        middle = window.width() - _STEPS_PX - _PAGE_PX
+        middle = window.width() - _STEPS_PX - page
         widths = [round(_CHART_SHARE * middle), round((1 - _CHART_SHARE) * middle)]
         below = [self.chart_dock, self.message_dock]
         # Docks that were just shown take sizes only once they are laid out.
@@ -113,6 +125,13 @@ class Docks:
 def geometry_text(window: QMainWindow) -> str:
     """Return where a window is, and how large, to be remembered."""
     return base64.b64encode(window.saveGeometry().data()).decode()
+
+
+def first_size(window: QWidget) -> QSize:
+    """Return how large a window is that nobody has sized yet: larger on a large screen, and always within it."""
+    room = window.screen().availableSize()
+    wanted = (max(usual, round(_SHARE * given)) for usual, given in zip(_USUAL, room.toTuple(), strict=True))
+    return QSize(*wanted).boundedTo(room - QSize(*_FRAME_PX))
 
 
 def restore_geometry(window: QMainWindow, text: str) -> bool:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QLabel, QSizePolicy, QToolBar, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolBar, QWidget
 
 from contactbench.app.start import session_name
+from contactbench.widgets.controls import ElidedLabel
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
@@ -28,10 +29,10 @@ class HeaderBar(QToolBar):
         self.setMovable(False)
         self.setIconSize(QSize(_ICON_PX, _ICON_PX))
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        self._session, self._devices = QLabel(), QLabel()
-        self._session.setStyleSheet("font-weight: 600; padding-left: 6px;")
-        self._devices.setProperty("role", "muted")
-        self._devices.setStyleSheet("padding-left: 14px;")
+        self._session, self._devices = ElidedLabel(), ElidedLabel(role="muted")
+        self._session.setStyleSheet("font-weight: 600;")
+        self._session.setContentsMargins(6, 0, 0, 0)
+        self._devices.setContentsMargins(14, 0, 0, 0)
         space = QWidget()
         space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         for widget in (self._session, self._devices, space):
@@ -51,7 +52,6 @@ class HeaderBar(QToolBar):
             self._devices.setText("")
             return
         self._session.setText(session_name(bench.desk.folder))
-        self._session.setToolTip(str(bench.desk.folder))
         self._devices.setText(self.device_line(bench))
 
     def device_line(self, bench: Bench) -> str:

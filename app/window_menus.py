@@ -16,6 +16,7 @@ from contactbench.app.dialogs import CheatSheet, TextDialog
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
+from contactbench.app.window_docks import first_size
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.icons import icon
 
@@ -147,14 +148,7 @@ class Menus(QObject):
 
     def show_help_page(self, name: str) -> None:
         """Show a page of the help beside the window."""
-        book = self._window.findChild(HelpBook)
-        if book is None:
-            book = HelpBook(name, self._window)
-        else:
-            book.turn_to(name)
-        book.show()
-        book.raise_()
-        book.activateWindow()
+        HelpBook.beside(self._window, name)
 
     def show_shortcuts(self) -> None:
         """Show all keys."""
@@ -203,7 +197,7 @@ class Menus(QObject):
         viewer.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         viewer.setWindowTitle(title)
         self._viewers = [each for each in self._viewers if isValid(each)] + [viewer]
-        viewer.resize(1280, 800)
+        viewer.resize(first_size(viewer))
         viewer.show()
 
     def close_windows(self) -> None:

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QLabel, QVBoxLayout
+from PySide6.QtWidgets import QLabel
 
 from contactbench.app.page import Page
 from contactbench.app.trouble_notice import show_trouble
@@ -249,4 +249,5 @@ class _Missing(Page):
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         words = self.tr("This page could not be made; the messages say why. The other steps can be used.")
-        QVBoxLayout(self).addWidget(QLabel(words, wordWrap=True))
+        self.bar.hide()
+        self.fill(QLabel(words, wordWrap=True))

@@ -8,17 +8,23 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QComboBox,
     QDoubleSpinBox,
     QFileDialog,
-    QFormLayout,
-    QGridLayout,
     QLabel,
     QWidget,
 )
 
 from contactbench.widgets.alignment_points import PointTable
-from contactbench.widgets.controls import HeightStack, column, named, push_button, sentence_label
+from contactbench.widgets.controls import (
+    HeightStack,
+    choice,
+    column,
+    form,
+    named,
+    push_button,
+    row,
+    sentence_label,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,18 +65,16 @@ class AlignmentPanel(QWidget):
         super().__init__(parent)
         self._facet = -1
         self._toward: NDArray[np.float64] | None = None
-        self.way = QComboBox()
-        self.way.addItems(
-            [
-                self.tr("By numbers"),
-                self.tr("By matching points"),
-                self.tr("By the face on the sensor"),
-                self.tr("By touches of marked points"),
-                self.tr("By its shape"),
-                self.tr("From a file"),
-            ]
+        ways = (
+            self.tr("By numbers"),
+            self.tr("By matching points"),
+            self.tr("By the face on the sensor"),
+            self.tr("By touches of marked points"),
+            self.tr("By its shape"),
+            self.tr("From a file"),
         )
-        self.way.setAccessibleName(self.tr("How the place of the mesh is given"))
+        name = self.tr("How the place of the mesh is given")
+        self.way = choice(((each, None) for each in ways), name, short=True)
         self.stack = HeightStack(
             self._numbers_page(),
             self._points_page(),
@@ -115,25 +119,21 @@ class AlignmentPanel(QWidget):
     # ---- the ways ----------------------------------------------------------------------------
 
     def _numbers_page(self) -> QWidget:
-        grid = QGridLayout()
-        grid.setContentsMargins(0, 0, 0, 0)
         along = self.tr("The mesh's origin along {} of the sensor, in mm")
         turned = self.tr("Turned about the fixed axis {} of the sensor, in degrees; x first, then y, then z")
         self.numbers = (
             *(self._number(1e4, " mm", 2, along.format(axis)) for axis in "xyz"),
             *(self._number(360.0, "°", 2, turned.format(axis)) for axis in "xyz"),
         )
-        for place, (spin, axis) in enumerate(zip(self.numbers, 2 * "xyz", strict=True)):
-            part, line = divmod(place, 3)
-            label = QLabel(self.tr("about {}").format(axis) if part else axis)
-            label.setBuddy(spin)
-            grid.addWidget(label, line, 2 * part)
-            grid.addWidget(spin, line, 2 * part + 1)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnStretch(3, 1)
+        rows = []
+        for axis, moved, angle in zip("xyz", self.numbers[:3], self.numbers[3:], strict=True):
+            labels = QLabel(axis), QLabel(self.tr("about {}").format(axis))
+            for label, field in zip(labels, (moved, angle), strict=True):
+                label.setBuddy(field)
+            rows.append(row(labels[0], (moved, 1), labels[1], (angle, 1)))
         words = self.tr("Where the mesh's origin lies, and how the mesh is turned:")
         self.place_numbers = push_button(self.tr("Place it so"), self._give_numbers)
-        return _page(sentence_label(words), grid, self.place_numbers)
+        return _page(sentence_label(words), *rows, self.place_numbers)
 
     def _points_page(self) -> QWidget:
         words = self.tr(
@@ -149,7 +149,7 @@ class AlignmentPanel(QWidget):
         return _page(sentence_label(words), self.points, self.place_points)
 
     def _flange_page(self) -> QWidget:
-        self.flange_words, rows = sentence_label(), QFormLayout()
+        self.flange_words, rows = sentence_label(), form()
         angle = self.tr("Angle of the second place from +x of the sensor about +z, degrees")
         height = self.tr("Height of the mounting plane above the sensor's origin, mm")
         self.clock = self._number(360.0, "°", 2, angle)
@@ -179,7 +179,7 @@ class AlignmentPanel(QWidget):
             " and correct it by numbers or touches."
         )
         name = self.tr("Height of the probe's lowest point above the sensor's origin, mm")
-        self.lowest, rows = self._number(1e3, " mm", 3, name), QFormLayout()
+        self.lowest, rows = self._number(1e3, " mm", 3, name), form()
         rows.addRow(self.tr("Lowest point at"), self.lowest)
         place = push_button(
             self.tr("Place it by its shape"), lambda: self.shape_given.emit(self.lowest.value())
@@ -226,7 +226,7 @@ class AlignmentPanel(QWidget):
 
     def _number(self, largest: float, unit: str, decimals: int, name: str) -> QDoubleSpinBox:
         field = QDoubleSpinBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit)
-        return named(field, name, least=70)
+        return named(field, name)
 
 
 def _page(*parts: QWidget | QLayout) -> QWidget:

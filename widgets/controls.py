@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt
+from PySide6.QtCore import QEvent, QObject, QRect, QSignalBlocker, QSize, Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
+    QAbstractButton,
     QAbstractSlider,
     QAbstractSpinBox,
     QCheckBox,
@@ -14,14 +16,17 @@ from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFormLayout,
     QFrame,
-    QHBoxLayout,
+    QHeaderView,
     QLabel,
+    QLayout,
     QLineEdit,
     QPushButton,
     QScrollArea,
     QScrollBar,
     QSizePolicy,
     QSpinBox,
+    QTableView,
+    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -29,13 +34,20 @@ from PySide6.QtWidgets import (
 from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
 
-    from PySide6.QtWidgets import QLayout, QProgressBar
+    from PySide6.QtGui import QFontMetrics, QResizeEvent
+    from PySide6.QtWidgets import QLayoutItem, QProgressBar
 
 HIGH = 36  # px: what a glove can press
 _TEXT_PX = 6
+_SHORT = 12  # characters of a list of choices whose words somebody else chose
+_BESIDE_PX, _CHECK_PX = 34, 30  # of a button, of a check box
+_IGNORED = QSizePolicy.Policy.Ignored
 _Field = TypeVar("_Field", bound=QWidget)
+_Button: Any = (
+    QAbstractButton if TYPE_CHECKING else object
+)  # with two Qt classes as its bases a button crashes
 
 
 # ---- parts -----------------------------------------------------------------------------------------
@@ -48,21 +60,99 @@ def push_button(
     *,
     tip: str = "",
     high: int = HIGH,
-    least: int = 0,
     primary: bool = False,
 ) -> QPushButton:
-    """Return a button; `least`: it may be as narrow as that, px; `primary`: the one thing to press."""
-    made = QPushButton(words)
+    """Return a button; `primary`: the one thing to press."""
+    made = FoldButton()
+    made.setSizePolicy(
+        QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed
+    )  # narrower than its words in one line
+    made.setText(words)
     if picture:
         made.setIcon(icon(picture, "panel" if primary else "text"))
     made.setMinimumHeight(high)
     made.setToolTip(tip)
     if primary:
         made.setProperty("primary", True)
-    if least:
-        narrow(made, least)
     if does is not None:
         made.clicked.connect(lambda _=False: does())
+    return made
+
+
+def folded(words: str, metrics: QFontMetrics, room: float) -> str:
+    """Return words in one line where there is room, or else in the two lines that are shortest."""
+    parts = words.split(" ")
+    if len(parts) == 1 or metrics.horizontalAdvance(words) <= room:
+        return words
+    splits = [(" ".join(parts[:at]), " ".join(parts[at:])) for at in range(1, len(parts))]
+    return "\n".join(min(splits, key=lambda lines: max(map(metrics.horizontalAdvance, lines))))
+
+
+class Folding(_Button):
+    """What lets the words of a button take two lines where one is too short; goes before the kind of button."""
+
+    _words = ""
+
+    def text(self) -> str:
+        """Return the words, in one line."""
+        return self._words
+
+    def setText(self, words: str) -> None:
+        """Show other words."""
+        if words != self._words:
+            self._words = words
+            self._fold()
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the room of two lines."""
+        one, metrics = super().sizeHint(), self.fontMetrics()
+        lines = folded(self._words, metrics, 0).split("\n")
+        shown = max(map(metrics.horizontalAdvance, QAbstractButton.text(self).split("\n")))
+        return QSize(one.width() - shown + max(map(metrics.horizontalAdvance, lines)), one.height())
+
+    def sizeHint(self) -> QSize:
+        """Return the room of one line, or the height of those that there are."""
+        one, metrics = super().sizeHint(), self.fontMetrics()
+        shown = max(map(metrics.horizontalAdvance, QAbstractButton.text(self).split("\n")))
+        return QSize(one.width() - shown + metrics.horizontalAdvance(self._words), one.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Break the line where it must be."""
+        super().resizeEvent(event)
+        self._fold()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Break it anew in another font."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._fold()
+
+    def _around(self) -> int:
+        """Return how many px beside the words are not theirs."""
+        icon_px = 0 if self.icon().isNull() else self.iconSize().width() + 6
+        return icon_px + (_CHECK_PX if isinstance(self, QCheckBox) else _BESIDE_PX)
+
+    def _fold(self) -> None:
+        shown = folded(self._words, self.fontMetrics(), self.width() - self._around())
+        if QAbstractButton.text(self) != shown:
+            super().setText(shown)
+
+
+class FoldButton(Folding, QPushButton):
+    """A push button whose words take two lines where one is too short."""
+
+
+class FoldCheck(Folding, QCheckBox):
+    """A check box whose words take two lines where one is too short."""
+
+
+def check_box(words: str, *, tip: str = "") -> QCheckBox:
+    """Return a check box that a glove can press."""
+    made = FoldCheck()
+    made.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+    made.setText(words)
+    made.setToolTip(tip)
+    made.setMinimumHeight(HIGH)
     return made
 
 
@@ -85,7 +175,87 @@ def plain_label(words: str, role: str = "") -> QLabel:
     return made
 
 
-def named(field: _Field, name: str, *, least: int = 0, tip: str | None = None) -> _Field:
+class ElidedLabel(QLabel):
+    """
+    A label that takes the room of some lines and no more; words that are longer end in "…" and are in the tool tip.
+
+    Parameters
+    ----------
+    words : str
+    lines : int
+        Whose room it always takes, also while it says nothing.
+    """
+
+    def __init__(self, words: str = "", *, lines: int = 1, role: str = "") -> None:
+        super().__init__()
+        self._words, self._lines = words, lines
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setSizePolicy(
+            QSizePolicy.Policy.Ignored if lines > 1 else QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed
+        )
+        self.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        if role:
+            self.setProperty("role", role)
+
+    def text(self) -> str:
+        """Return all the words."""
+        return self._words
+
+    def setText(self, words: str) -> None:
+        """Show other words."""
+        self._words = words
+        self.updateGeometry()
+        self._elide()
+
+    def sizeHint(self) -> QSize:
+        """Return the room for all the words, in as many lines as there may be."""
+        margins, metrics = self.contentsMargins(), self.fontMetrics()
+        wide = metrics.horizontalAdvance(self._words) + margins.left() + margins.right() + 2
+        return QSize(wide if self._lines == 1 else 40, self._lines * metrics.lineSpacing() + 2)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the room for a few of them."""
+        return QSize(min(self.sizeHint().width(), 40), self.sizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show what fits."""
+        super().resizeEvent(event)
+        self._elide()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Show what fits in another font."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+            self._elide()
+
+    def _elide(self) -> None:
+        room, metrics = self.contentsRect().width(), self.fontMetrics()
+        shown, rest = [], self._words
+        while rest and len(shown) < self._lines - 1:
+            line, rest = _first_line(rest, metrics, room)
+            shown.append(line)
+        whole = metrics.horizontalAdvance(rest) <= room and "\n" not in rest
+        shown.append(
+            rest if whole else metrics.elidedText(rest.replace("\n", " "), Qt.TextElideMode.ElideRight, room)
+        )
+        text = "\n".join(shown).rstrip("\n")
+        if QLabel.text(self) != text:
+            super().setText(text)
+        self.setToolTip("" if whole else self._words)
+        self.setAccessibleDescription(self._words)
+
+
+def _first_line(words: str, metrics: QFontMetrics, room: int) -> tuple[str, str]:
+    """Return the words that fit into a line, and those that do not."""
+    line, _, below = words.partition("\n")
+    parts, count = line.split(" "), 1
+    while count < len(parts) and metrics.horizontalAdvance(" ".join(parts[: count + 1])) <= room:
+        count += 1
+    left = " ".join(parts[count:])
+    return " ".join(parts[:count]), f"{left}\n{below}" if left and below else left or below
+
+
+def named(field: _Field, name: str, *, tip: str | None = None) -> _Field:
     """Make a field as high as a glove needs it, call it by a name, and let it speak when it is complete."""
     field.setMinimumHeight(HIGH)
     field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -93,33 +263,182 @@ def named(field: _Field, name: str, *, least: int = 0, tip: str | None = None) -
     field.setToolTip(name if tip is None else tip)
     if isinstance(field, QAbstractSpinBox):
         field.setKeyboardTracking(False)
-    if least:
-        narrow(field, least)
     return field
 
 
 def choice(
-    entries: Iterable[tuple[str, Any]], name: str, *, least: int = 0, tip: str | None = None
+    entries: Iterable[tuple[str, Any]], name: str, *, short: bool = False, tip: str | None = None
 ) -> QComboBox:
-    """Return a list of choices: words and what they stand for."""
+    """Return a list of choices, words and what they stand for; `short`: it may be narrower than its longest words."""
     made = QComboBox()
     for words, value in entries:
         made.addItem(words, value)
-    return named(made, name, least=least, tip=tip)
+    made.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)  # also in a font that comes later
+    if short:
+        made.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        made.setMinimumContentsLength(_SHORT)
+        made.currentTextChanged.connect(made.setToolTip)
+    return named(made, name, tip=tip)
 
 
-def narrow(field: QWidget, least: int) -> None:
-    """Let a field be as narrow as `least` px: its own wish is for the longest that it could ever hold."""
-    field.setMinimumWidth(least)
-    field.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+class FoldRow(QLayout):
+    """Parts beside each other while there is room, and the others in lines below; each line is as wide as there is."""
+
+    def __init__(self, space: int = 6) -> None:
+        super().__init__()
+        self._items: list[QLayoutItem] = []
+        self._stretches: list[int] = []
+        self.setSpacing(space)
+        self.setContentsMargins(0, 0, 0, 0)
+
+    def add(self, part: QWidget, stretch: int = 0, alignment: Qt.AlignmentFlag | None = None) -> None:
+        """Put a part at the end; `stretch`: its share of the room that is left."""
+        self.addWidget(part)
+        self._stretches[-1] = stretch
+        if alignment is not None:
+            self._items[-1].setAlignment(alignment)
+
+    # ---- what Qt asks for --------------------------------------------------------------------------
+
+    def addItem(self, item: QLayoutItem) -> None:
+        """Take an item."""
+        self._items.append(item)
+        self._stretches.append(0)
+
+    def count(self) -> int:
+        """Return how many there are."""
+        return len(self._items)
+
+    def itemAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
+        """Return one of them."""
+        return self._items[index] if 0 <= index < len(self._items) else None
+
+    def takeAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
+        """Take one out."""
+        if not 0 <= index < len(self._items):
+            return None
+        del self._stretches[index]
+        return self._items.pop(index)
+
+    def expandingDirections(self) -> Qt.Orientation:
+        """Return that it takes the width."""
+        return Qt.Orientation.Horizontal
+
+    def hasHeightForWidth(self) -> bool:
+        """Return that it folds."""
+        return True
+
+    def heightForWidth(self, width: int) -> int:
+        """Return how high its lines are together."""
+        return self._lay(QRect(0, 0, width, 0), place=False)
+
+    def sizeHint(self) -> QSize:
+        """Return the size of one line."""
+        shown = [item.sizeHint() for item in self._shown()]
+        return self._around(
+            sum(each.width() for each in shown) + self.spacing() * max(len(shown) - 1, 0),
+            max((each.height() for each in shown), default=0),
+        )
+
+    def minimumSize(self) -> QSize:
+        """Return the size of its widest part alone."""
+        shown = [item.minimumSize() for item in self._shown()]
+        return self._around(
+            max((each.width() for each in shown), default=0),
+            max((each.height() for each in shown), default=0),
+        )
+
+    def setGeometry(self, rect: QRect) -> None:
+        """Put every part into its place."""
+        super().setGeometry(rect)
+        self._lay(rect, place=True)
+
+    # ---- lines -------------------------------------------------------------------------------------
+
+    def _shown(self) -> list[QLayoutItem]:
+        return [item for item in self._items if not item.isEmpty()]
+
+    def _around(self, width: int, height: int) -> QSize:
+        margins = self.contentsMargins()
+        return QSize(width + margins.left() + margins.right(), height + margins.top() + margins.bottom())
+
+    def _lay(self, rect: QRect, *, place: bool) -> int:
+        margins, space = self.contentsMargins(), self.spacing()
+        left, wide = rect.x() + margins.left(), rect.width() - margins.left() - margins.right()
+        top = rect.y() + margins.top()
+        for line in self._lines(wide):
+            needs = [min(_least_width(item), wide) for item, _ in line]
+            spare = max(wide - sum(needs) - space * (len(line) - 1), 0)
+            shares = [stretch for _, stretch in line]
+            if not any(shares):  # nobody asks: a part that takes what it gets, or else all
+                shares = [int(_takes_width(item)) for item, _ in line]
+            widths = _shared(needs, spare, shares)
+            heights = [
+                item.heightForWidth(width) if item.hasHeightForWidth() else item.sizeHint().height()
+                for (item, _), width in zip(line, widths, strict=True)
+            ]
+            high, x = max(heights), left
+            for (item, _), width in zip(line, widths, strict=True):
+                if place:
+                    item.setGeometry(QRect(x, top, width, high))
+                x += width + space
+            top += high + space
+        return max(top - space, rect.y() + margins.top()) - rect.y() + margins.bottom()
+
+    def _lines(self, wide: int) -> list[list[tuple[QLayoutItem, int]]]:
+        lines: list[list[tuple[QLayoutItem, int]]] = []
+        left = -1
+        for item, stretch in zip(self._items, self._stretches, strict=True):
+            if item.isEmpty():
+                continue
+            need = _least_width(item)
+            if left < need or not lines:
+                lines.append([])
+                left = wide
+            lines[-1].append((item, stretch))
+            left -= need + self.spacing()
+        return lines
 
 
-def row(*parts: QWidget | tuple[QWidget, int], space: int = 6) -> QHBoxLayout:
-    """Return parts beside each other; one with a number is stretched."""
-    made = QHBoxLayout()
-    made.setSpacing(space)
+def _least_width(item: QLayoutItem) -> int:
+    """Return how narrow a part may be: a button as its words are long, though Qt would let it be narrower."""
+    widget = item.widget()
+    hint = item.minimumSize().width()
+    if isinstance(widget, QAbstractButton) and widget.sizePolicy().horizontalPolicy() is not _IGNORED:
+        hint = max(hint, widget.sizeHint().width())
+    return hint
+
+
+def _takes_width(item: QLayoutItem) -> bool:
+    widget = item.widget()
+    return isinstance(widget, QPushButton) or bool(item.expandingDirections() & Qt.Orientation.Horizontal)
+
+
+def _shared(needs: list[int], spare: int, shares: list[int]) -> list[int]:
+    """Return widths: each what it needs; those with a share grow towards their part of the whole."""
+    whole = sum(shares)
+    if not whole:
+        return needs
+    total = spare + sum(need for need, share in zip(needs, shares, strict=True) if share)
+    widths, open_ones = list(needs), [at for at, share in enumerate(shares) if share]
+    while open_ones:
+        unit = total / sum(shares[at] for at in open_ones)
+        short = [at for at in open_ones if needs[at] > unit * shares[at]]
+        if not short:
+            for at in open_ones:
+                widths[at] = int(unit * shares[at])
+            break
+        for at in short:
+            total -= needs[at]
+            open_ones.remove(at)
+    return widths
+
+
+def row(*parts: QWidget | tuple[QWidget, int], space: int = 6) -> FoldRow:
+    """Return parts beside each other, which fold into lines where that is too wide; one with a number is stretched."""
+    made = FoldRow(space)
     for each in parts:
-        made.addWidget(*each) if isinstance(each, tuple) else made.addWidget(each)
+        made.add(*each) if isinstance(each, tuple) else made.add(each)
     return made
 
 
@@ -139,10 +458,10 @@ def column(
 
 
 def form(owner: QWidget | None = None, *, top: int = 0) -> QFormLayout:
-    """Return a form whose fields are as wide as there is room."""
+    """Return a form: fields as wide as there is room, and below their labels where that is too little."""
     made = QFormLayout(owner) if owner is not None else QFormLayout()
     made.setContentsMargins(0, top, 0, 0)
-    made.setRowWrapPolicy(QFormLayout.RowWrapPolicy.DontWrapRows)
+    made.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
     made.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
     return made
 
@@ -219,6 +538,10 @@ class PanelScroll(QScrollArea):
         if panel is not None:
             self.setWidget(panel)
 
+    def minimumSizeHint(self) -> QSize:
+        """Return the room of one line: the rest is scrolled to."""
+        return QSize(super().minimumSizeHint().width(), HIGH)
+
 
 class HeightStack(QWidget):
     """A stack as high as its current page; a `QStackedWidget` is as high as its highest."""
@@ -242,6 +565,38 @@ def finish(root: QWidget) -> None:
     for each in root.findChildren(QFormLayout):
         if each.rowWrapPolicy() is not QFormLayout.RowWrapPolicy.WrapAllRows:
             _line_up(each)
+    _order_keys(root)
+
+
+def _order_keys(root: QWidget) -> None:
+    """Let the tabulator key go through the layouts as they are read, not as their parts happened to be made."""
+    stops = [each for each in _as_laid_out(root) if each.focusPolicy() & Qt.FocusPolicy.TabFocus]
+    for one, other in pairwise(stops):
+        QWidget.setTabOrder(one, other)
+
+
+def _as_laid_out(widget: QWidget) -> Iterator[QWidget]:
+    yield widget
+    if isinstance(widget, QScrollArea):
+        below = [widget.widget()]
+    elif isinstance(widget, QTabWidget):
+        below = [widget.tabBar(), *(widget.widget(index) for index in range(widget.count()))]
+    else:
+        below = _parts(widget.layout())
+    for each in below:
+        if each is not None:
+            yield from _as_laid_out(each)
+
+
+def _parts(layout: QLayout | None) -> list[QWidget]:
+    found: list[QWidget] = []
+    for index in range(0 if layout is None else layout.count()):
+        item = layout.itemAt(index)  # type: ignore[union-attr]
+        if item is not None and item.widget() is not None:
+            found.append(item.widget())
+        elif item is not None:
+            found += _parts(item.layout())
+    return found
 
 
 def _line_up(layout: QFormLayout) -> None:
@@ -254,6 +609,41 @@ def _line_up(layout: QFormLayout) -> None:
         words = None if label is None else label.widget()
         if isinstance(words, QLabel) and field is not None:
             words.setMinimumHeight(field.sizeHint().height())
+
+
+class StretchedColumn(QObject):
+    """
+    Lets one column of a table take the room that is left; where there is none, all are whole and the table scrolls.
+
+    Parameters
+    ----------
+    table : QTableView
+    column : int
+    """
+
+    def __init__(self, table: QTableView, column: int) -> None:
+        super().__init__(table)
+        self._table, self._column = table, column
+        header = table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
+        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
+        header.sectionResized.connect(lambda number, _before, _now: self._fit() if number != column else None)
+        table.viewport().installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Fit it with the table."""
+        if event.type() == QEvent.Type.Resize:
+            self._fit()
+        return super().eventFilter(watched, event)
+
+    def _fit(self) -> None:
+        header, mode = self._table.horizontalHeader(), QHeaderView.ResizeMode
+        others = sum(header.sectionSize(each) for each in range(header.count()) if each != self._column)
+        need = max(header.sectionSizeHint(self._column), self._table.sizeHintForColumn(self._column))
+        wanted = mode.Stretch if others + need <= self._table.viewport().width() else mode.ResizeToContents
+        if header.sectionResizeMode(self._column) != wanted:
+            header.setSectionResizeMode(self._column, wanted)
 
 
 class _Guard(QObject):

@@ -99,7 +99,7 @@ class DeviceChannels(QWidget):
         self.setAccessibleName(self.tr("Noise and margin of each channel"))
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
+        grid.setHorizontalSpacing(4)
         heads = (
             (self.tr("channel"), ""),
             (self.tr("noise"), self.tr("Standard deviation of one reading while nothing moves, N or N·m")),

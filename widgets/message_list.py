@@ -5,9 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 from datetime import datetime
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QGuiApplication, QKeySequence, QPainter, QPaintEvent, QShortcut
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import (
+    QColor,
+    QGuiApplication,
+    QKeySequence,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QShortcut,
+)
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
@@ -15,6 +24,7 @@ from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
     QPlainTextEdit,
+    QSizePolicy,
     QSplitter,
     QToolButton,
     QVBoxLayout,
@@ -24,6 +34,9 @@ from PySide6.QtWidgets import (
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _MOST = 500
 _NEWEST = 6  # a device that comes and goes tells a few things in turn
@@ -63,6 +76,64 @@ class _List(QListWidget):
             painter.end()
 
 
+class NewestMessage(QToolButton):
+    """
+    The newest message that matters, in one line that never grows; a press shows the list.
+
+    Parameters
+    ----------
+    show_list : callable
+    """
+
+    def __init__(self, show_list: Callable[[], None]) -> None:
+        super().__init__()
+        self._words = self._weight = ""
+        self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(self.tr("Newest message"))
+        self.setStyleSheet("padding: 0px 4px; min-height: 20px;")  # the status bar is as low as it is
+        self.clicked.connect(lambda _=False: self.forget(show_list))
+        kept = self.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)
+        self.setSizePolicy(kept)
+        self.hide()
+
+    def show_message(self, weight: str, text: str) -> None:
+        """Show a message instead of the one before."""
+        self._words, self._weight = said(text), weight
+        self.setToolTip(self._words)
+        self.setAccessibleDescription(self._words)
+        self.setIcon(icon(*_ICONS[weight]))
+        self.show()
+        self._elide()
+
+    def forget(self, then: Callable[[], None] | None = None) -> None:
+        """Show none any more: it was read."""
+        self.hide()
+        if then is not None:
+            then()
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the room for its icon."""
+        return QSize(40, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Show what fits."""
+        super().resizeEvent(event)
+        self._elide()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Take the colours of another theme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and self._weight:
+            self.setIcon(icon(*_ICONS[self._weight]))
+
+    def _elide(self) -> None:
+        room = self.width() - self.iconSize().width() - 20
+        self.setText(self.fontMetrics().elidedText(self._words, Qt.TextElideMode.ElideRight, room))
+
+
 class MessageList(QWidget):
     """Messages of the weights "info", "good", "warning" and "error"; the oldest of more than 500 go."""
 
@@ -71,6 +142,7 @@ class MessageList(QWidget):
         self._numbers: Counter[str] = Counter()
         self._list = _List(self.tr("All is well: nothing to report."))
         self._list.setWordWrap(True)
+        self.setFocusProxy(self._list)
         self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._list.setResizeMode(QListWidget.ResizeMode.Adjust)
         self._list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)

@@ -6,9 +6,9 @@ import time
 from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
 
-from contactbench.widgets.controls import show_value
+from contactbench.widgets.controls import ElidedLabel, show_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -48,9 +48,9 @@ class ProgressStrip(QWidget):
         super().__init__(parent)
         self._running = running
         self._shown: ShownWork | None = None
-        self._title = QLabel()
+        self._title = ElidedLabel()
         self._bar = QProgressBar()
-        self._bar.setFixedWidth(140)
+        self._bar.setFixedWidth(120)
         self._bar.setAccessibleName(self.tr("How far the work is"))
         self._stop = QPushButton(self.tr("Cancel"))
         self._stop.setToolTip(self.tr("Stop this work; nothing that is done is lost"))

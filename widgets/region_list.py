@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QColorDialog,
-    QHBoxLayout,
     QHeaderView,
     QMenu,
     QToolButton,
@@ -28,7 +27,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.mesh.regions import PALETTE
-from contactbench.widgets.controls import add_key, column, push_button, row
+from contactbench.widgets.controls import FoldRow, add_key, column, push_button, row
 from contactbench.widgets.icons import icon
 from contactbench.widgets.theme import colours, is_dark
 
@@ -313,7 +312,7 @@ class RegionListWidget(QWidget):
         view.selectionModel().currentRowChanged.connect(self._chosen)
         return view
 
-    def _make_buttons(self) -> QHBoxLayout:
+    def _make_buttons(self) -> FoldRow:
         self.add_button = push_button(
             self.tr("Add"), self.add_asked.emit, "add", tip=self.tr("Add a region with the last priority")
         )

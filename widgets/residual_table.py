@@ -17,7 +17,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHeaderView,
     QMenu,
     QSizePolicy,
     QStyledItemDelegate,
@@ -27,6 +26,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.widgets.controls import StretchedColumn
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
@@ -166,7 +166,6 @@ class ResidualTable(QTableView):
         self.setItemDelegateForColumn(SIGMAS, _Bar(self))
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)  # it grows with its rows
         self.setAccessibleName(self.tr("Poses"))
         self.setShowGrid(False)
@@ -177,9 +176,7 @@ class ResidualTable(QTableView):
         header = self.horizontalHeader()
         header.setHighlightSections(False)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        for column in (NAME, SIGMAS, STATE):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        header.setSectionResizeMode(STANDS, QHeaderView.ResizeMode.Stretch)
+        StretchedColumn(self, STANDS)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.customContextMenuRequested.connect(self._open_menu)
 
@@ -198,7 +195,7 @@ class ResidualTable(QTableView):
     def sizeHint(self) -> QSize:
         """Return the height of all rows."""
         rows = max(self._poses.rowCount(), 1) * 28
-        return QSize(330, rows + self.horizontalHeader().sizeHint().height() + 4)
+        return QSize(330, rows + self.horizontalHeader().sizeHint().height() + 18)
 
     def selected(self) -> tuple[PoseRow, ...]:
         """Return the rows that are selected and can be changed."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent
 
 _HEIGHT, _WIDTH, _ICON, _MARGIN = 58, 148, 18, 10
+_LOWEST, _TWO_LINES = 26, 46  # px: the least of a row, and the least that takes its word, too
 
 
 class StepList(QWidget):
@@ -38,14 +39,14 @@ class StepList(QWidget):
         self.setAccessibleName(self.tr("Steps"))
         group = QButtonGroup(self)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 6, 6, 6)
-        layout.setSpacing(4)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.setSpacing(3)
         self._rows: dict[Step, _Row] = {}
         for number, step in enumerate(Step, 1):
             row = _Row(number, self.name_of(step))
             row.clicked.connect(lambda _=False, step=step: self.chosen.emit(step))
             group.addButton(row)
-            layout.addWidget(row)
+            layout.addWidget(row, 1)
             self._rows[step] = row
         layout.addStretch(1)
         self.show_statuses({})
@@ -93,18 +94,18 @@ class _Row(QAbstractButton):
         self.setCheckable(True)
         self.setText(name)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self._number, self._word, self._state = number, "", StepState.LOCKED
 
     def sizeHint(self) -> QSize:
         bold = QFont(self.font())
         bold.setBold(True)
-        wide = QFontMetrics(bold).horizontalAdvance(self._title()) + 4 * _MARGIN
+        wide = QFontMetrics(bold).horizontalAdvance(self._title()) + 4 * _MARGIN + _ICON
         return QSize(max(_WIDTH - 12, wide), _HEIGHT)
 
     def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()  # asked again when the font is known: no name is cut
+        return QSize(self.sizeHint().width(), _LOWEST)  # asked again when the font is known: no name is cut
 
     def _title(self) -> str:
         return f"{self._number}   {self.text()}"
@@ -112,7 +113,7 @@ class _Row(QAbstractButton):
     def show_status(self, status: StepStatus, word: str) -> None:
         self._state, self._word = status.state, word
         sentence = said(status.sentence)
-        self.setToolTip(sentence)
+        self.setToolTip(f"{word}: {sentence}" if sentence else word)
         self.setAccessibleName(f"{self._number} {self.text()}: {word}")
         self.setAccessibleDescription(sentence)
         self.update()
@@ -127,15 +128,20 @@ class _Row(QAbstractButton):
         painter.setFont(bold)
         locked = self._state is StepState.LOCKED
         painter.setPen(QColor(c.muted if locked else c.text))
-        upper = QRect(left, 6, width, (self.height() - 12) // 2)
+        two = self.height() >= _TWO_LINES
+        upper = (
+            QRect(left, 6, width, (self.height() - 12) // 2) if two else self.rect().adjusted(left, 0, 0, 0)
+        )
         painter.drawText(upper, Qt.AlignmentFlag.AlignVCenter, self._title())
-        lower = upper.translated(0, upper.height())
+        lower = upper.translated(0, upper.height()) if two else upper
+        across = lower.left() if two else self.width() - _MARGIN - _ICON
         painter.setFont(self.font())
         painter.setPen(QColor(getattr(c, state_colour(self._state))))
         state_icon(self._state).paint(
-            painter, QRect(lower.left(), lower.center().y() - _ICON // 2, _ICON, _ICON)
+            painter, QRect(across, lower.center().y() - _ICON // 2 + 1, _ICON, _ICON)
         )
-        painter.drawText(lower.adjusted(_ICON + 6, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter, self._word)
+        if two:
+            painter.drawText(lower.adjusted(_ICON + 6, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter, self._word)
         painter.end()
 
     def _ground(self, painter: QPainter) -> None:

@@ -216,7 +216,7 @@ QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; }}
 QCheckBox::indicator, QRadioButton::indicator {{ width: 18px; height: 18px; }}
 QTabWidget::pane {{ border: none; border-top: 1px solid {line}; }}
 QTabBar {{ qproperty-drawBase: 0; }}
-QTabBar::tab {{ min-height: 26px; padding: 4px 10px; border: none; border-bottom: 3px solid transparent;
+QTabBar::tab {{ min-height: 26px; padding: 4px 5px; border: none; border-bottom: 3px solid transparent;
   background: transparent; color: {muted}; }}
 QTabBar::tab:selected {{ color: {text}; border-bottom-color: {accent}; }}
 QTabBar::tab:hover, QTabBar::tab:focus {{ color: {text}; background: {panel}; }}

@@ -24,6 +24,7 @@ from contactbench.widgets.controls import (
     choice,
     column,
     finish,
+    form,
     plain_label,
     push_button,
     row,
@@ -159,7 +160,7 @@ class HeatmapControls(QWidget):
             ),
         ]
         self._saving_tips = [button.toolTip() for button in self._saving]
-        rows = QFormLayout()
+        rows = form()
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.setSpacing(4)
         rows.addRow(self.tr("Quantity"), self.quantity)

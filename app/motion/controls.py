@@ -2,33 +2,62 @@
 
 from __future__ import annotations
 
+import math
+from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QHBoxLayout, QVBoxLayout, QWidget
 
+from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
     choice,
     column,
+    form,
     named,
     plain_label,
     push_button,
     row,
     sentence_label,
-    set_role,
 )
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.control.frames import LoopFrame
     from contactbench.pipeline.workbench.motion import MotionChange, MotionChoice
 
-_WIDTH_PX, _BUTTON_PX, _LINES_PX = 348, 40, 40
+_WIDTH_PX = (320, 420)
+_DOES_PX = 40  # two lines
+_REAL = 0.9  # of real time: what is less is seen
 _PERIODS_S = (20.0, 10.0, 5.0, 2.0)
 _SHOWN = 6  # changes
+
+
+class MotionPhase(Enum):
+    """How a closed loop stands: the one thing that decides what can be pressed, and what is said of it."""
+
+    EMPTY = auto()  # no bundle is chosen
+    OPENING = auto()  # a bundle is being made or read
+    READY = auto()
+    STARTING = auto()  # the virtual robot is being made
+    RUNNING = auto()
+    STOPPING = auto()  # it was asked to go back
+    ENDED = auto()
+    FAILED = auto()  # it ended without an outcome
+
+    @property
+    def going_on(self) -> bool:
+        """Whether a robot is there."""
+        return self in (MotionPhase.STARTING, MotionPhase.RUNNING, MotionPhase.STOPPING)
+
+    @property
+    def can_start(self) -> bool:
+        """Whether a robot can be made."""
+        return self in (MotionPhase.READY, MotionPhase.ENDED, MotionPhase.FAILED)
 
 
 class MotionControls(QWidget):
@@ -73,40 +102,41 @@ class MotionControls(QWidget):
         self.size_of = QDoubleSpinBox(decimals=0, minimum=0.0, maximum=20.0, value=10.0)
         tip = self.tr("Amplitude of the phantom's motion, to either side.")
         named(self.size_of, self.tr("How far"), tip=tip)
-        self.bundle, self.message = sentence_label(role="muted"), sentence_label()
-        self.message.setMinimumHeight(_LINES_PX)  # the panel must not jump
+        self.bar, self.bundle = ActionBar(), sentence_label(role="muted")
         self.state, self.does = plain_label("", "title"), sentence_label()
+        self.does.setMinimumHeight(_DOES_PX)  # the panel must not jump
         self.force, self.angle = plain_label("", "number"), plain_label("", "number")
         self.happened = sentence_label(role="muted")
         self.state.setAccessibleName(self.tr("What the controller does"))
         self.force.setAccessibleName(self.tr("Force"))
         self.angle.setAccessibleName(self.tr("Angle to the phantom"))
+        self.pace = plain_label("", "muted")
+        tip = self.tr(
+            "How fast its time goes, against the clock: 1.00 is real time. Measured over the last frames."
+        )
+        self.pace.setToolTip(tip)
         tip = self.tr("What would be exported of the open session now.")
         self.of_session = push_button(self.tr("This session"), None, "folder", tip=tip)
         tip = self.tr("A folder or zip file that was exported.")
         self.other = push_button(self.tr("Open bundle"), None, "folder", tip=tip)
-        for button in (self.of_session, self.other):
-            button.setStyleSheet("padding: 4px 6px;")
-        self.start = push_button(self.tr("Start"), None, "play", high=_BUTTON_PX, primary=True)
-        tip = self.tr("The probe goes back and stands still (Esc).")
-        self.stop = push_button(self.tr("Stop"), None, "stop", tip=tip, high=_BUTTON_PX)
+        self.start, self.stop = self.bar.primary, self.bar.second
         self._lay_out()
         self._connect()
-        self.show_state(None)
+        self.show_phase(MotionPhase.EMPTY)
 
     def _lay_out(self) -> None:
-        rows = QFormLayout()
+        rows = form()
         rows.setSpacing(4)
         for box in (self.robot, self.motion, self.size_of, self.period, self.variant):
             rows.addRow(box.accessibleName(), box)
         inside = QWidget()
         column(
             inside, plain_label(self.tr("Motion control"), "title"), _even(self.of_session, self.other),
-            self.bundle, rows, _even(self.start, self.stop), self.message, self._card(), self.happened,
-            margins=(12, 10, 12, 8),
+            self.bundle, rows, self._card(), self.happened, margins=(12, 10, 12, 8),
         ).addStretch(1)  # fmt: skip
-        column(self, PanelScroll(inside))
-        self.setFixedWidth(_WIDTH_PX)
+        column(self, PanelScroll(inside), self.bar, space=0).setStretch(0, 1)
+        self.setMinimumWidth(_WIDTH_PX[0])
+        self.setMaximumWidth(_WIDTH_PX[1])
 
     def _card(self) -> QFrame:
         card = QFrame()
@@ -118,13 +148,12 @@ class MotionControls(QWidget):
         layout.addLayout(_even(self.force, self.angle))
         captions = (self.tr("force"), self.tr("angle to the phantom"))
         layout.addLayout(_even(*(plain_label(each, "muted") for each in captions)))
+        layout.addWidget(self.pace)
         return card
 
     def _connect(self) -> None:
         self.of_session.clicked.connect(lambda: self.asked_bundle.emit(True))
         self.other.clicked.connect(lambda: self.asked_bundle.emit(False))
-        self.start.clicked.connect(self.asked_start)
-        self.stop.clicked.connect(self.asked_stop)
         self.motion.currentIndexChanged.connect(lambda _index: self._show_size())
         self._show_size()
 
@@ -148,36 +177,63 @@ class MotionControls(QWidget):
             variant=self.variant.currentData(),
         )
 
-    def set_running(self, running: bool, ready: bool) -> None:
-        """Say whether something runs; if not, whether something can."""
-        for each in (self.robot, self.motion, self.variant, self.of_session, self.other):
-            each.setEnabled(not running)
-        self._show_size()
-        self.start.setEnabled(ready and not running)
-        self.stop.setEnabled(running)
-        accent(self.start, not running, "play")
-        accent(self.stop, running, "stop")
-
     # ---- what is shown -----------------------------------------------------------------------------
+
+    @property
+    def said(self) -> str:
+        """What the message says."""
+        return self.bar.words
 
     def say(self, text: str, bad: bool = False) -> None:
         """Show a sentence."""
-        text = said(text)
-        if text == self.message.text():
-            return
-        set_role(self.message, "bad" if bad else "")
-        self.message.setText(text)
+        self.bar.say(text, bad)
 
-    def show_state(self, state: str | None) -> None:
-        """Show what the controller does; None: nothing."""
-        name, does = self._words().get(state or "", (self.tr("Not running"), ""))
+    def show_phase(
+        self, phase: MotionPhase, frame: LoopFrame | None = None, pace: float | None = None
+    ) -> None:
+        """Show how it stands; `frame`: the newest, of what runs or has ended."""
+        name, does = self._words().get(self._key(phase, frame), ("", ""))
         self.state.setText(name)
         self.does.setText(does)
+        live = frame is not None and phase in (MotionPhase.RUNNING, MotionPhase.STOPPING)
+        self._show_numbers(frame if live else None, pace if live else None)
+        for each in (self.robot, self.motion, self.variant, self.of_session, self.other):
+            each.setEnabled(not phase.going_on and phase is not MotionPhase.OPENING)
+        self._show_size()
+        self.bar.offer(
+            self.tr("Start"),
+            self.asked_start.emit,
+            enabled=phase.can_start,
+            accented=not phase.going_on,
+            picture="play",
+        )
+        can_stop = phase in (MotionPhase.STARTING, MotionPhase.RUNNING)
+        tip = self.tr("The probe goes back and stands still (Esc).")
+        self.bar.offer_second(self.tr("Stop"), self.asked_stop.emit, enabled=can_stop, tip=tip)
+        accent(self.stop, phase.going_on, "stop")
 
-    def show_numbers(self, force: float | None, angles: tuple[float, float] | None) -> None:
-        """Show the force, N, and the angles, degrees, the larger one."""
-        self.force.setText("–" if force is None else self.tr("{:z.1f} N").format(force))
-        self.angle.setText("–" if angles is None else self.tr("{:.1f}°").format(max(map(abs, angles))))
+    def _key(self, phase: MotionPhase, frame: LoopFrame | None) -> str:
+        if phase is MotionPhase.RUNNING and frame is not None:
+            return frame.state
+        return phase.name
+
+    def _show_numbers(self, frame: LoopFrame | None, pace: float | None) -> None:
+        if frame is None:
+            self.force.setText("–")
+            self.angle.setText("–")
+        else:
+            largest = max(abs(math.degrees(each)) for each in frame.angles_rad)
+            self.force.setText(self.tr("{:z.1f} N").format(frame.force_N))
+            self.angle.setText(self.tr("{:.1f}°").format(largest))
+        if pace is None:
+            self.pace.setText(self.tr("Pace: –"))
+            return
+        words = (
+            self.tr("Pace: {pace:.2f} of real time")
+            if pace > _REAL
+            else self.tr("Pace: {pace:.2f} of real time: this computer is too slow")
+        )
+        self.pace.setText(words.format(pace=pace))
 
     def show_changes(self, changes: Sequence[MotionChange]) -> None:
         """Show the newest changes of state, newest first."""
@@ -197,7 +253,14 @@ class MotionControls(QWidget):
             "track": (self.tr("Tracking"), self.tr("It keeps its force and stands upright.")),
             "hold": (self.tr("Holding"), self.tr("Nothing moves until it is sure again.")),
             "retract": (self.tr("Going back"), self.tr("The probe leaves the phantom.")),
-            "safe": (self.tr("Standing still"), self.tr("It has ended; nothing moves any more.")),
+            "safe": (self.tr("Standing still"), self.tr("Nothing moves any more; it is about to end.")),
+            "EMPTY": (self.tr("No bundle"), self.tr("Choose the bundle that is to be run.")),
+            "OPENING": (self.tr("Opening the bundle"), ""),
+            "READY": (self.tr("Ready"), self.tr("Nothing moves until you press Start.")),
+            "STARTING": (self.tr("Starting"), self.tr("The virtual robot is being made.")),
+            "STOPPING": (self.tr("Stopping"), self.tr("The probe leaves the phantom, then stands still.")),
+            "ENDED": (self.tr("Ended"), self.tr("The probe stands still; nothing moves any more.")),
+            "FAILED": (self.tr("Failed"), self.tr("Nothing moves any more; the message says why.")),
         }
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.motion import Course
 
 _SPAN_S = 20.0
-_CHARTS_PX = 170
+_CHARTS_PX = 90  # at the least
 _MIDDLE, _NEARER = 0.45, 0.75  # of the probe's size, of the whole view
 
 
@@ -37,13 +37,13 @@ class Picture(QWidget):
         charts.setSpacing(4)
         charts.setContentsMargins(6, 4, 6, 4)
         for pane in (self.force, self.angle):
-            pane.setFixedHeight(_CHARTS_PX)
+            pane.setMinimumHeight(_CHARTS_PX)
             charts.addWidget(pane, 1)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        column.addWidget(self.scene, 1)
-        column.addLayout(charts)
+        column.addWidget(self.scene, 3)
+        column.addLayout(charts, 1)  # of a large screen, they use their share
 
     @property
     def span_s(self) -> float:

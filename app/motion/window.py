@@ -7,15 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
+from contactbench.app.help_book import HelpBook
 from contactbench.app.errors import in_words
 from contactbench.app.jobs import Jobs
-from contactbench.app.motion.controls import MotionControls
+from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.app.motion.picture import Picture
+from contactbench.widgets.controls import add_key
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 _TICK_MS = 40
 _CHARTS_EVERY = 2  # ticks
 _PATIENCE_S = 10.0
-_REAL = 0.9  # of real time: less is seen
 
 
 class MotionWindow(QWidget):
@@ -59,7 +58,7 @@ class MotionWindow(QWidget):
         self._bundle: Path | None = None
         self._unturned = False
         self._made = tempfile.TemporaryDirectory(prefix="contactbench-", ignore_cleanup_errors=True)
-        self._busy = self._closed = False
+        self._busy = self._closed = self._stopping = False
         self._ticks = self._told = 0
         self._tick = QTimer(self, interval=_TICK_MS)
         row = QHBoxLayout(self)
@@ -68,8 +67,6 @@ class MotionWindow(QWidget):
         row.addWidget(self.picture, 1)
         row.addWidget(self.controls)
         self._connect()
-        self.controls.show_numbers(None, None)
-        self._show_ready()
         self.controls.say(self.tr("Choose a bundle; then press Start. All is simulated: nothing real moves."))
 
     def _connect(self) -> None:
@@ -79,8 +76,34 @@ class MotionWindow(QWidget):
         controls.asked_stop.connect(self.stop)
         self._tick.timeout.connect(self._show)
         self.picture.scene.dropped.connect(self.use_bundle)
-        shortcut = QShortcut(QKeySequence("Esc"), self)
-        shortcut.activated.connect(self.stop)
+        add_key(self, self.tr("Stop"), "Esc", self.stop)
+        add_key(self, self.tr("This page"), "F1", self.show_help)
+
+    @property
+    def phase(self) -> MotionPhase:
+        """How it stands."""
+        run = self.run
+        if run is not None and run.running:
+            if self._stopping:
+                return MotionPhase.STOPPING
+            return MotionPhase.STARTING if run.newest is None else MotionPhase.RUNNING
+        if self._busy:
+            return MotionPhase.OPENING
+        if self._bundle is None:
+            return MotionPhase.EMPTY
+        if run is None:
+            return MotionPhase.READY
+        return MotionPhase.FAILED if run.outcome is None else MotionPhase.ENDED
+
+    def show_help(self) -> None:
+        """Show the help on this window."""
+        HelpBook.beside(self, "motion")
+
+    def _show_phase(self) -> None:
+        run = self.run
+        self.controls.show_phase(
+            self.phase, None if run is None else run.newest, None if run is None else run.pace
+        )
 
     # ---- which bundle ------------------------------------------------------------------------------
 
@@ -98,7 +121,7 @@ class MotionWindow(QWidget):
             built(session, unverified=True).write(place)
             return place
 
-        self._begin_work(self.tr("Making the session's bundle…"))
+        self._begin_work()
         future = bench.desk.do(write)
         self.jobs.follow(
             self.tr("Making a bundle"),
@@ -110,7 +133,7 @@ class MotionWindow(QWidget):
     def use_bundle(self, bundle: Path) -> None:
         """Take an exported bundle."""
         if self.run is None or not self.run.running:
-            self._begin_work(self.tr("Opening the bundle…"))
+            self._begin_work()
             self._load(bundle, bundle.name)
 
     def _load(self, bundle: Path, name: str) -> None:
@@ -130,11 +153,11 @@ class MotionWindow(QWidget):
         if self._closed:
             return
         self._bundle, self._busy = bundle, False
+        self._forget_run()
         self._unturned = config.model.frames.quaternion_ES is None
         self.picture.show_probe(config.probe)
         self.controls.bundle.setText(self._words_on(config, name))
-        self.controls.say("")
-        self._show_ready()
+        self._show_phase()
 
     def _words_on(self, config: RuntimeConfig, name: str) -> str:
         model = config.model
@@ -167,25 +190,30 @@ class MotionWindow(QWidget):
 
         if self._bundle is None or self._busy or (self.run is not None and self.run.running):
             return
-        if self.run is not None:
-            self.run.close()
-            self.run = None
+        self._forget_run()
         try:
             self.run = MotionRun(self._bundle, replace(self.controls.choice(), unturned=self._unturned))
         except ValueError as error:
             self.controls.say(in_words(error)[0], bad=True)
             return
         self._ticks = self._told = 0
-        self.controls.show_changes(())
-        self.controls.say(self.tr("The virtual robot is being made…"))
-        self.controls.set_running(True, ready=True)
+        self.controls.say("")
+        self._show_phase()
         self._tick.start()
+
+    def _forget_run(self) -> None:
+        """Forget what has run: nothing that is shown may be of it any more."""
+        if self.run is not None:
+            self.run.close()
+        self.run, self._stopping = None, False
+        self.controls.show_changes(())
 
     def stop(self) -> None:
         """Have the probe go back."""
         if self.run is not None and self.run.running:
-            self.controls.stop.setEnabled(False)
+            self._stopping = True
             self.run.stop()
+            self._show_phase()
 
     def _show(self) -> None:
         run = self.run
@@ -194,12 +222,10 @@ class MotionWindow(QWidget):
         over = not run.running  # first: what comes after it is seen below
         beginning, frame = run.beginning, run.newest
         if beginning is not None and frame is not None:
-            self.controls.say(self._words_on_pace(run.pace))
             self._ticks += 1
             self.picture.show_frame(beginning, frame)
-            self.controls.show_state(frame.state)
-            within, out = np.degrees(frame.angles_rad)
-            self.controls.show_numbers(frame.force_N, (float(within), float(out)))
+            if not over:
+                self._show_phase()
             changes = run.changes
             if len(changes) != self._told:
                 self._told = len(changes)
@@ -209,20 +235,11 @@ class MotionWindow(QWidget):
         if over:
             self._over(run)
 
-    def _words_on_pace(self, pace: float | None) -> str:
-        if pace is None or pace > _REAL:
-            return ""
-        words = self.tr(
-            "This computer is too slow for real time: what is seen goes {pace:.1f} times as fast."
-        )
-        return words.format(pace=pace)
-
     def _over(self, run: MotionRun) -> None:
         self._tick.stop()
-        self._show_ready()
+        self._show_phase()
         outcome = run.outcome
         if outcome is None:
-            self.controls.show_state(None)
             self.controls.say(run.failure, bad=True)
         elif outcome["faults"]:
             self.controls.say(" ".join(outcome["faults"]), bad=True)
@@ -239,19 +256,16 @@ class MotionWindow(QWidget):
 
     # ---- work and end ------------------------------------------------------------------------------
 
-    def _begin_work(self, words: str) -> None:
+    def _begin_work(self) -> None:
         self._busy = True
-        self.controls.say(words)
-        self._show_ready()
+        self.controls.say("")
+        self._show_phase()
 
     def _failed(self, error: BaseException) -> None:
         if not self._closed:
             self._busy = False
             self.controls.say(in_words(error)[0], bad=True)
-            self._show_ready()
-
-    def _show_ready(self) -> None:
-        self.controls.set_running(False, ready=self._bundle is not None and not self._busy)
+            self._show_phase()
 
     def close_window(self) -> None:
         """End what runs and give the scene back; it is of no use afterwards."""

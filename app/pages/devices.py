@@ -6,7 +6,7 @@ import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtWidgets import QFormLayout, QGroupBox, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGroupBox, QLineEdit, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
@@ -16,7 +16,7 @@ from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.controls import PanelScroll, column, plain_label, push_button, row, sentence_label
+from contactbench.widgets.controls import PanelScroll, column, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.phrases import said
 
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
-_HIGH = 40
 
 
 class DevicesPage(Page):
@@ -48,7 +47,7 @@ class DevicesPage(Page):
     # ---- what is there -----------------------------------------------------------------------------
 
     def _build(self) -> None:
-        self._status, self._note = sentence_label(), sentence_label(role="muted")
+        self._status = sentence_label()
         self.sensor, self.poses = SensorSource(), PoseSource()
         self.serial = QLineEdit()
         self.serial.setPlaceholderText(self.tr("on the sensor's label"))
@@ -61,24 +60,22 @@ class DevicesPage(Page):
                     "How the sensor is turned on the flange, about the flange's fixed axes x, then y, then z"
                 )
             )
-        self.try_button = push_button(self.tr("Test connection"), self.test, high=_HIGH)
-        self.use_button = push_button(self.tr("Use these devices"), self.use, high=_HIGH, primary=True)
+        self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
         mounting = QGroupBox(self.tr("Mounting"))
-        rows = QFormLayout(mounting)
-        rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
-        rows.addRow(self.tr("Sensor on the flange"), row(*self.mount))
-        rows.addRow(self.tr("Serial number"), self.serial)
+        label = plain_label(self.tr("Serial number"))
+        label.setBuddy(self.serial)
+        column(
+            mounting, plain_label(self.tr("Sensor on the flange")), row(*((each, 1) for each in self.mount)),
+            label, self.serial, margins=(9, 9, 9, 9),
+        )  # fmt: skip
         measured, inside = QGroupBox(self.tr("Measured")), QWidget()
-        QVBoxLayout(measured).addWidget(self.channels)
+        column(measured, self.channels, margins=(2, 2, 2, 2))
         column(
             inside, plain_label(self.tr("Devices"), "title"), self._status, self.trial, self.sensor, self.poses,
-            mounting, measured, margins=(0, 0, 4, 0), space=6,
+            mounting, measured, margins=(6, 8, 6, 8), space=6,
         ).addStretch(1)  # fmt: skip
-        column(
-            self, PanelScroll(inside), self._note, row(self.try_button, self.use_button),
-            margins=(8, 8, 8, 8), space=6,
-        ).setStretch(0, 1)  # fmt: skip
+        self.fill(PanelScroll(inside))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
 
@@ -115,8 +112,15 @@ class DevicesPage(Page):
         recording = {Step.GRAVITY, Step.VERIFY} & self.bench.running
         problem = self._problem()
         free = not (recording or problem or self._opening)
-        self.try_button.setEnabled(free)
-        self.use_button.setEnabled(free)
+        chosen = self.devices()
+        used = chosen == Devices.of(self.bench.desk.state) and self.bench.connected
+        test = self.tr("Test connection")
+        if used and not self._opening:
+            self.bar.offer(self.tr("Next: Gravity"), lambda: self.bench.go_to.emit(Step.GRAVITY))
+            self.bar.offer_second(test, self.test, enabled=free)
+        else:
+            self.bar.offer(self.tr("Use these devices"), self.use, enabled=free)
+            self.bar.offer_second(test, self.test, enabled=free)
         note = said(problem)
         if note in (self.sensor.problem, self.poses.problem):
             note = ""
@@ -124,8 +128,7 @@ class DevicesPage(Page):
             note = self.tr("A recording is being made with the devices: finish it before you change them.")
         elif self._opening:
             note = self.tr("Opening the devices…")
-        self._note.setText(note)
-        self._note.setVisible(bool(note))
+        self.bar.say(note)
 
     # ---- trying and using --------------------------------------------------------------------------
 

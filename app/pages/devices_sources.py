@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QGroupBox,
     QLineEdit,
     QPushButton,
-    QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
@@ -87,6 +86,7 @@ class DeviceChoice(QGroupBox):
         self._box = QVBoxLayout(self)
         self._box.addWidget(self.kind)
         self._box.addWidget(self._problem)
+        self.kind.currentTextChanged.connect(self.kind.setToolTip)
         self.kind.currentIndexChanged.connect(self._show_fields)
 
     def _add(self, widget: QWidget) -> QWidget:
@@ -321,6 +321,5 @@ def angle_field(axis: str) -> QDoubleSpinBox:
     """Return a field for an angle about an axis, degrees."""
     field = QDoubleSpinBox(decimals=1, minimum=-360.0, maximum=360.0, singleStep=90.0, suffix="°")
     field.setPrefix(f"{axis} ")
-    field.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # three beside each other
     field.setMinimumHeight(HIGH)
     return field

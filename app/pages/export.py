@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
-    QCheckBox,
     QFileDialog,
     QGroupBox,
     QLabel,
@@ -28,8 +27,8 @@ from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, e
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.controls import (
-    HIGH,
     PanelScroll,
+    check_box,
     column,
     plain_label,
     push_button,
@@ -75,17 +74,10 @@ class ExportPage(Page):
         self.sign, self.standing = Sign(_ICON), self._label()
         self.checklist = Checklist()
         self.checklist.wanted.connect(self.bench.go_to)
-        self.unverified = QCheckBox(self.tr("Write it although it is not verified"))
-        self.unverified.setToolTip(
-            self.tr("For trials only: the bundle says that nobody has shown that it is right")
-        )
-        self.unverified.setMinimumHeight(HIGH)
+        tip = self.tr("For trials only: the bundle says that nobody has shown that it is right")
+        self.unverified = check_box(self.tr("Write it although it is not verified"), tip=tip)
         self.unverified.toggled.connect(lambda _: self._allow())
-        tip = self.tr("One zip file, which a robot's runtime loads as it is")
-        self.zip = push_button(self.tr("Export a file…"), self._choose_file, "export", tip=tip, primary=True)
-        self.folder = push_button(self.tr("Export a folder…"), self._choose_folder, "folder")
-        self.result = self._label()
-        self.result.hide()
+        self.zip, self.folder = self.bar.primary, self.bar.second
         self.report = push_button(self.tr("Open the report"), lambda: self._open(self._report_file()), "info")
         self.show_folder = push_button(
             self.tr("Show where it is"), lambda: self._open(self._place()), "folder"
@@ -97,16 +89,16 @@ class ExportPage(Page):
         self.settings.changed.connect(self._set)
         self.settings.failed.connect(partial(self.bench.tell, Weight.WARNING))
         standing = row(space=8)
-        standing.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        standing.addWidget(self.standing, 1)
+        standing.add(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        standing.add(self.standing, 1)
         inside = QWidget()
         column(
             inside, plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
-            row((self.zip, 1), (self.folder, 1)), self.result, row((self.report, 1), (self.show_folder, 1)),
+            row((self.report, 1), (self.show_folder, 1)),
             _boxed(self.tr("What will be in it"), self.figures, self.files, self.changes),
             _boxed(self.tr("Settings"), self.settings), margins=(10, 8, 10, 8),
         ).addStretch(1)  # fmt: skip
-        column(self, PanelScroll(inside))
+        self.fill(PanelScroll(inside))
 
     def _label(self, role: str = "") -> QLabel:
         label = sentence_label(role=role)
@@ -235,8 +227,9 @@ class ExportPage(Page):
         doubtful = preview is not None and bool(preview.reasons)
         self.unverified.setVisible(doubtful)
         ready = preview is not None and not self._busy and (not doubtful or self.unverified.isChecked())
-        self.zip.setEnabled(ready)
-        self.folder.setEnabled(ready)
+        tip = self.tr("One zip file, which a robot's runtime loads as it is")
+        self.bar.offer(self.tr("Export a file…"), self._choose_file, enabled=ready, tip=tip, picture="export")
+        self.bar.offer_second(self.tr("Export a folder…"), self._choose_folder, enabled=ready)
         self.report.setVisible(self._report_file() is not None)
         place = self._place()
         self.show_folder.setVisible(place is not None)
@@ -288,15 +281,13 @@ class ExportPage(Page):
             return
         self._busy, unverified = True, self.unverified.isVisible() and self.unverified.isChecked()
         self._allow()
-        self.result.hide()
+        self.bar.say("")
 
         def done(found: ExportedBundle) -> None:
             self._busy, self.exported = False, found
             if self._closed:
                 return
-            self.result.setText(said(found.sentence))
-            self.result.setProperty("role", "" if found.verified else "bad")
-            self.result.show()
+            self.bar.say(found.sentence, bad=not found.verified)
             self.bench.tell(Weight.GOOD if found.verified else Weight.WARNING, found.sentence)
             self._allow()
 
@@ -313,8 +304,7 @@ class ExportPage(Page):
     def _said(self, error: BaseException) -> None:
         if not self._closed or not isinstance(error, InputError):
             self.bench.tell_error(error)
-            self.result.setText(said(str(error)))
-            self.result.show()
+            self.bar.say(str(error), bad=True)
 
     def _place(self) -> Path | None:
         place = self._setting("export.place")

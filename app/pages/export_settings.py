@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFileDialog, QLineEdit, QToolButton, QWidget
 
-from contactbench.widgets.controls import HIGH, form, named, push_button, row, show_quietly
+from contactbench.widgets.controls import check_box, form, named, push_button, row, show_quietly
 from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class ExportSettingsPanel(QWidget):
         self.torque = self._number(
             100.0, " N·m", self.tr("What a controller must never exceed, N·m"), "", "max_torque"
         )
-        self.gains, self.no_gains = push_button("", self._ask_gains, "folder", least=1), QToolButton()
+        self.gains, self.no_gains = push_button("", self._ask_gains, "folder"), QToolButton()
         self.gains.setAccessibleName(self.tr("Gains of the controller"))
         self.gains.setToolTip(
             self.tr("How a robot presses and follows: gains.json of contactbench bench control tune")
@@ -107,7 +107,7 @@ class ExportSettingsPanel(QWidget):
         self.changed.emit({name: value}, text)
 
     def _text(self, name: str, otherwise: str, option: str) -> QLineEdit:
-        field = named(QLineEdit(maxLength=200), name)
+        field = named(QLineEdit(maxLength=200), name, tip=self._tip(name, otherwise))
         field.setPlaceholderText(otherwise)
         field.editingFinished.connect(lambda: self._say(option, field.text().strip() or None, name))
         return field
@@ -118,13 +118,13 @@ class ExportSettingsPanel(QWidget):
         field.valueChanged.connect(
             lambda value: self._say(option, None if otherwise and value == 0.0 else value, name)
         )
-        return named(field, name, least=90)
+        return named(field, name)
+
+    def _tip(self, name: str, otherwise: str) -> str:
+        return self.tr("{name}; left empty: {otherwise}").format(name=name, otherwise=otherwise)
 
     def _switch(self, words: str, tip: str) -> QCheckBox:
-        box = QCheckBox(words)
-        box.setToolTip(tip)
-        box.setMinimumHeight(HIGH)
-        return box
+        return check_box(words, tip=tip)
 
     def show_options(self, options: ExportOptions, known_serial: str = "") -> None:
         """Show what holds."""

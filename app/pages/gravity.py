@@ -20,7 +20,7 @@ from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.widgets.controls import accent, column, push_button, row, show_quietly
+from contactbench.widgets.controls import accent, show_quietly
 from contactbench.widgets.phrases import said
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
@@ -50,12 +50,10 @@ class GravityPage(Page):
         self.run = GravityRun(bench, self)
         self.panel, self.weight = GravityPanel(), WeightPanel(bench)
         self.panel.add_check(self.weight)
-        self.primary, self.second = push_button("", high=38), push_button("", high=38)
+        self.primary, self.second = self.bar.primary, self.bar.second
         self._shown, self._heard = -1, -1
         self._locked = self._entered = False
-        buttons = row(self.second, (self.primary, 1))
-        buttons.setContentsMargins(10, 4, 10, 10)
-        column(self, self.panel, buttons, space=6).setStretch(0, 1)
+        self.fill(self.panel)
         self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         self.space.setContext(Qt.ShortcutContext.WindowShortcut)
         self.space.setWhatsThis(self.tr("Take this pose (gravity)"))
@@ -67,8 +65,6 @@ class GravityPage(Page):
         run.changed.connect(self._show)
         self.weight.changed.connect(self._show_buttons)
         self.space.activated.connect(self._take)
-        self.primary.clicked.connect(lambda: self._press(0))
-        self.second.clicked.connect(lambda: self._press(1))
         panel.automatic.toggled.connect(run.set_automatic)
         panel.table.leave_out.connect(lambda rows: self._leave_out(rows, left_out=True))
         panel.table.take_back.connect(lambda rows: self._leave_out(rows, left_out=False))
@@ -249,30 +245,25 @@ class GravityPage(Page):
         self._heard = taken
 
     def _show_buttons(self) -> None:
-        run = self.run
-        first, second = self._choices()
-        self.primary.setText(first[0])
-        self.second.setText("" if second is None else second[0])
-        self.second.setVisible(second is not None)
+        run, bar = self.run, self.bar
+        (words, _), second = self._choices()
         waits = run.busy or run.phase is Phase.CHECKING or self.weight.busy  # for the machine, or for a pose
-        self.primary.setEnabled(not waits and not self._locked)
-        self.second.setEnabled(not run.busy and not self.weight.busy and not self._locked)
-        tip = ""
+        can, tip = not waits, ""
         if run.phase is Phase.CAPTURING and run.work is not None:
-            enough = run.work.view().count >= 3
-            self.primary.setEnabled(enough)
-            tip = "" if enough else self.tr("A calibration needs three poses or more.")
-        self.primary.setToolTip(tip)
+            can = run.work.view().count >= 3
+            tip = "" if can else self.tr("A calibration needs three poses or more.")
         good = (
             self._enough()
             if run.work is not None
             else run.phase is Phase.IDLE and not self._mendable() and not self.weight.unloaded
         )
         if self._locked and not waits and run.phase is Phase.IDLE:
-            self.primary.setText(self.tr("Go to Devices"))
-            self.primary.setEnabled(True)
-            good = True
-        accent(self.primary, good)
+            words, good = self.tr("Go to Devices"), True
+        elif self._locked:
+            can = False
+        bar.offer(words, lambda: self._press(0), enabled=can, accented=good, tip=tip)
+        free = not (run.busy or self.weight.busy or self._locked)
+        bar.offer_second("" if second is None else second[0], lambda: self._press(1), enabled=free)
         accent(self.panel.turn, not good, "play")
 
     def _choices(self) -> tuple[Choice, Choice | None]:
@@ -302,10 +293,10 @@ class GravityPage(Page):
         if outcome.calibration.verdict.level is Level.REFUSE:
             return add, anew if outcome.changeable else None
         check = (self.tr("Check one more pose"), run.begin_check)
-        if run.checked is not None and run.checked.passed:
-            go_on = (self.tr("Go on: Probe"), lambda: self.bench.go_to.emit(Step.PROBE))
-            return go_on, add if outcome.calibration.verdict.level is Level.USABLE else check
-        return check, add
+        go_on = (self.tr("Next: Probe"), lambda: self.bench.go_to.emit(Step.PROBE))
+        if outcome.calibration.verdict.level is Level.GOOD:
+            return go_on, check
+        return (go_on, add) if run.checked is not None and run.checked.passed else (check, add)
 
     def _enough(self) -> bool:
         return self.run.work is not None and self.run.work.view().solved.enough

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
     QComboBox,
     QFrame,
     QHBoxLayout,
@@ -24,6 +23,7 @@ from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 from contactbench.widgets.capture_state import CaptureState
 from contactbench.widgets.controls import (
     PanelScroll,
+    check_box,
     choice,
     column,
     named,
@@ -57,7 +57,7 @@ class GravityFigures(QWidget):
         super().__init__(parent)
         self.count, self.before, self.error = (plain_label("", each) for each in ("title", "muted", "number"))
         self.curve = Shrinking()
-        caption = plain_label(self.tr("contact error from the calibration (1 sigma)"), "muted")
+        caption = sentence_label(self.tr("contact error from the calibration (1 sigma)"), "muted")
         caption.setToolTip(
             self.tr(
                 "How far a contact point may be off because of the calibration alone, in mm: the worst case over the"
@@ -161,11 +161,9 @@ class GravityPanel(PanelScroll):
         self.state = CaptureState()
         self.sentence = sentence_label(role="muted")
         self.sentence.setMinimumHeight(_THREE_LINES)  # what comes and goes does not move the rest
-        self.automatic = QCheckBox(self.tr("Take each still pose by itself"))
+        tip = self.tr("Off: press SPACE, or the foot switch, in each pose that shall count.")
+        self.automatic = check_box(self.tr("Take each still pose by itself"), tip=tip)
         self.automatic.setChecked(True)
-        self.automatic.setToolTip(
-            self.tr("Off: press SPACE, or the foot switch, in each pose that shall count.")
-        )
         self.figures = GravityFigures()
         self.verdict = VerdictBox()
         self.checked = VerdictBox()
@@ -187,6 +185,7 @@ class GravityPanel(PanelScroll):
 
     def _make_next(self) -> None:
         self.next = sentence_label()
+        self.next.setMinimumHeight(_THREE_LINES)  # the buttons below stay where they are
         self.away = sentence_label(role="muted")
         self.turn = push_button(self.tr("Turn it there for me"), None, "play", high=_HIGH)
         tip = self.tr("Push the virtual tool for a moment, to see what that does")

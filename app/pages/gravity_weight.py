@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QLineEdit, QWidget
 
 from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.known_checks import StillReading
-from contactbench.widgets.controls import accent, named, push_button, sentence_label
+from contactbench.widgets.controls import accent, form, named, push_button, sentence_label
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,22 +40,16 @@ class WeightPanel(KnownCheckPanel):
         self.sigma = QDoubleSpinBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
         self.certificate = QLineEdit(maxLength=200)
         self.certificate.setPlaceholderText(self.tr("Number, if there is one"))
-        grid = QGridLayout()
-        for line, (text, field) in enumerate(
-            (
-                (self.tr("Mass"), self.mass),
-                (self.tr("Uncertainty (1 sigma)"), self.sigma),
-                (self.tr("Certificate"), self.certificate),
-            )
+        rows = form()
+        for text, field, tip in (
+            (self.tr("Mass"), self.mass, ""),
+            (self.tr("Uncertainty (1 sigma)"), self.sigma, ""),
+            (self.tr("Certificate"), self.certificate, self.certificate.placeholderText()),
         ):
-            label = QLabel(text)
-            label.setBuddy(field)
-            grid.addWidget(label, line, 0)
-            grid.addWidget(named(field, text, tip=""), line, 1)
-        grid.setColumnStretch(1, 1)
+            rows.addRow(text, named(field, text, tip=tip))
         self.first = push_button(self.tr("1. Read without weight"), self._read_unloaded, "play")
         self.second = push_button(self.tr("2. Read with weight"), self._read_loaded, "play")
-        self.lay_out(intro, grid, self.first, self.second)
+        self.lay_out(intro, rows, self.first, self.second)
 
     def _read_unloaded(self) -> None:
         self.unloaded = ""

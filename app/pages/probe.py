@@ -11,12 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from contactbench.app.page import Page
 from contactbench.app.pages.probe_place import PlaceSection
-from contactbench.app.pages.probe_sections import (
-    FacetsSection,
-    MeshSection,
-    NextBar,
-    SurfaceSection,
-)
+from contactbench.app.pages.probe_sections import FacetsSection, MeshSection, SurfaceSection
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.workbench.steps import Step
@@ -42,8 +37,8 @@ class ProbePage(Page):
         super().__init__(bench, parent)
         self._here = False
         self.mesh_section, self.surface = MeshSection(), SurfaceSection()
-        self.facets, self.next_bar = FacetsSection(), NextBar()
-        self.stages = ProbeStages(bench, self.next_bar, self)
+        self.facets = FacetsSection()
+        self.stages = ProbeStages(bench, self.bar, self)
         self.place = PlaceSection(self.stages)
         self._lay_out()
         self._connect()
@@ -57,7 +52,7 @@ class ProbePage(Page):
             margins=(10, 8, 10, 8), space=6,
         ).addStretch()  # fmt: skip
         self.area = PanelScroll(inside)
-        column(self, self.area, self.next_bar, space=6).setStretch(0, 1)
+        self.fill(self.area)
 
     def _connect(self) -> None:
         stages = self.stages
@@ -77,7 +72,6 @@ class ProbePage(Page):
         self.facets.chart.chosen.connect(stages.keep)
         self.facets.overlay.toggled.connect(self._show_overlay)
         self.facets.deviation.toggled.connect(self._show_deviation)
-        self.next_bar.next.clicked.connect(self._next)
 
     def _choose(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
@@ -107,7 +101,7 @@ class ProbePage(Page):
         if self.stages.using:
             return self.tr("Keeping the probe"), False
         if self.stages.in_use:
-            return self.tr("In use. Go on: Regions"), True
+            return self.tr("Next: Regions"), True
         if self.stages.mesh is None:
             return self.tr("Choose a mesh..."), True
         if self.stages.asked:
@@ -123,14 +117,13 @@ class ProbePage(Page):
     def _show(self) -> None:
         """Show how things stand: the one place that does."""
         words, can = self._next_words()
-        self.next_bar.next.setText(words)
-        self.next_bar.next.setEnabled(can and not self.stages.worker.busy)
         self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked)
         virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
         self.mesh_section.housing.setVisible(virtual)
         self.mesh_section.choose.setVisible(not none)  # else it is what is next
         accent(self.mesh_section.housing, virtual and none)
-        accent(self.next_bar.next, not (virtual and none))
+        free = can and not self.stages.worker.busy
+        self.bar.offer(words, self._next, enabled=free, accented=not (virtual and none))
         self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
         shell = None if self.stages.dense is None else self.stages.dense.shell
         self.surface.report.show_sentences([] if shell is None else [("note", s) for s in shell.sentences])

@@ -1,4 +1,4 @@
-"""What the probe's page is made of: the mesh, its outer surface, where it lies, how many facets; and what is next."""
+"""What the probe's page is made of: the mesh, its outer surface, where it lies, how many facets."""
 
 from __future__ import annotations
 
@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
     QDoubleSpinBox,
     QFormLayout,
     QGroupBox,
     QLabel,
-    QProgressBar,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -21,19 +18,16 @@ from PySide6.QtWidgets import (
 
 from contactbench.pipeline.mesh.units import NAMES
 from contactbench.widgets.controls import (
-    column,
+    check_box,
+    choice,
     form,
     named,
     plain_label,
     push_button,
-    row,
     sentence_label,
-    set_role,
     show_quietly,
-    show_value,
 )
 from contactbench.widgets.mesh_report import MeshReport
-from contactbench.widgets.phrases import said
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
@@ -111,17 +105,15 @@ class SurfaceSection(QGroupBox):
         self.setTitle(self.tr("2  Outer surface"))
         layout = QVBoxLayout(self)
         rows = form()
-        self.close_by = _narrow(QComboBox())
-        self.close_by.addItems(
-            [
-                self.tr("as it seems best"),
-                self.tr("by a fair surface"),
-                self.tr("by straight lines"),
-                self.tr("by the hull of the rim"),
-                self.tr("leave them open"),
-            ]
+        ways = (
+            self.tr("as it seems best"),
+            self.tr("by a fair surface"),
+            self.tr("by straight lines"),
+            self.tr("by the hull of the rim"),
+            self.tr("leave them open"),
         )
-        self.close_by.setToolTip(self.tr("How openings are closed, such as the one for the cable"))
+        tip = self.tr("How openings are closed, such as the one for the cable")
+        self.close_by = choice(zip(ways, _CLOSINGS, strict=True), self.tr("Close openings"), tip=tip)
         rows.addRow(self.tr("Close openings"), self.close_by)
         tip = self.tr("Size of the outer surface's facets, mm; 0: a 190th of the probe's length")
         self.alpha = _number(0.0, 50.0, " mm", 2, self.tr("Facet size"), tip)
@@ -160,9 +152,9 @@ class FacetsSection(QGroupBox):
         for each in (self.number, self.meaning, self.chart):
             layout.addWidget(each)
         layout.addLayout(self._target_form())
-        self.overlay = QCheckBox(self.tr("Show the original over it"))
-        self.deviation = QCheckBox(self.tr("Show the deviation as colours"))
-        self.deviation.setToolTip(self.tr("How far the outer surface is from the simplified one, in mm"))
+        self.overlay = check_box(self.tr("Show the original over it"))
+        tip = self.tr("How far the outer surface is from the simplified one, in mm")
+        self.deviation = check_box(self.tr("Show the deviation as colours"), tip=tip)
         layout.addWidget(self.overlay)
         layout.addWidget(self.deviation)
         self.report = MeshReport(1)
@@ -171,14 +163,12 @@ class FacetsSection(QGroupBox):
 
     def _target_form(self) -> QFormLayout:
         rows = form()
-        self.target = _narrow(QComboBox())
-        self.target.addItems(
-            [
-                self.tr("a number of facets"),
-                self.tr("a largest deviation"),
-                self.tr("a largest contact error"),
-            ]
+        targets = (
+            self.tr("a number of facets"),
+            self.tr("a largest deviation"),
+            self.tr("a largest contact error"),
         )
+        self.target = choice(zip(targets, _TARGETS, strict=True), self.tr("Keep to"), tip="")
         self.value = _number(4.0, 2e6, "", 0, self.tr("Number of facets, or mm"), "")
         rows.addRow(self.tr("Keep to"), self.target)
         rows.addRow(self.tr("Up to"), self.value)
@@ -186,7 +176,7 @@ class FacetsSection(QGroupBox):
         self.ratio = _number(1.0, 100.0, " : 1", 1, self.tr("Finer in regions"), tip)
         self.ratio_label = QLabel(self.tr("Finer in regions"))
         rows.addRow(self.ratio_label, self.ratio)
-        self.painted = QCheckBox(self.tr("Put the painted regions on it"))
+        self.painted = check_box(self.tr("Put the painted regions on it"))
         self.painted.setChecked(True)
         rows.addRow(self.painted)
         self.target.activated.connect(self._target_changed)
@@ -248,53 +238,9 @@ class FacetsSection(QGroupBox):
             each.setEnabled(facets is not None)
 
 
-class NextBar(QWidget):
-    """What runs or what is next: one button, always in the same place."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.words, self.bar = sentence_label(), QProgressBar()
-        self.bar.setRange(0, 1000)
-        self.bar.setAccessibleName(self.tr("How far the work is"))
-        self.cancel = QPushButton(self.tr("Cancel"))
-        self.next = push_button("", high=_HIGH, primary=True)
-        column(self, self.words, row((self.bar, 1), self.cancel), self.next, margins=(8, 6, 8, 8), space=6)
-        self.show_idle()
-
-    def show_working(self, title: str) -> None:
-        """Show what runs."""
-        self.say(title)
-        show_value(self.bar, 0)
-        self.bar.setVisible(True)
-        self.cancel.setVisible(True)
-        self.next.setEnabled(False)
-
-    def show_share(self, share: float) -> None:
-        """Show how far it is."""
-        show_value(self.bar, round(1000 * share))
-
-    def show_idle(self) -> None:
-        """Show that nothing runs."""
-        self.bar.setVisible(False)
-        self.cancel.setVisible(False)
-
-    def say(self, words: str, bad: bool = False) -> None:
-        """Show a sentence."""
-        self.words.setText(said(words))
-        set_role(self.words, "bad" if bad else "")
-        self.words.setVisible(bool(words))
-
-
-def _narrow(field: QComboBox) -> QComboBox:
-    """Let a list of choices be narrower than its longest one."""
-    field.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-    field.setMinimumContentsLength(6)
-    return field
-
-
 def _number(low: float, high: float, unit: str, decimals: int, name: str, tip: str) -> QDoubleSpinBox:
     field = QDoubleSpinBox(decimals=decimals, minimum=low, maximum=high, suffix=unit)
-    return named(field, name, least=80, tip=tip)
+    return named(field, name, tip=tip)
 
 
 def _metres(unit: str) -> float:

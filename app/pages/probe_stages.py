@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.app.pages.probe_sections import NextBar
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.ladder import Ladder
     from contactbench.pipeline.preparation.prepare import Dense
     from contactbench.pipeline.session import State
+    from contactbench.widgets.action_bar import ActionBar
 
 _SETTLE_MS = 350
 TARGETS = ("facets", "max_deviation", "max_contact_error")
@@ -43,8 +43,8 @@ class ProbeWorker(QObject):
     Parameters
     ----------
     bench : Bench
-    bar : NextBar
-        Shows what runs, how far it is, and stops it.
+    bar : ActionBar
+        Says what runs, and how it ended.
     wrong : callable
         Gets the sentence of what went wrong.
     ended : callable
@@ -52,12 +52,11 @@ class ProbeWorker(QObject):
     """
 
     def __init__(
-        self, bench: Bench, bar: NextBar, wrong: Callable[[str], None], ended: Callable[[], None]
+        self, bench: Bench, bar: ActionBar, wrong: Callable[[str], None], ended: Callable[[], None]
     ) -> None:
         super().__init__(bar)
         self._bench, self._bar, self._wrong, self._ended = bench, bar, wrong, ended
         self._job: Job | None = None
-        bar.cancel.clicked.connect(self._cancel)
 
     @property
     def busy(self) -> bool:
@@ -82,8 +81,8 @@ class ProbeWorker(QObject):
                 self._ended()
 
         job = self._job = self._bench.jobs.start(title, work, finish, fail)
-        job.progressed.connect(self._bar.show_share)
-        self._bar.show_working(title)
+        self._bar.say(title)
+        self._bar.primary.setEnabled(False)
         self._bench.set_failed(Step.PROBE, "")
         self._bench.set_running(Step.PROBE, going_on=True)
 
@@ -95,16 +94,8 @@ class ProbeWorker(QObject):
             job.cancel()
 
     def _let_go(self) -> None:
-        job, self._job = self._job, None
-        if job is not None:
-            job.progressed.disconnect(self._bar.show_share)
-        self._bar.show_idle()
+        self._job = None
         self._bench.set_running(Step.PROBE, going_on=False)
-
-    def _cancel(self) -> None:
-        if self._job is not None:
-            self._bar.say(self.tr("Stopping..."))
-            self._job.cancel()
 
     def _failed(self, error: BaseException) -> None:
         if isinstance(error, Cancelled):
@@ -122,8 +113,8 @@ class ProbeStages(QObject):
     Parameters
     ----------
     bench : Bench
-    bar : NextBar
-        Shows what runs.
+    bar : ActionBar
+        Says what runs.
 
     Attributes
     ----------
@@ -151,7 +142,7 @@ class ProbeStages(QObject):
     aligned = Signal(object, object)  # Alignment or None, notes
     ready = Signal()  # to be used, for the first time
 
-    def __init__(self, bench: Bench, bar: NextBar, parent: QObject) -> None:
+    def __init__(self, bench: Bench, bar: ActionBar, parent: QObject) -> None:
         super().__init__(parent)
         self.bench, self.bar = bench, bar
         self.work = ProbeWork(bench.desk)

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QButtonGroup,
-    QCheckBox,
     QDoubleSpinBox,
-    QGridLayout,
     QGroupBox,
-    QHBoxLayout,
     QLabel,
+    QLayout,
     QSlider,
     QSpinBox,
     QToolButton,
@@ -24,8 +22,10 @@ from PySide6.QtWidgets import (
 from contactbench.pipeline.workbench.regions import Box, Clear, Flood, Grow, Mirror, Plane, Shrink, Smooth
 from contactbench.widgets.controls import (
     HIGH,
+    FoldRow,
     HeightStack,
     add_key,
+    check_box,
     choice,
     column,
     named,
@@ -67,9 +67,8 @@ class ToolPanel(QWidget):
         self.tool = LOOK
         self._buttons: dict[str, QToolButton] = {}
         self._corner: tuple[float, float, float] | None = None
-        self.protect = QCheckBox(self.tr("Protect other regions"))
-        self.protect.setToolTip(self.tr("Facets that belong to another region stay there"))
-        self.protect.setMinimumHeight(32)
+        tip = self.tr("Facets that belong to another region stay there")
+        self.protect = check_box(self.tr("Protect other regions"), tip=tip)
         look = sentence_label(self.tr("Choose a tool. The right button always turns the view."), "muted")
         buttons = self._make_buttons()
         self._stack = HeightStack(
@@ -151,9 +150,8 @@ class ToolPanel(QWidget):
 
     # ---- its parts -------------------------------------------------------------------------------
 
-    def _make_buttons(self) -> QGridLayout:
-        grid = QGridLayout()
-        grid.setSpacing(4)
+    def _make_buttons(self) -> FoldRow:
+        tools = FoldRow(4)
         group = QButtonGroup(self)
         entries = (
             (LOOK, "camera", self.tr("Look"), "L", self.tr("Turn the view with the left button")),
@@ -163,22 +161,22 @@ class ToolPanel(QWidget):
             (BOX, "box", self.tr("Box"), "X", self.tr("Everything between two corners")),
             (PLANE, "down", self.tr("Half"), "H", self.tr("Everything on one side of a plane")),
         )
-        for number, (tool, picture, text, key, tip) in enumerate(entries):
+        for tool, picture, text, key, tip in entries:
             button = QToolButton()
             button.setText(text)
             button.setIcon(icon(picture))
             button.setIconSize(QSize(20, 20))
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
             button.setCheckable(True)
-            button.setMinimumSize(96, HIGH)
+            button.setMinimumSize(92, HIGH)
             button.setToolTip(f"{tip} ({key})")
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(partial(self.choose, tool))
             group.addButton(button)
-            grid.addWidget(button, number // 3, number % 3)
+            tools.add(button, 1)
             self._buttons[tool] = button
             add_key(self, self.tr("{0} (regions)").format(text), key, partial(self.choose, tool))
-        return grid
+        return tools
 
     def _make_brush(self) -> QWidget:
         self.radius_slider = QSlider(Qt.Orientation.Horizontal)
@@ -206,30 +204,25 @@ class ToolPanel(QWidget):
         self.crease_slider.valueChanged.connect(lambda value: self.crease.setValue(value))
         self.crease.valueChanged.connect(lambda value: self.crease_slider.setValue(round(value)))
         self.crease.setValue(30)
-        self.fill_erase = QCheckBox(self.tr("Take away instead"))
-        self.fill_erase.setMinimumHeight(32)
+        self.fill_erase = check_box(self.tr("Take away instead"))
         words = self.tr("Click on the probe: everything up to such edges is filled.")
         line = _labelled(self.tr("Edges over"), self.crease_slider, self.crease)
         return _page(line, self.fill_erase, sentence_label(words, "muted"))
 
     def _make_box(self) -> QWidget:
         self.box_hint, self.box_plan = sentence_label(self._box_words(), "muted"), sentence_label("", "muted")
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        lines = []
         self.lows: list[QDoubleSpinBox] = []
         self.highs: list[QDoubleSpinBox] = []
-        for axis, name in enumerate(_AXES):
-            grid.addWidget(QLabel(name), axis, 0)
-            for place, fields, end in ((1, self.lows, self.tr("low")), (2, self.highs, self.tr("high"))):
+        for name in _AXES:
+            for fields, end in ((self.lows, self.tr("low")), (self.highs, self.tr("high"))):
                 words = self.tr("{0} {1}, mm in the sensor frame S").format(name, end)
                 field = _length(-2000, 2000, words)
                 field.setValue(-10 if fields is self.lows else 10)
                 field.valueChanged.connect(self.plan)
                 fields.append(field)
-                grid.addWidget(field, axis, place)
-        for place in (1, 2):
-            grid.setColumnStretch(place, 1)
-        return _page(self.box_hint, grid, self.box_plan, self._make_giving())
+            lines.append(row(QLabel(name), (self.lows[-1], 1), (self.highs[-1], 1), space=4))
+        return _page(self.box_hint, *lines, self.box_plan, self._make_giving())
 
     def _make_plane(self) -> QWidget:
         words = self.tr("Click on the probe to move the plane there, or type the number.")
@@ -247,7 +240,7 @@ class ToolPanel(QWidget):
         line = row((self.side, 1), (self.position, 1))
         return _page(sentence_label(words, "muted"), line, self.plane_plan, self._make_giving())
 
-    def _make_giving(self) -> QHBoxLayout:
+    def _make_giving(self) -> FoldRow:
         give, take = (
             self.tr("Give these facets to the chosen region"),
             self.tr("Take these facets out of the chosen region"),
@@ -282,7 +275,7 @@ class ShapePanel(QGroupBox):
             self.rings,
             self.tr("How many rings of facets to smooth over"),
             tip=self.tr("What is narrower than about this many facets goes"),
-        ).setMinimumWidth(84)
+        )
         self.mirror_button = push_button(
             self.tr("Mirror"),
             lambda: self.asked.emit(self._mirror()),
@@ -310,19 +303,14 @@ class ShapePanel(QGroupBox):
             lambda: self.asked.emit(Clear()),
             tip=self.tr("Take all facets out of the region"),
         )
-        grid = QGridLayout(self)
-        grid.setSpacing(4)
-        grid.setContentsMargins(2, 2, 2, 2)
-        for line, widgets in enumerate(
-            (
-                (self.mirror_button, self.across, self.at),
-                (self.grow_button, self.shrink_button, self.amount),
-                (self.smooth_button, self.clear_button, self.rings),
-            )
-        ):
-            for place, widget in enumerate(widgets):
-                grid.addWidget(widget, line, place)
-        grid.setColumnStretch(2, 1)  # numbers need the room, words do not
+        column(
+            self,
+            row(self.mirror_button, self.across, (self.at, 1), space=4),
+            row(self.grow_button, self.shrink_button, (self.amount, 1), space=4),
+            row(self.smooth_button, self.clear_button, (self.rings, 1), space=4),
+            margins=(2, 2, 2, 2),
+            space=4,
+        )
         add_key(self, self.tr("Mirror the chosen region"), "M", self.mirror_button.click)
 
     def _mirror(self) -> Tool:
@@ -333,17 +321,16 @@ class ShapePanel(QGroupBox):
 def _length(least: float, most: float, words: str) -> QDoubleSpinBox:
     """Return a field for a length in mm."""
     field = QDoubleSpinBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm")
-    named(field, words).setMinimumWidth(84)  # its own would be for the longest number that it could hold
-    return field
+    return named(field, words)
 
 
-def _labelled(words: str, slider: QSlider, field: QDoubleSpinBox) -> QHBoxLayout:
+def _labelled(words: str, slider: QSlider, field: QDoubleSpinBox) -> FoldRow:
     label = QLabel(words)
     label.setBuddy(field)
     return row(label, slider, field)
 
 
-def _page(*parts: QWidget | QHBoxLayout | QGridLayout) -> QWidget:
+def _page(*parts: QWidget | QLayout) -> QWidget:
     page = QWidget()
     column(page, *parts, space=6)
     return page

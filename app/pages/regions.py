@@ -23,7 +23,7 @@ from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_reg
 from contactbench.pipeline.workbench.regions import Clear
 from contactbench.pipeline.workbench.regions_session import apply, open_work, standing, surface_key
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.controls import add_key, column
+from contactbench.widgets.controls import add_key
 from contactbench.widgets.region_brush import STEP, RegionBrush
 
 if TYPE_CHECKING:
@@ -112,8 +112,8 @@ class RegionsPage(Page):
         self.brush = RegionBrush(bench.scene, self)
         self.job: Job | None = None
         self._planned: Tool | None = None
-        self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel()
-        column(self, self.panel)
+        self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel(self.bar)
+        self.fill(self.panel)
         self._connect()
         self._add_keys()
         self.show_all()
@@ -140,12 +140,10 @@ class RegionsPage(Page):
         panel.tools.asked.connect(self._use)
         panel.tools.planned.connect(self._show_plan)
         panel.shape.asked.connect(self._use)
-        panel.apply_button.clicked.connect(self._apply)
+        panel.apply_asked.connect(self._apply)
         panel.import_button.clicked.connect(self._ask_import)
         panel.export_button.clicked.connect(self._ask_export)
-        panel.go_button.clicked.connect(lambda: bench.go_to.emit(Step.PROBE))
-        panel.next_button.clicked.connect(lambda: bench.go_to.emit(Step.VERIFY))
-        panel.cancel_button.clicked.connect(self._cancel)
+        panel.go_asked.connect(bench.go_to)
 
     def _add_keys(self) -> None:
         brush = self.brush
@@ -266,7 +264,6 @@ class RegionsPage(Page):
             opened,
             failed,
         )
-        self._loading.progressed.connect(self.panel.show_share)
 
     def _watch(self, work: RegionsWork | None) -> None:
         self.brush.release()
@@ -422,13 +419,7 @@ class RegionsPage(Page):
 
         self.stop_tool()
         self.job = self.bench.jobs.start(title, work, finished, failed)
-        self.job.progressed.connect(self.panel.show_share)
         self.show_all()
-
-    def _cancel(self) -> None:
-        for job in (self.job, self._loading):
-            if job is not None:
-                job.cancel()
 
     def _show_plan(self, tool: Tool | None) -> None:
         """Show what a box or plane would take, in words and half painted."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum, auto
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QProgressBar, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QWidget
 
 from contactbench.app.pages.region_tools import ShapePanel, ToolPanel
 from contactbench.pipeline.workbench.regions_session import Standing
-from contactbench.pipeline.workbench.steps import StepState
+from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
@@ -19,11 +20,15 @@ from contactbench.widgets.controls import (
     push_button,
     row,
     sentence_label,
-    show_value,
 )
 from contactbench.widgets.icons import Sign, state_icon
 from contactbench.widgets.phrases import said
 from contactbench.widgets.region_list import RegionListWidget
+
+if TYPE_CHECKING:
+    from contactbench.widgets.action_bar import ActionBar
+
+_THREE_LINES_PX = 54
 
 
 class Mode(Enum):
@@ -51,23 +56,24 @@ class RegionsView:
 
 
 class RegionsPanel(PanelScroll):
-    """The controls of the page; `show_view` is the one place that decides what is seen."""
+    """
+    The controls of the page; `show_view` is the one place that decides what is seen.
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    Parameters
+    ----------
+    bar : ActionBar
+        Of the page.
+    """
+
+    apply_asked = Signal()
+    go_asked = Signal(object)  # Step
+
+    def __init__(self, bar: ActionBar, parent: QWidget | None = None) -> None:
         super().__init__(parent=parent)
+        self._bar = bar
         self.state_mark, self.state_text = Sign(24), sentence_label()
         self.state_text.setObjectName("regions_state")
-        self.progress = QProgressBar()
-        self.progress.setRange(0, 100)
-        self.progress.setAccessibleName(self.tr("How far it is"))
-        self.cancel_button = push_button(self.tr("Cancel"))
-        self.go_button = push_button(self.tr("Go to Probe"), high=40)
-        self.apply_button = push_button(
-            self.tr("Give them to the probe"),
-            tip=self.tr("Computes the probe again, with more facets in the regions"),
-            high=40,
-        )
-        self.next_button = push_button("", high=40)
+        self.state_text.setMinimumHeight(_THREE_LINES_PX)  # what lies below stays where it is
         self.import_button = push_button(
             self.tr("Import..."), tip=self.tr("Replace all regions by those of a JSON or CSV file")
         )
@@ -80,23 +86,17 @@ class RegionsPanel(PanelScroll):
             " several places, the contact is looked for there. Regions are optional."
         )
         state = row()
-        state.addWidget(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
-        state.addWidget(self.state_text, 1)
+        state.add(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
+        state.add(self.state_text, 1)
         inside, self.body = QWidget(), QWidget()
         column(self.body, self.regions, self.tools, self.shape, row(self.import_button, self.export_button))
         column(
-            inside, plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state,
-            row((self.progress, 1), self.cancel_button), self.go_button, self.apply_button, self.next_button,
-            self.body, margins=(10, 10, 10, 10),
+            inside, plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state, self.body,
+            margins=(10, 10, 10, 10),
         ).addStretch(1)  # fmt: skip
         self.setWidget(inside)
 
     # ---- what is seen ------------------------------------------------------------------------
-
-    def show_share(self, share: float) -> None:
-        """Show how far what is being computed is, 0 to 1."""
-        self.progress.setRange(0, 100)
-        show_value(self.progress, round(100 * share))
 
     def show_view(self, view: RegionsView) -> None:
         """Show all of it."""
@@ -110,22 +110,23 @@ class RegionsPanel(PanelScroll):
         self.tools.setEnabled(view.chosen)
         self.shape.setEnabled(view.chosen)
         self.export_button.setEnabled(view.regions > 0)
-        busy = view.busy or view.mode is Mode.OPENING
-        if busy and not self.progress.isVisibleTo(self):
-            self.progress.setRange(0, 0)
-        self.progress.setVisible(busy)
-        self.cancel_button.setVisible(busy)
-        self.go_button.setVisible(view.mode in (Mode.LOCKED, Mode.FAILED))
-        waiting = ready and view.painted and view.standing is not Standing.PLANNED
-        applied = view.standing is Standing.APPLIED and not view.dirty
-        self.apply_button.setVisible(waiting and not applied)
-        self.apply_button.setEnabled(not view.busy)
-        self.next_button.setVisible(ready and (applied or not view.painted))
-        self.next_button.setText(self.tr("Go on to Verify") if applied else self.tr("Go on without regions"))
-        accent(self.go_button, self.go_button.isVisibleTo(self))
-        accent(self.apply_button, waiting and not applied)
-        accent(self.next_button, applied)
+        self._offer(view)
         accent(self.regions.add_button, ready and view.regions == 0, "add")
+
+    def _offer(self, view: RegionsView) -> None:
+        """Offer what is to be done next."""
+        bar, free = self._bar, view.mode is Mode.READY and not view.busy
+        applied = view.standing is Standing.APPLIED and not view.dirty
+        bar.offer_second()
+        planned = view.mode is Mode.READY and view.painted and view.standing is Standing.PLANNED
+        if planned or view.mode in (Mode.LOCKED, Mode.FAILED):
+            bar.offer(self.tr("Go to Probe"), lambda: self.go_asked.emit(Step.PROBE))
+        elif view.painted and not applied:
+            tip = self.tr("Computes the probe again, with more facets in the regions")
+            bar.offer(self.tr("Give them to the probe"), self.apply_asked.emit, enabled=free, tip=tip)
+        else:
+            words = self.tr("Next: Verify") if applied else self.tr("Next: Verify, without regions")
+            bar.offer(words, lambda: self.go_asked.emit(Step.VERIFY), enabled=free, accented=applied)
 
     def _said(self, view: RegionsView) -> tuple[StepState, str]:
         """Return the state and its sentence."""

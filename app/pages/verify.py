@@ -34,8 +34,7 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
     why_locked,
 )
-from contactbench.widgets.controls import PanelScroll, column, plain_label, push_button, sentence_label
-from contactbench.widgets.phrases import said
+from contactbench.widgets.controls import PanelScroll, column
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,19 +60,18 @@ class VerifyPage(Page):
         self._broken = ""  # what is wrong with a file behind the verification
         self._read_at, self._told = -1, tuple[str, ...]()
         self._loading: object = None
+        self._locked = ""  # why nothing can be done yet
         self._job: Job | None = None
         self._build()
         self._connect()
         self._allow()
 
     def _build(self) -> None:
-        self.locked = sentence_label()
-        self.go = push_button(self.tr("Go there"), self._go, primary=True)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.tabs.setUsesScrollButtons(False)
         self.panel_markers, self.panel_how = MarkersPanel(self.bench, self.work), VerifySettingsPanel()
-        self.panel_touch, self.panel_result = TouchPanel(self.bench, self.work), ResultPanel()
+        self.panel_touch, self.panel_result = TouchPanel(self.bench, self.work, self.bar), ResultPanel()
         self.panel_point, point = PointPanel(self.bench), QWidget()
         column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
         for panel, name in (
@@ -84,14 +82,15 @@ class VerifyPage(Page):
             (self.panel_result, self.tr("Result")),
         ):
             self.tabs.addTab(PanelScroll(panel), name)
-        title = plain_label(self.tr("Verify"), "title")
-        column(self, title, self.locked, self.go, self.tabs, margins=(10, 8, 10, 8), space=6).setStretch(3, 1)
+        body = QWidget()
+        column(body, self.tabs, margins=(6, 4, 6, 0))
+        kept = self.tabs.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)
+        self.tabs.setSizePolicy(kept)
+        self.fill(body)
 
     def _connect(self) -> None:
-        touch, markers, result = self.panel_touch, self.panel_markers, self.panel_result
-        touch.start.clicked.connect(self.start)
-        touch.finish.clicked.connect(self.finish)
-        touch.discard.clicked.connect(self.discard)
+        touch, markers = self.panel_touch, self.panel_markers
         touch.repeat.clicked.connect(self._repeat)
         touch.touch.clicked.connect(self._touch_one)
         touch.touch_all.toggled.connect(lambda on: self.toucher.begin() if on else self.toucher.end())
@@ -100,10 +99,8 @@ class VerifyPage(Page):
         self.panel_how.changed.connect(self._set)
         markers.changed.connect(self._allow)
         markers.refused.connect(self._read_again)
-        markers.go_on.clicked.connect(lambda: self.tabs.setCurrentIndex(_TOUCH))
-        result.again.clicked.connect(self.start)
-        result.worst.clicked.connect(self.scene_view.show_worst)
-        result.go_on.clicked.connect(lambda: self.bench.go_to.emit(Step.EXPORT))
+        self.panel_result.worst.clicked.connect(self.scene_view.show_worst)
+        self.tabs.currentChanged.connect(lambda _: self._offer())
         self.bench.scene.picked.connect(self._picked)
 
     # ---- shown and hidden ------------------------------------------------------------------------
@@ -125,11 +122,11 @@ class VerifyPage(Page):
         if self._closed:  # what was under way when the session was closed still ends
             return
         missing = why_locked(self.bench.desk.state)
-        locked = bool(missing) or status.state is StepState.LOCKED
-        self.locked.setText(said(missing or status.sentence))
-        self.locked.setVisible(locked)
-        self.go.setVisible(bool(missing))
-        self.tabs.setVisible(not locked)
+        before = self._locked
+        self._locked = missing or (status.sentence if status.state is StepState.LOCKED else "")
+        if self._locked != before:  # else: what the touches say stays
+            self.bar.say(self._locked)
+        self.tabs.setVisible(not self._locked)
         if self._broken != (broken := status.sentence if status.broken else ""):
             self._broken = broken
             self._show_outcome(self.work.outcome)
@@ -364,12 +361,37 @@ class VerifyPage(Page):
 
     # ---- what can be done ------------------------------------------------------------------------
 
+    def _offer(self) -> None:
+        """Offer what is to be done next."""
+        work, bar, outcome = self.work, self.bar, self.work.outcome
+        ready = work.tool is not None and len(work.markers) > 0
+        start, again = self.tr("Start touching"), self.tr("Verify again")
+        if self._locked:
+            missing = why_locked(self.bench.desk.state, "calibration")
+            words = self.tr("Go to Gravity") if missing else self.tr("Go to Probe")
+            bar.offer(words, self._go)
+            bar.offer_second()
+        elif work.going_on:
+            tip = self.tr("Keep the recording, judge it, and make the report")
+            bar.offer(self.tr("Finish"), self.finish, enabled=not self._busy, tip=tip)
+            tip = self.tr("End without a verdict; the touches are not kept")
+            bar.offer_second(self.tr("Throw away"), self.discard, enabled=not self._busy, tip=tip)
+        elif outcome is not None and outcome.passed and not (outcome.stale or outcome.broken):
+            bar.offer(self.tr("Next: Export"), lambda: self.bench.go_to.emit(Step.EXPORT))
+            bar.offer_second(again, self.start, enabled=ready and not self._busy)
+        else:
+            words = start if outcome is None else again
+            tip = "" if len(work.markers) else self.tr("Place markers first, on the first tab.")
+            first = self.tabs.currentIndex() == _MARKERS and not len(work.markers)
+            bar.offer(words, self.start, enabled=ready and not self._busy, accented=not first, tip=tip)
+            bar.offer_second()
+
     def _allow(self) -> None:
         """Show what can be done now, also where nothing ticks."""
         work = self.work
         free = not work.going_on and not self._busy
-        ready = work.tool is not None and len(work.markers) > 0
-        self.panel_touch.allow(ready=ready, virtual=self.toucher.there, busy=self._busy)
+        self.panel_touch.allow(virtual=self.toucher.there, busy=self._busy)
+        self._offer()
         self.panel_markers.lock(not free or work.tool is None)
         self.panel_how.setEnabled(free)
         known = [(each.name, each.point_S.tolist()) for each in work.markers.all]

@@ -9,8 +9,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QFileDialog,
-    QGridLayout,
-    QHBoxLayout,
     QLabel,
     QSpinBox,
     QToolButton,
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.workbench.verify import VerifyWork
     from contactbench.pipeline.workbench.verify_touches import TouchView
+    from contactbench.widgets.controls import FoldRow
     from contactbench.widgets.scene.scene import Pick
 
 
@@ -63,65 +62,51 @@ class MarkersPanel(QWidget):
             ),
             "muted",
         )
-        self.go_on = push_button(self.tr("Go on: touch them"), None, "play", primary=True)
-        self.go_on.hide()
         column(
-            self, self._making(), self._empty, self.go_on, self.table, self._editing(), self._typing(),
+            self, *self._making(), self._empty, self.table, self._editing(), self._typing(),
             margins=(0, 8, 0, 0),
         ).setStretchFactor(self.table, 1)  # fmt: skip
 
-    def _making(self) -> QGridLayout:
-        self.region = choice((), self.tr("Where markers are placed"), least=84)
+    def _making(self) -> tuple[FoldRow, ...]:
+        self.region = choice((), self.tr("Where markers are placed"), short=True)
         self.show_regions()
         self.count = QSpinBox(minimum=1, maximum=1000, value=12)
-        named(self.count, self.tr("How many markers"), least=84)
+        named(self.count, self.tr("How many markers"))
         self.pitch = QDoubleSpinBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
-        named(self.pitch, self.tr("Distance of the lines of the grid, mm"), least=84)
-        self.spread = push_button(self.tr("Spread evenly"), self._spread, "add", least=100)
-        self.grid = push_button(self.tr("On a grid"), self._grid, "add", least=100)
-        layout = QGridLayout()
-        layout.setSpacing(6)
-        for line, (first, second) in enumerate(
-            (
-                (QLabel(self.tr("Place them on")), self.region),
-                (self.count, self.spread),
-                (self.pitch, self.grid),
-            )
-        ):
-            layout.addWidget(first, line, 0)
-            layout.addWidget(second, line, 1, 1, 2)
-        layout.setColumnStretch(2, 1)
-        return layout
+        named(self.pitch, self.tr("Distance of the lines of the grid, mm"))
+        self.spread = push_button(self.tr("Spread evenly"), self._spread, "add")
+        self.grid = push_button(self.tr("On a grid"), self._grid, "add")
+        label = QLabel(self.tr("Place them on"))
+        label.setBuddy(self.region)
+        return (
+            row(label, (self.region, 1)),
+            row(self.count, (self.spread, 1)),
+            row(self.pitch, (self.grid, 1)),
+        )
 
-    def _editing(self) -> QGridLayout:
-        self.pick = push_button(self.tr("Click on it"), None, "add", least=100)
+    def _editing(self) -> FoldRow:
+        self.pick = push_button(self.tr("Click on it"), None, "add")
         self.pick.setCheckable(True)
         self.pick.setToolTip(
             self.tr("Every click on the probe adds a marker; with one marker selected, it moves there")
         )
         self.pick.toggled.connect(lambda on: self._bench.scene.set_tool("pick" if on else "turn"))
         self.remove_button = push_button(
-            self.tr("Remove"), lambda: self.remove(self.table.selected_names), "remove", least=100
+            self.tr("Remove"), lambda: self.remove(self.table.selected_names), "remove"
         )
-        self.importing = push_button(self.tr("Import…"), self._ask_import, "folder", least=100)
-        self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export", least=100)
-        self.snap_button = push_button(self.tr("Onto the surface"), self.snap, "down", least=100)
+        self.importing = push_button(self.tr("Import…"), self._ask_import, "folder")
+        self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export")
+        self.snap_button = push_button(self.tr("Onto the surface"), self.snap, "down")
         self.snap_button.setToolTip(self.tr("Move every marker to the nearest point of the probe"))
-        layout = QGridLayout()
-        layout.setSpacing(6)
         buttons = (self.pick, self.remove_button, self.importing, self.exporting, self.snap_button)
-        for place, button in enumerate(buttons):
-            layout.addWidget(button, place // 2, place % 2)
-        for part in (0, 1):
-            layout.setColumnStretch(part, 1)
-        return layout
+        return row(*((each, 1) for each in buttons))
 
-    def _typing(self) -> QHBoxLayout:
+    def _typing(self) -> FoldRow:
         self.coordinates = []
         for axis in ("x", "y", "z"):
             name = self.tr("{axis} of a marker in the sensor frame S, mm").format(axis=axis)
             field = QDoubleSpinBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
-            self.coordinates.append(named(field, name, least=84))
+            self.coordinates.append(named(field, name))
         self.add_button = QToolButton()
         self.add_button.setIcon(icon("add"))
         named(self.add_button, self.tr("Add a marker at these coordinates")).setMinimumSize(HIGH, HIGH)
@@ -153,7 +138,6 @@ class MarkersPanel(QWidget):
         # What was added meanwhile has no touches.
         rows = work.rows if view is None else (*view.rows, *work.rows[len(view.rows) :])
         self._empty.setVisible(not rows)
-        self.go_on.setVisible(bool(rows))
         self.exporting.setEnabled(bool(rows))
         self.table.show_rows(rows, None if view is None else view.next_one)
 

@@ -40,12 +40,9 @@ class ResultPanel(QWidget):
             "search",
             tip=self.tr("Turn the 3D view to the marker with the largest error"),
         )
-        self.again = push_button(self.tr("Verify again"), None, "redo")
-        self.go_on = push_button(self.tr("Go on: Export"), None, "export", primary=True)
         column(
             self, row(self.sign, (self.verdict, 1), space=10), *self._labels(),
-            self.worst, row((self.open, 1), (self.again, 1)), self.go_on,
-            margins=(0, 8, 0, 0),
+            self.worst, self.open, margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
         self.show_outcome(None)
 
@@ -54,9 +51,6 @@ class ResultPanel(QWidget):
         self._report = None if outcome is None else outcome.report
         self.open.setVisible(self._report is not None)
         self.open.setToolTip(str(self._report or ""))
-        self.again.setVisible(outcome is not None)
-        holds = outcome is not None and outcome.passed and not (outcome.stale or outcome.broken)
-        self.go_on.setVisible(holds)
         self.worst.setVisible(outcome is not None and outcome.touches > 0 and not outcome.stale)
         if outcome is None:
             self._put(self.tr("Not verified yet"), "ready", "muted")

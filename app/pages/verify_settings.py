@@ -24,13 +24,12 @@ class VerifySettingsPanel(QWidget):
         self.low = self._number(0.2, 500.0, " N", self.tr("Lower end of the force window, N"))
         self.high = self._number(0.3, 500.0, " N", self.tr("Upper end of the force window, N"))
         self.repeats = QSpinBox(minimum=1, maximum=100, suffix=" ×")
-        named(self.repeats, self.tr("Accepted touches wanted of each marker"), least=70)
+        named(self.repeats, self.tr("Accepted touches wanted of each marker"))
         self.samples = QSpinBox(minimum=4, maximum=10_000)
-        named(self.samples, self.tr("Samples taken of each touch, once it has settled"), least=70)
+        named(self.samples, self.tr("Samples taken of each touch, once it has settled"))
         self.order = choice(
             ((self.tr("any order"), False), (self.tr("as in the table"), True)),
             self.tr("In which order markers are touched"),
-            least=70,
             tip=self.tr(
                 "In any order a touch is of the marker that it is near; in the table's order, of the next one."
             ),
@@ -61,7 +60,7 @@ class VerifySettingsPanel(QWidget):
 
     def _number(self, low: float, high: float, unit: str, name: str) -> QDoubleSpinBox:
         field = QDoubleSpinBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit)
-        return named(field, name, least=70)
+        return named(field, name)
 
     def _set_window(self) -> None:
         if self.low.value() >= self.high.value():

@@ -6,14 +6,14 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtWidgets import QCheckBox, QInputDialog, QToolButton, QWidget
+from PySide6.QtWidgets import QInputDialog, QToolButton, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.verify_scene import firm_contact
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.verification.protocol import ProtocolState
-from contactbench.widgets.controls import HIGH, column, push_button, row, sentence_label
+from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
@@ -26,53 +26,38 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live import LiveReading
     from contactbench.pipeline.workbench.verify import VerifyWork
     from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchOf, TouchView
+    from contactbench.widgets.action_bar import ActionBar
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
 _DECIDED = (ProtocolState.ACCEPTED, ProtocolState.REJECTED)
 _SURE = (Reason.OK, Reason.VERTEX, Reason.BY_REGION)
+_TWO_LINES_PX = 38
 _LONGEST = 200  # characters of a reason
 
 
 class TouchPanel(QWidget):
     """Shows touches as they happen, with words and tones."""
 
-    def __init__(self, bench: Bench, work: VerifyWork, parent: QWidget | None = None) -> None:
+    def __init__(self, bench: Bench, work: VerifyWork, bar: ActionBar, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._bench, self._work, self.sounds = bench, work, Sounds(self)
+        self._bench, self._work, self._bar, self.sounds = bench, work, bar, Sounds(self)
         self._decided: TouchOf | None = None
         self._left = 0
         self.state, self.error = TouchState(), ErrorView()
-        self.next, self.notice = sentence_label(), sentence_label(role="bad")
-        self.notice.hide()
+        self.next = sentence_label()
+        self.next.setMinimumHeight(_TWO_LINES_PX)  # what lies below stays where it is
         self._make_buttons()
         self.virtual = QWidget()
         pair = row((self.touch, 1), (self.touch_all, 1))
         pair.setContentsMargins(0, 0, 0, 0)
         self.virtual.setLayout(pair)
         column(
-            self, self.state, self.next, self.notice,
-            row((self.start, 1), (self.finish, 1), (self.discard, 1)), self.error,
+            self, self.state, self.next, self.error,
             row((self.repeat, 1), (self.skip, 1)), self.virtual, row((self.heat, 1), self.mute),
             margins=(0, 8, 0, 0),
         ).addStretch(1)  # fmt: skip
 
     def _make_buttons(self) -> None:
-        self.start = push_button(self.tr("Start touching"), None, "play", primary=True, least=110)
-        self.finish = push_button(
-            self.tr("Finish"),
-            None,
-            "check",
-            tip=self.tr("Keep the recording, judge it, and make the report"),
-            primary=True,
-            least=110,
-        )
-        self.discard = push_button(
-            self.tr("Throw away"),
-            None,
-            "cross",
-            tip=self.tr("End without a verdict; the touches are not kept"),
-            least=110,
-        )
         self.repeat = push_button(
             self.tr("Touch again"),
             None,
@@ -80,33 +65,28 @@ class TouchPanel(QWidget):
             tip=self.tr(
                 "The marker that is selected in the table, or else the last one; all its touches count"
             ),
-            least=110,
         )
         self.skip = push_button(
             self.tr("Leave it out"),
             self._ask_why,
             "remove",
             tip=self.tr("Go on with the marker after the next one; you say why, and the report repeats it"),
-            least=110,
         )
         self.touch = push_button(
             self.tr("Touch it for me"),
             None,
             "play",
             tip=self.tr("The virtual bench presses the next marker with a tip"),
-            least=110,
         )
         self.touch_all = push_button(
             self.tr("Touch all"),
             None,
             "play",
             tip=self.tr("The virtual bench presses one marker after the other"),
-            least=110,
         )
         self.touch_all.setCheckable(True)
-        self.heat = QCheckBox(self.tr("Heat map of contacts"))
-        self.heat.setToolTip(self.tr("Colour the probe by where it was touched, in contacts per mm²"))
-        self.heat.setMinimumHeight(HIGH)
+        tip = self.tr("Colour the probe by where it was touched, in contacts per mm²")
+        self.heat = check_box(self.tr("Heat map of contacts"), tip=tip)
         self.mute = QToolButton()
         self.mute.setCheckable(True)
         self.mute.setIcon(icon("sound"))
@@ -124,19 +104,12 @@ class TouchPanel(QWidget):
 
     def say(self, text: str) -> None:
         """Show what is in the way; empty: nothing."""
-        text = said(text)
-        if text != self.notice.text():
-            self.notice.setText(text)
-        self.notice.setVisible(bool(text))
+        self._bar.say(text, bad=bool(text))
 
-    def allow(self, *, ready: bool, virtual: bool, busy: bool) -> None:
+    def allow(self, *, virtual: bool, busy: bool) -> None:
         """Show the buttons that are of use now."""
         going_on = self._work.going_on
-        self.start.setVisible(not going_on)
-        self.start.setEnabled(ready and not busy)
-        self.finish.setVisible(going_on)
-        self.discard.setVisible(going_on)
-        for each in (self.finish, self.discard, self.repeat, self.skip, self.touch, self.touch_all):
+        for each in (self.repeat, self.skip, self.touch, self.touch_all):
             each.setEnabled(going_on and not busy)
         self.virtual.setVisible(virtual)
 

@@ -186,7 +186,7 @@ def test_devices_cannot_be_changed_while_a_recording_is_made(page, bench):
     assert page.use_button.isEnabled()
     bench.set_running(Step.GRAVITY, True)
     assert not page.use_button.isEnabled()
-    assert "recording" in page._note.text()
+    assert "recording" in page.bar.words
     bench.set_running(Step.GRAVITY, False)
     assert page.use_button.isEnabled()
 

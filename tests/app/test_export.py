@@ -60,7 +60,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     page.write(tmp_path / "window.zip")
     window.wait(lambda: page.exported is not None)
     assert page.exported.verified
-    assert "verified" in page.result.text()
+    assert "verified" in page.bar.words
     assert window.told[-1].weight is Weight.GOOD
     window.wait(lambda: "exported as it is" in page.standing.text())
     assert page.show_folder.isVisible()
@@ -92,7 +92,7 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     page.write(tmp_path / "b")
     window.wait(lambda: page.exported is not None)
     assert not RuntimeConfig.load(tmp_path / "b").model.verified
-    assert "NOT verified" in page.result.text()
+    assert "NOT verified" in page.bar.words
 
 
 def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
@@ -124,7 +124,7 @@ def test_a_place_that_does_not_do_is_said_in_words(window, tmp_path):
     (tmp_path / "b" / "mine.txt").write_text("x", encoding="utf-8")
     page = window.page
     page.write(tmp_path / "b")
-    window.wait(lambda: bool(page.result.text()))
+    window.wait(lambda: bool(page.bar.words))
     assert window.told[-1].weight is Weight.ERROR
     assert page.exported is None
     window.wait(lambda: page.zip.isEnabled())

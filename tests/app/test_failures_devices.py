@@ -109,18 +109,18 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
         click(made, page.panel_markers.spread)
         made.wait(lambda: len(page.work.markers) == 2 and not page.panel_markers.pending)
         page.tabs.setCurrentIndex(3)
-        click(made, page.panel_touch.start)
+        click(made, page.bar.primary)
         made.wait(lambda: page.work.going_on)
     made.wait_said("sensor", "goes on when it is back")
-    assert "goes on when it is back" in page.panel_touch.notice.text()
+    assert "goes on when it is back" in page.bar.words
     assert made.alive()
-    click(made, page.panel_touch.finish)
+    click(made, page.bar.primary)
     made.wait(lambda: not page.work.going_on)
     made.idle()
     # Nothing was touched. Whether the robot had said a pose by then decides between a verdict and the reason for none.
     made.wait(lambda: made.said("did not pass") or made.said("verify-1.mcap"))
     reason = [text for text in made.window.messages.texts() if "verify-1.mcap" in text]
-    assert page.panel_touch.notice.text() == (reason[0] if reason else "")
+    assert page.bar.words == (reason[0] if reason else "")
     assert ("recording", "verify-1.mcap") in made.window.bench.desk.state.current_inputs
     assert not made.unexpected
     assert ("calibration", "calibration.json") in made.window.bench.desk.state.current_results

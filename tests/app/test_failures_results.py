@@ -258,7 +258,7 @@ def test_closed_while_everything_runs(made, sessions, tmp_path):
     spread(made)
     made.idle()
     page.tabs.setCurrentIndex(3)
-    click(made, page.panel_touch.start)
+    click(made, page.bar.primary)
     made.wait(lambda: page.work.going_on)
     probe = made.page(Step.PROBE)
     probe.stages.take_housing()

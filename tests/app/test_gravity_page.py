@@ -102,7 +102,8 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     w.until(lambda: page.run.outcome is not None and page.run.phase is Phase.IDLE, steps=0)
     assert panel.verdict.text.startswith("Good")
 
-    w.press(page.primary)  # check one more pose
+    assert page.primary.text() == "Next: Probe"
+    w.press(page.second)  # check one more pose
     w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
     assert not page.primary.isEnabled()
     w.press(panel.turn)

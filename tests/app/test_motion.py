@@ -59,18 +59,19 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     assert "wanted 5.00" in window.picture.force.read_out
     controls.stop.click()
     qtbot.waitUntil(lambda: not window.run.running and controls.start.isEnabled(), timeout=LONG_MS)
-    assert controls.state.text() == "Standing still"
-    assert "never tracked" in controls.message.text()
+    assert controls.state.text() == "Ended"
+    assert controls.force.text() == "–"
+    assert "never tracked" in controls.said
     use_theme("dark")  # while something is shown
     use_theme("light")
 
 
 def test_wrong_bundles_are_said_in_words(qtbot, window, tmp_path):
     window.use_bundle(tmp_path / "nowhere")
-    qtbot.waitUntil(lambda: "no such folder" in window.controls.message.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "no such folder" in window.controls.said, timeout=LONG_MS)
     assert not window.controls.start.isEnabled()
     window.controls.of_session.click()
-    assert "No session is open" in window.controls.message.text()
+    assert "No session is open" in window.controls.said
     window.begin()  # of no effect
     assert window.run is None
 

@@ -366,14 +366,13 @@ def test_leaving_keeps_at_once_and_gives_the_tool_back(window, qtbot):
 def test_giving_them_to_the_probe(window, qtbot):
     panel = window.page.panel
     draw(window, (0, 0, 1))
-    assert panel.apply_button.property("primary")
-    panel.apply_button.click()
+    assert window.page.bar.primary.property("primary")
+    window.page.bar.primary.click()
     assert not panel.body.isEnabled()
     qtbot.waitUntil(lambda: standing(window.bench.desk.state) is Standing.APPLIED, timeout=LONG)
     qtbot.waitUntil(lambda: "has these regions" in said(window), timeout=LONG)
     idle(window, qtbot)
-    assert not panel.apply_button.isVisible()
-    assert panel.next_button.text() == "Go on to Verify"
+    assert window.page.bar.primary.text() == "Next: Verify"
     assert Step.REGIONS not in window.bench.running
     assert rows(window)[0][1] > 0, "the surface is the same: it was not read again"
     window.bench.undo.undo()
@@ -396,14 +395,14 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
         return real(desk, progress, cancelled)
 
     monkeypatch.setattr(regions, "apply", slow)
-    window.page.panel.apply_button.click()
-    qtbot.waitUntil(lambda: window.page.panel.progress.value() == 50, timeout=LONG)
+    window.page.bar.primary.click()
+    qtbot.waitUntil(lambda: window.page.job.share == 0.5, timeout=LONG)
     assert Step.REGIONS in window.bench.running
-    window.page.panel.cancel_button.click()
+    window.page.job.cancel()  # as the status bar does
     asked.set()
     idle(window, qtbot)
     assert standing(window.bench.desk.state) is Standing.WAITING
-    assert window.page.panel.apply_button.isEnabled()
+    assert window.page.bar.primary.isEnabled()
 
 
 def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
@@ -441,10 +440,10 @@ def test_without_a_probe_it_is_locked(opened, tmp_path, qtbot):
     window = opened(tmp_path / "empty", wait=False)
     panel = window.page.panel
     assert "no probe yet" in said(window)
-    assert panel.go_button.isVisible()
+    assert window.page.bar.primary.text() == "Go to Probe"
     assert not panel.body.isVisible()
     with qtbot.waitSignal(window.bench.go_to) as asked:
-        panel.go_button.click()
+        window.page.bar.primary.click()
     assert asked.args == [Step.PROBE]
 
 
@@ -463,13 +462,13 @@ def test_nothing_outlives_the_page(window, opened, qtbot):
 def test_nothing_is_cut_and_nothing_scrolls_sideways(window):
     panel = window.page.panel
     window.page.setStyleSheet(style_sheet(False))
-    for width in (340, 400):
+    for width in (320, 400):
         window.page.setFixedWidth(width)
         for tool in ("look", "brush", "fill", "box", "plane"):
             panel.tools.choose(tool)
             window.repaint()
             assert panel.widget().minimumSizeHint().width() <= panel.viewport().width()
-    for button in (panel.apply_button, panel.regions.add_button, panel.shape.grow_button):
+    for button in (window.page.bar.primary, panel.regions.add_button, panel.shape.grow_button):
         assert button.height() >= 36 or not button.isVisible()
 
 

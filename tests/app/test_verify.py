@@ -49,6 +49,11 @@ def window(qtbot, calibrated, tmp_path):
     made.close()
 
 
+def offered(page):
+    """What the page offers to do next, if it can be done."""
+    return page.bar.primary.text() if page.bar.primary.isEnabled() else ""
+
+
 def spread(window, count):
     panel = window.page.panel_markers
     panel.count.setValue(count)
@@ -58,11 +63,11 @@ def spread(window, count):
 
 def test_the_whole_way_by_clicks(window):
     page, touch = window.page, window.page.panel_touch
-    assert not touch.start.isEnabled()
+    assert not page.bar.primary.isEnabled()
     spread(window, 2)
     page.tabs.setCurrentIndex(3)
-    window.click(touch.start)
-    window.wait(lambda: touch.finish.isEnabled())
+    window.click(page.bar.primary)
+    window.wait(lambda: offered(page) == "Finish")
     assert Step.VERIFY in window.bench.running
     assert not page.panel_markers.spread.isEnabled()
     page.tick()
@@ -75,9 +80,9 @@ def test_the_whole_way_by_clicks(window):
     assert "accepted" in page.panel_touch.sounds.played
     assert touch.error.number.endswith("mm")
     assert "All markers" in touch.next.text()
-    window.click(touch.finish)
+    window.click(page.bar.primary)
     window.wait(
-        lambda: page.work.outcome is not None and not page.work.going_on and touch.start.isVisibleTo(touch)
+        lambda: page.work.outcome is not None and not page.work.going_on and offered(page) == "Next: Export"
     )
     assert page.work.outcome.passed
     assert page.tabs.currentIndex() == 4
@@ -122,14 +127,14 @@ def test_a_touch_that_does_not_count_is_said_in_words(window):
     spread(window, 1)
     page = window.page
     page.start()
-    window.wait(lambda: page.panel_touch.finish.isEnabled())
+    window.wait(lambda: offered(page) == "Finish")
     press(window.bench.live, page.work.markers.all[0].point_S, force=4.0)
     page.tick()
     assert page.panel_touch.state.state == "rejected"
     assert "force out of window (" in page.panel_touch.state.detail.lower()
     assert page.panel_touch.sounds.played[-1] == "rejected"
-    window.click(page.panel_touch.discard)
-    window.wait(lambda: not page.work.going_on and page.panel_touch.start.isEnabled())
+    window.click(page.bar.second)
+    window.wait(lambda: not page.work.going_on and offered(page) == "Start touching")
     assert ("recording", "verify-1.mcap") not in window.desk.state.current_inputs
 
 
@@ -202,7 +207,7 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     spread(window, 2)
     page = window.page
     page.start()
-    window.wait(lambda: page.panel_touch.finish.isEnabled())
+    window.wait(lambda: offered(page) == "Finish")
     window.click(page.panel_touch.skip)
     dialog = page.window().findChild(QInputDialog)
     assert "M1" in dialog.labelText()
@@ -219,7 +224,7 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     assert page.panel_markers.table.item(0, 4).text() == "left out"
     press(window.bench.live, page.work.markers.all[1].point_S)
     page.tick()
-    window.click(page.panel_touch.finish)
+    window.click(page.bar.primary)
     window.wait(lambda: page.work.outcome is not None and not page.work.going_on)
     assert page.work.outcome.passed
     assert any("M1 (the arm cannot get there)" in note for note in page.work.outcome.found.verdict.notes)
@@ -245,9 +250,9 @@ def test_without_calibration_or_devices_the_page_says_what_to_do(qtbot, tmp_path
     try:
         page, went = window.page, []
         window.bench.go_to.connect(went.append)
-        assert "Gravity" in page.locked.text()
+        assert "Gravity" in page.bar.words
         assert not page.tabs.isVisible()
-        window.click(page.go)
+        window.click(page.bar.primary)
         assert went == [Step.GRAVITY]
         page.tick()
         assert "No sensor" in page.panel_touch.state.detail

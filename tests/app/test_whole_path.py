@@ -83,7 +83,7 @@ def check_a_pose(hand):
 
 
 def prepare_the_probe(hand):
-    hand.press("Go on: Probe")
+    hand.press("Next: Probe")
     hand.press("Use the virtual bench's housing")
     hand.until(lambda: hand.enabled("Use this probe"), "the probe to be prepared", LONG)
     advised = hand.reading("facets: contacts move")
@@ -96,7 +96,7 @@ def prepare_the_probe(hand):
 
 
 def paint_a_region(hand):
-    hand.press("In use. Go on: Regions", LONG)
+    hand.press("Next: Regions", LONG)
     hand.press("Add", LONG)
     scene = hand.find("3D view of the probe", QWidget)
     x, y = scene.width() // 2, scene.height() // 2
@@ -110,12 +110,11 @@ def paint_a_region(hand):
 
 
 def verify(hand):
-    hand.press("Go on to Verify")
+    hand.press("Next: Verify")
     hand.until(lambda: hand.enabled("Spread evenly"), "the probe to be loaded", LONG)
     hand.choose("Where markers are placed", "the whole probe")
     hand.type("How many markers", "6")
     hand.press("Spread evenly", LONG)
-    hand.press("Go on: touch them", LONG)
     hand.press("Start touching", LONG)
     hand.press("Touch all", LONG)
     hand.read("All markers are touched", LONG)
@@ -125,7 +124,7 @@ def verify(hand):
 
 
 def export(hand, bundle):
-    hand.press("Go on: Export")
+    hand.press("Next: Export")
     hand.read("Verified: ready to be exported", LONG)
     hand.name_file("Export a file", bundle)
     hand.until(bundle.exists, "the bundle", LONG)

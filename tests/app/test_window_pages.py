@@ -19,10 +19,6 @@ def test_every_page_is_visited_on_the_virtual_bench_without_a_complaint(qtbot, m
         assert window.pages.step is step
         assert window.pages.current.step is step
         beats(qtbot, window)
-        assert window.pages.current.minimumSizeHint().width() <= 400, step
     assert [text for text in window.messages.texts() if "went wrong" in text] == []
-    window.resize(1280, 800)
-    beats(qtbot, window)
-    assert (window.width(), window.height()) == (1280, 800)  # nothing asks for more
     close(qtbot, window)
     assert "error" not in window.messages.weights()

@@ -1,0 +1,173 @@
+"""Every page of the real window, in both languages, at four sizes and two scales: nothing is cut, covered or moved."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import trimesh
+from benchmarks.window.access_faults import access_faults, pale
+from benchmarks.window.layout_faults import layout_faults
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QLabel, QMainWindow, QPushButton, QScrollArea, QToolButton, QWidget
+from workbench.touch_session import make_session, verify
+
+from contactbench.app.window_docks import SMALLEST, first_size
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.action_bar import ActionBar
+from contactbench.widgets.theme import colours, contrast, use_theme
+
+from .conftest import beats, shown
+
+LEAST = 4.5  # contrast, as WCAG 2.1 asks for
+LONG_S = 500
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A session that is verified, and a mesh to begin another probe with."""
+    folder = tmp_path_factory.mktemp("walk")
+    (folder / "files").mkdir()
+    verify(make_session(folder / "bench 1", folder / "files"))
+    trimesh.creation.icosphere(2, radius=50).export(folder / "ball.stl")
+    return folder
+
+
+@pytest.mark.timeout(LONG_S + 60)
+@pytest.mark.parametrize(("scale", "more"), [("1", ["--access"]), ("2", [])])
+def test_every_page_is_whole_at_every_size(made, tmp_path, scale, more):
+    here = Path(__file__).parent.parent
+    command = [sys.executable, "-m", "benchmarks.window.walk", str(made / "bench 1"), str(made / "ball.stl")]
+    surroundings = os.environ | {"QT_SCALE_FACTOR": scale, "CONTACTBENCH_HOME": str(tmp_path / "home")}
+    done = subprocess.run(
+        [*command, *more],
+        cwd=here,
+        env=surroundings,
+        capture_output=True,
+        text=True,
+        timeout=LONG_S,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    found = json.loads(done.stdout)["found"]
+    assert not found, "\n".join(f"{what} ({', '.join(where)})" for what, where in found.items())
+
+
+def test_pages_without_anything_are_whole(qtbot, make_window, tmp_path):
+    use_theme("light")
+    window = make_window()
+    window.resize(*SMALLEST)
+    window.start.question.ask("What shall be done with it?", (("This", lambda: None), ("That", lambda: None)))
+    assert lasting(qtbot, window) == []
+    accented = [each.text() for each in window.start.findChildren(QPushButton) if each.property("primary")]
+    assert accented == ["This"]
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "a session"))
+    for step in Step:
+        window.show_step(step)
+        qtbot.waitUntil(lambda: not window.bench.jobs.running, timeout=60_000)
+        assert lasting(qtbot, window) == [], step
+        assert window.pages.current.bar.primary.text(), step
+
+
+def lasting(qtbot, window):
+    """Faults that are still there when everything has found its place."""
+    for _ in range(20):
+        beats(qtbot, window, 2)
+        found = layout_faults(window)
+        if not found:
+            break
+    return found
+
+
+class Screen:
+    def __init__(self, width, height):
+        self._size = QSize(width, height)
+
+    def availableSize(self):
+        return self._size
+
+
+@pytest.mark.parametrize("screen", [(1366, 768), (1920, 1080), (2560, 1440)])
+@pytest.mark.parametrize("scale", [1.0, 1.25, 1.5, 2.0])
+def test_the_first_window_lies_within_the_screen(screen, scale):
+    room = [int(each / scale) for each in screen]
+
+    class Somewhere:
+        def screen(self):
+            return Screen(*room)
+
+    size = first_size(Somewhere()).toTuple()
+    for given, there, least, frame in zip(size, room, SMALLEST, (4, 36), strict=True):
+        assert least <= given <= there - frame
+    assert size[0] >= min(1280, room[0] - 4), "as large as it is of use"
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_what_is_written_stands_out_from_what_it_is_written_on(theme):
+    c = colours(theme == "dark")
+    for ground in (c.panel, c.background):
+        for name in ("text", "muted", "accent", "good", "warning", "bad", "stale"):
+            assert contrast(getattr(c, name), ground) >= LEAST, (name, ground)
+    assert contrast(c.panel, c.accent) >= LEAST  # on the primary button
+    # Lines are told by their strokes, too.
+    assert all(contrast(line, c.panel) >= 2.0 for line in c.series)
+
+
+def test_the_foot_of_a_page_never_moves(qtbot):
+    use_theme("light")
+    bar = ActionBar()
+    qtbot.addWidget(bar)
+    bar.resize(320, bar.sizeHint().height())
+    bar.show()
+    qtbot.waitExposed(bar)
+    bar.offer("Start", list)
+    places = [each.geometry() for each in (bar.primary, bar.second)]
+    bar.say("A sentence that is much longer than the two lines that there are for it. " * 4, bad=True)
+    bar.offer("Computing with a much longer text than there is room", list, enabled=False)
+    bar.offer_second("Something else that can be done now")
+    assert [each.geometry() for each in (bar.primary, bar.second)] == places
+    assert bar.height() == bar.sizeHint().height()
+    assert bar.primary.text() == "Computing with a much longer text than there is room"
+    assert "\n" in QPushButton.text(bar.primary)
+    pressed = []
+    bar.offer("Go", lambda: pressed.append(1))
+    bar.primary.click()
+    assert pressed == [1]
+
+
+def test_the_checks_find_what_they_are_for(qtbot):
+    root = QMainWindow()
+    qtbot.addWidget(root)
+    inside = QWidget()
+    root.setCentralWidget(inside)
+    root.resize(300, 300)
+    QPushButton("much too long for its width", inside).setGeometry(0, 0, 60, 36)
+    QLabel("over it", inside).setGeometry(30, 10, 100, 30)
+    QLabel("words that go on and on and that nobody can read", inside).setGeometry(0, 100, 90, 20)
+    mouse_only = QToolButton(inside)
+    mouse_only.setGeometry(0, 150, 30, 30)
+    mouse_only.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    QPushButton("out", inside).setGeometry(280, 150, 60, 30)
+    area = QScrollArea(inside)
+    area.setGeometry(0, 200, 100, 60)
+    wide = QWidget()
+    wide.setMinimumWidth(300)
+    area.setWidget(wide)
+    grey = QLabel("hardly there", inside)
+    grey.setGeometry(150, 200, 90, 20)
+    colour = grey.palette()
+    colour.setColor(QPalette.ColorRole.WindowText, colour.color(QPalette.ColorRole.Window).darker(110))
+    grey.setPalette(colour)
+    grey.setAutoFillBackground(True)
+    root.show()
+    qtbot.waitExposed(root)
+    found = "\n".join((*layout_faults(root), *access_faults(root, inside), *pale(root)))
+    for words in (
+        "button is cut", "words are cut", "overlap", "has no name", "sideways", "reaches out", "by keys", "too pale"
+    ):  # fmt: skip
+        assert words in found, (words, found)

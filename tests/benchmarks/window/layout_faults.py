@@ -1,0 +1,252 @@
+"""What can be judged of a window's layout without eyes: sentences on what is wrong, none where all is well."""
+
+from __future__ import annotations
+
+from itertools import chain
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractScrollArea,
+    QAbstractSlider,
+    QAbstractSpinBox,
+    QCheckBox,
+    QComboBox,
+    QDockWidget,
+    QGraphicsView,
+    QGroupBox,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QListView,
+    QMainWindow,
+    QPushButton,
+    QRadioButton,
+    QScrollArea,
+    QScrollBar,
+    QSplitter,
+    QStackedWidget,
+    QStyle,
+    QStyleOptionButton,
+    QStyleOptionComboBox,
+    QTabBar,
+    QTableView,
+    QToolBar,
+    QToolButton,
+    QWidget,
+)
+
+from contactbench.widgets.scene import Scene
+
+CONTROLS = (QAbstractButton, QComboBox, QAbstractSpinBox, QLineEdit, QAbstractSlider, QListView)
+
+
+def layout_faults(window: QWidget) -> list[str]:
+    """Return what does not fit, lies over something else, or cannot be seen."""
+    seen = VisibleWidgets(window)
+    return list(chain(_cut(seen), _cut_tables(seen), _sideways(seen), _outside(seen), _overlaps(seen)))
+
+
+class VisibleWidgets:
+    """The visible widgets of a window, looked for once, without the insides of other controls and of the 3D view."""
+
+    def __init__(self, window: QWidget) -> None:
+        self.window = window
+        self.all: list[QWidget] = []
+        self.children: dict[QWidget, list[QWidget]] = {}
+        self._walk(window)
+
+    def _walk(self, parent: QWidget) -> None:
+        below = [
+            each
+            for each in parent.children()
+            if isinstance(each, QWidget) and not each.isHidden() and not each.isWindow()
+        ]
+        if isinstance(parent, (QComboBox, QAbstractSpinBox, QTabBar, Scene)):
+            return
+        self.children[parent] = below
+        for each in below:
+            if isinstance(each, QScrollBar) or each.objectName() == "qt_toolbar_ext_button":
+                continue
+            self.all.append(each)
+            self._walk(each)
+
+    def of(self, *kinds: type) -> list[QWidget]:
+        return [each for each in self.all if isinstance(each, kinds)]
+
+
+def what(widget: QWidget) -> str:
+    """Return a few words on which widget it is."""
+    text = widget.text() if hasattr(widget, "text") else ""
+    name = text or widget.accessibleName() or widget.objectName()
+    return f"{type(widget).__name__} {name[:60]!r} ({widget.width()} x {widget.height()})"
+
+
+# ---- words that do not fit -----------------------------------------------------------------------------
+
+
+def _cut(seen: VisibleWidgets):
+    for button in seen.of(QPushButton, QToolButton, QCheckBox, QRadioButton):
+        if (
+            button.text()
+            and not _only_icon(button)
+            and _wide(button, QAbstractButton.text(button)) > _room(button)
+        ):
+            yield f"a button is cut: {what(button)}"
+    for label in seen.of(QLabel):
+        if label.text() and not _fits(label):
+            yield f"words are cut: {what(label)}"
+    yield from _cut_fields(seen)
+    yield from _cut_titles(seen)
+
+
+def _cut_fields(seen: VisibleWidgets):
+    for box in seen.of(QComboBox):
+        option = QStyleOptionComboBox()
+        box.initStyleOption(option)
+        field = box.style().subControlRect(
+            QStyle.ComplexControl.CC_ComboBox, option, QStyle.SubControl.SC_ComboBoxEditField, box
+        )
+        if _wide(box, box.currentText()) > field.width() and box.currentText() not in box.toolTip():
+            yield f"a choice is cut: {box.currentText()} ({field.width()} px)"
+    for spin in seen.of(QAbstractSpinBox):
+        if _wide(spin, spin.text()) > spin.lineEdit().width() - 4:
+            yield f"a number is cut: {spin.text()} ({spin.lineEdit().width()} px)"
+    for line in seen.of(QLineEdit):
+        hint = line.placeholderText()
+        if hint and not line.text() and _wide(line, hint) > line.width() - 16 and hint not in line.toolTip():
+            yield f"a hint is cut: {hint} ({line.width()} px)"
+
+
+def _cut_titles(seen: VisibleWidgets):
+    for box in seen.of(QGroupBox):
+        if _wide(box, box.title()) > box.width():
+            yield f"a heading is cut: {box.title()}"
+    for bar in seen.of(QTabBar):
+        for index in range(bar.count()):
+            rect = bar.tabRect(index)
+            if _wide(bar, bar.tabText(index)) > rect.width() - 8 or not bar.rect().contains(rect):
+                yield f"a tab is cut: {bar.tabText(index)} ({rect.width()} px)"
+    for dock in seen.of(QDockWidget):
+        if _wide(dock, dock.windowTitle()) > dock.width() - 60 and dock.titleBarWidget() is None:
+            yield f"a dock's title is cut: {dock.windowTitle()}"
+
+
+def _cut_tables(seen: VisibleWidgets):
+    for table in seen.of(QTableView):
+        header: QHeaderView = table.horizontalHeader()
+        if header.isHidden():
+            continue
+        for column in range(header.count()):
+            if (
+                not header.isSectionHidden(column)
+                and header.sectionSize(column) < header.sectionSizeHint(column) - 1
+            ):
+                name = table.model().headerData(column, Qt.Orientation.Horizontal)
+                yield f"a heading of {what(table)} is cut: {name} ({header.sectionSize(column)} px)"
+
+
+def _only_icon(button: QWidget) -> bool:
+    style = Qt.ToolButtonStyle.ToolButtonIconOnly
+    return (
+        isinstance(button, QToolButton) and not button.icon().isNull() and button.toolButtonStyle() == style
+    )
+
+
+def _wide(widget: QWidget, text: str) -> int:
+    return widget.fontMetrics().size(Qt.TextFlag.TextShowMnemonic, text).width()
+
+
+def _room(button: QAbstractButton) -> int:
+    if isinstance(button, QPushButton):
+        option = QStyleOptionButton()
+        button.initStyleOption(option)
+        inner = button.style().subElementRect(QStyle.SubElement.SE_PushButtonContents, option, button)
+        used = 0 if button.icon().isNull() else button.iconSize().width() + 4
+        return min(inner.width(), button.width() - 4) - used + 4  # a little of the padding
+    if isinstance(button, (QCheckBox, QRadioButton)):
+        return button.width() - 24
+    return button.width()
+
+
+def _fits(label: QLabel) -> bool:
+    room = label.contentsRect()
+    if label.wordWrap():
+        return label.heightForWidth(
+            label.width()
+        ) <= label.height() + 2 and label.minimumSizeHint().width() <= (label.width() + 2)
+    if "<" in label.text():
+        return (
+            label.sizeHint().width() <= label.width() + 4 and label.sizeHint().height() <= label.height() + 2
+        )
+    size = label.fontMetrics().size(0, label.text())
+    return size.width() <= room.width() + 1 and size.height() <= room.height() + 2
+
+
+# ---- room that is not there ----------------------------------------------------------------------------
+
+
+def _sideways(seen: VisibleWidgets):
+    for area in seen.of(QAbstractScrollArea):
+        if isinstance(area, (QTableView, QHeaderView, QGraphicsView)):
+            continue  # a table may be scrolled: its first column says which row it is
+        inside = area.widget() if isinstance(area, QScrollArea) else None
+        wide = inside is not None and inside.width() > area.viewport().width()
+        if wide or area.horizontalScrollBar().isVisibleTo(seen.window):
+            yield f"scrolls sideways: {what(area)}, because of {_widest(area)}"
+
+
+def _widest(area: QAbstractScrollArea) -> str:
+    """Say which of what a scroll area shows needs the most room, and has no part that does."""
+    room = area.viewport().width() - 24
+    inside = [each for each in area.findChildren(QWidget) if not each.isHidden()]
+    wide = [each for each in inside if each.minimumSizeHint().width() > room]
+    deepest = [each for each in wide if not any(each.isAncestorOf(other) for other in wide)]
+    return ", ".join(f"{what(each)} needs {each.minimumSizeHint().width()}" for each in deepest[:3])
+
+
+def _outside(seen: VisibleWidgets):
+    """What reaches out of what it lies in: nobody can see or press all of it."""
+    for parent, below in seen.children.items():
+        if (
+            isinstance(parent, (Scene, QSplitter, QToolBar))
+            or parent.objectName() == "qt_scrollarea_viewport"
+        ):
+            continue
+        for each in below:
+            if not isinstance(each, (*CONTROLS, QLabel, QAbstractScrollArea)) or not each.isVisibleTo(
+                seen.window
+            ):
+                continue
+            if not _whole(each, parent, seen.window):
+                yield f"reaches out of its place: {what(each)} at {each.geometry().getRect()} in {what(parent)}"
+
+
+def _whole(widget: QWidget, parent: QWidget, window: QWidget) -> bool:
+    """Whether all of a widget can be seen in everything that it lies in, or scrolled to."""
+    rect = widget.geometry()
+    while parent.objectName() != "qt_scrollarea_viewport":
+        if not parent.rect().adjusted(-2, -2, 2, 2).contains(rect):
+            return False
+        if parent is window:
+            break
+        rect = rect.translated(parent.pos())
+        parent = parent.parentWidget()
+    return True
+
+
+def _overlaps(seen: VisibleWidgets):
+    for parent, below in seen.children.items():
+        if isinstance(parent, (Scene, QStackedWidget, QMainWindow)):
+            continue
+        drawn = [each for each in below if _drawn(each)]
+        for number, one in enumerate(drawn):
+            for other in drawn[:number]:
+                common = one.geometry() & other.geometry()
+                if common.width() > 2 and common.height() > 2:
+                    yield f"overlap: {what(one)} and {what(other)}"
+
+
+def _drawn(widget: QWidget) -> bool:
+    through = widget.testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+    return not through and isinstance(widget, (*CONTROLS, QLabel, QAbstractScrollArea, QGroupBox))

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
-from contactbench.app.help_book import HelpBook
 from contactbench.app.errors import in_words
+from contactbench.app.help_book import HelpBook
 from contactbench.app.jobs import Jobs
 from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.app.motion.picture import Picture

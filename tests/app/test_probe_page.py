@@ -251,7 +251,7 @@ def test_work_can_be_stopped_and_begun_again(qtbot, bench, page, tmp_path):
     page.stages.take(egg(tmp_path, "stop.stl"))
     qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
     assert bench.running == {Step.PROBE}
-    bench.jobs.running[0].cancel()  # as the status bar does
+    page.stages.worker._job.cancel()  # as the status bar does
     settled(qtbot, page)
     assert bench.running == set()
     assert page.bar.words.startswith("Stopped")

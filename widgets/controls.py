@@ -30,6 +30,7 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
     QWidget,
 )
+from shiboken6 import isValid
 
 from contactbench.widgets.icons import icon
 
@@ -286,6 +287,7 @@ class FoldRow(QLayout):
 
     def __init__(self, space: int = 6) -> None:
         super().__init__()
+        self.parts: list[QWidget] = []  # for who only wants to know them: items belong to Qt
         self._items: list[QLayoutItem] = []
         self._stretches: list[int] = []
         self.setSpacing(space)
@@ -295,6 +297,7 @@ class FoldRow(QLayout):
         """Put a part at the end; `stretch`: its share of the room that is left."""
         self.addWidget(part)
         self._stretches[-1] = stretch
+        self.parts.append(part)
         if alignment is not None:
             self._items[-1].setAlignment(alignment)
 
@@ -307,14 +310,17 @@ class FoldRow(QLayout):
 
     def count(self) -> int:
         """Return how many there are."""
+        self._forget_deleted()
         return len(self._items)
 
     def itemAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
         """Return one of them."""
+        self._forget_deleted()
         return self._items[index] if 0 <= index < len(self._items) else None
 
     def takeAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
         """Take one out."""
+        self._forget_deleted()
         if not 0 <= index < len(self._items):
             return None
         del self._stretches[index]
@@ -355,7 +361,14 @@ class FoldRow(QLayout):
 
     # ---- lines -------------------------------------------------------------------------------------
 
+    def _forget_deleted(self) -> None:
+        """Forget items that went with the widget that they lie in: Qt asks once more while it takes that down."""
+        if not all(map(isValid, self._items)):
+            there = [pair for pair in zip(self._items, self._stretches, strict=True) if isValid(pair[0])]
+            self._items, self._stretches = [each for each, _ in there], [each for _, each in there]
+
     def _shown(self) -> list[QLayoutItem]:
+        self._forget_deleted()
         return [item for item in self._items if not item.isEmpty()]
 
     def _around(self, width: int, height: int) -> QSize:
@@ -386,6 +399,7 @@ class FoldRow(QLayout):
         return max(top - space, rect.y() + margins.top()) - rect.y() + margins.bottom()
 
     def _lines(self, wide: int) -> list[list[tuple[QLayoutItem, int]]]:
+        self._forget_deleted()
         lines: list[list[tuple[QLayoutItem, int]]] = []
         left = -1
         for item, stretch in zip(self._items, self._stretches, strict=True):
@@ -589,6 +603,8 @@ def _as_laid_out(widget: QWidget) -> Iterator[QWidget]:
 
 
 def _parts(layout: QLayout | None) -> list[QWidget]:
+    if isinstance(layout, FoldRow):
+        return [each for each in layout.parts if isValid(each)]
     found: list[QWidget] = []
     for index in range(0 if layout is None else layout.count()):
         item = layout.itemAt(index)  # type: ignore[union-attr]

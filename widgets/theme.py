@@ -212,7 +212,8 @@ QGroupBox::title {{ subcontrol-origin: margin; left: 2px; color: {muted}; }}
 QDockWidget {{ titlebar-close-icon: url({pictures}/close-{which}.svg);
   titlebar-normal-icon: url({pictures}/float-{which}.svg); }}
 QDockWidget::title {{ background: {background}; padding: 6px 8px 2px 8px; border-bottom: 1px solid {line}; }}
-QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; }}
+QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; border: 1px solid transparent; border-radius: 4px; }}
+QCheckBox:focus, QRadioButton:focus {{ border-color: {accent}; }}
 QCheckBox::indicator, QRadioButton::indicator {{ width: 18px; height: 18px; }}
 QTabWidget::pane {{ border: none; border-top: 1px solid {line}; }}
 QTabBar {{ qproperty-drawBase: 0; }}

@@ -30,6 +30,7 @@ from contactbench.widgets.controls import (
     PanelScroll,
     check_box,
     column,
+    finish,
     plain_label,
     push_button,
     row,
@@ -155,6 +156,7 @@ class ExportPage(Page):
 
     def _show(self, view: ExportView) -> None:
         self.checklist.show_items(view.items)
+        finish(self)  # its buttons are new: the tabulator key comes to them where they are
         preview = view.preview
         if preview is None:
             problem = self._problem(view)

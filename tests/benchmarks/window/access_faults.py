@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QApplication,
     QDockWidget,
     QLabel,
+    QScrollArea,
     QToolBar,
     QToolButton,
     QWidget,
@@ -81,9 +82,15 @@ def _disordered(page: QWidget):
     for one, other in pairwise(at):
         up = at[other].y() < at[one].y() - _LINE_PX
         back = abs(at[other].y() - at[one].y()) <= _LINE_PX and at[other].x() < at[one].x()
-        inside = one.isAncestorOf(other) or other.isAncestorOf(one)
-        if (up or back) and not inside:
+        if (up or back) and _scrolled(one) is _scrolled(other):  # else they move against each other
             yield f"the tabulator key goes back: from {what(one)} to {what(other)}"
+
+
+def _scrolled(widget: QWidget) -> QWidget | None:
+    parent = widget.parentWidget()
+    while parent is not None and not isinstance(parent, QScrollArea):
+        parent = parent.parentWidget()
+    return parent
 
 
 def _unseen_focus(page: QWidget):

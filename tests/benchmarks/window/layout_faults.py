@@ -94,7 +94,7 @@ def _cut(seen: VisibleWidgets):
         ):
             yield f"a button is cut: {what(button)}"
     for label in seen.of(QLabel):
-        if label.text() and not _fits(label):
+        if label.text() and not _fits(label) and label.text() not in label.toolTip():
             yield f"words are cut: {what(label)}"
     yield from _cut_fields(seen)
     yield from _cut_titles(seen)

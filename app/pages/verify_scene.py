@@ -12,7 +12,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import Reason
-from contactbench.widgets.scene import LocatedTouches
+from contactbench.widgets.scene import TouchErrors
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -193,7 +193,7 @@ class VerifyScene:
         self._bench.jobs.failed.emit(None, error)
 
 
-def located(found: Verification) -> LocatedTouches | None:
+def located(found: Verification) -> TouchErrors | None:
     """Return the accepted touches of a verification, and where the rejected ones could be as well; None: no touch."""
     used = [each for each in found.touches if each.accepted and each.point_mm and each.error_mm]
     if not used:
@@ -202,7 +202,7 @@ def located(found: Verification) -> LocatedTouches | None:
     upper = np.array([each.covariance_mm2 or (np.nan,) * 6 for each in used])
     covariances = 1e-6 * upper[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
     rivals = [place for each in found.touches for place in each.rivals_mm]
-    return LocatedTouches(
+    return TouchErrors(
         points - 1e-3 * np.array([each.error_mm for each in used]),
         points,
         covariances,
@@ -210,11 +210,11 @@ def located(found: Verification) -> LocatedTouches | None:
     )
 
 
-def _live(view: TouchView) -> LocatedTouches | None:
+def _live(view: TouchView) -> TouchErrors | None:
     pairs = view.contacts
     if not pairs:
         return None
-    return LocatedTouches(np.array([start for start, _ in pairs]), np.array([end for _, end in pairs]))
+    return TouchErrors(np.array([start for start, _ in pairs]), np.array([end for _, end in pairs]))
 
 
 def _worst(found: Verification) -> str | None:

@@ -33,7 +33,7 @@ _SIDES = 12
 
 
 @dataclass(frozen=True, eq=False)
-class LocatedTouches:
+class TouchErrors:
     """Touches of markers, and where they were located; all in S, m."""
 
     markers: NDArray[np.float64]  # (k, 3)
@@ -58,14 +58,14 @@ class ErrorLayer:
 
     Attributes
     ----------
-    touches : LocatedTouches or None
+    touches : TouchErrors or None
     times : float
         By what all about a marker is larger than it is.
     """
 
     def __init__(self, stage: SceneStage) -> None:
         self._stage = stage
-        self.touches: LocatedTouches | None = None
+        self.touches: TouchErrors | None = None
         self.times = 1.0
         self._under, self._shafts = Shape(stage, vtkPolyData()), Shape(stage, vtkPolyData())
         self._heads, self._ellipses = Shape(stage, vtkPolyData()), Shape(stage, vtkPolyData())
@@ -105,7 +105,7 @@ class ErrorLayer:
 
     def show(
         self,
-        touches: LocatedTouches | None,
+        touches: TouchErrors | None,
         picker: Picker | None,
         normals: NDArray[np.float64] | None,
     ) -> None:
@@ -150,7 +150,7 @@ class ErrorLayer:
 
     def _rings(
         self,
-        touches: LocatedTouches,
+        touches: TouchErrors,
         tips: NDArray[np.float64],
         colours: NDArray[np.uint8],
         picker: Picker | None,

@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from contactbench.widgets.scene.ahead import Ahead
 from contactbench.widgets.scene.brush_layer import BrushLayer
 from contactbench.widgets.scene.contact_layer import ContactLayer
-from contactbench.widgets.scene.error_layer import ErrorLayer, LocatedTouches
+from contactbench.widgets.scene.error_layer import ErrorLayer, TouchErrors
 from contactbench.widgets.scene.eye import Eye
 from contactbench.widgets.scene.fields import limits_of
 from contactbench.widgets.scene.force_layer import ForceLayer
@@ -247,7 +247,7 @@ class Scene(QWidget):
         self._start_pulse()
         self.redraw()
 
-    def show_errors(self, touches: LocatedTouches | None) -> None:
+    def show_errors(self, touches: TouchErrors | None) -> None:
         """Show how far touches were located from their markers; how many times as long is said beside the view."""
         probe = self.probe_layer.probe
         self._errors.show(touches, self.probe_layer.picker, None if probe is None else probe.normals)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QGuiApplication
 
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.pipeline.mesh.regions.region import Region
-from contactbench.widgets.scene import LocatedTouches
+from contactbench.widgets.scene import TouchErrors
 from contactbench.widgets.scene.error_layer import magnification
 from contactbench.widgets.scene.label_places import BESIDE, Word, label_places
 
@@ -18,7 +18,7 @@ OFF = np.array([[1e-4, 0.0, 0.0], [0.0, 0.0, 2e-4], [-3e-4, 0.0, 0.0], [0.0, 0.0
 
 def touches(**more):
     covariances = np.tile(np.diag([4e-10, 1e-14, 1e-10]), (4, 1, 1))
-    return LocatedTouches(FRONT, FRONT + OFF, covariances, **more)
+    return TouchErrors(FRONT, FRONT + OFF, covariances, **more)
 
 
 # ---- where words stand ------------------------------------------------------------------------------
@@ -120,13 +120,13 @@ def test_the_magnification_fits_the_probe(mm, times):
 def test_one_wrong_touch_takes_neither_colours_nor_lengths_from_the_others():
     sizes = np.append(np.full(19, 2e-4), 5e-3)
     off = np.column_stack([sizes, np.zeros((20, 2))])
-    found = LocatedTouches(np.zeros((20, 3)), off)
+    found = TouchErrors(np.zeros((20, 3)), off)
     assert found.top == pytest.approx(2e-4)
     assert magnification(sizes, 0.1) * 5e-3 <= 0.04
 
 
 def test_a_touch_without_an_error_or_a_covariance_is_drawn(bench):
-    unknown = LocatedTouches(FRONT, FRONT, np.full((4, 3, 3), np.nan), FRONT[:1])
+    unknown = TouchErrors(FRONT, FRONT, np.full((4, 3, 3), np.nan), FRONT[:1])
     bench.scene.show_errors(unknown)
     bench.settle()
     words = [sign.words for sign in bench.scene.key.signs]

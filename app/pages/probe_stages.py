@@ -375,7 +375,7 @@ class ProbeStages(QObject):
     @property
     def _surface(self) -> object:
         """What a comparison of numbers of facets rests on."""
-        return (self.mesh, replace(self.plan, **dict.fromkeys(TARGETS)))
+        return (self.mesh, replace(self.plan, facets=None, max_deviation=None, max_contact_error=None))
 
     # ---- how many facets ---------------------------------------------------------------------------
 

@@ -51,7 +51,7 @@ def draft_of(state: State) -> ProbeDraft | None:
         mesh, given = str(value["mesh"]), dict(value["plan"])
         known = state.input_with(mesh)
         name = "" if known is None else known.name
-        chosen = {key: tuple(each) if key in _LISTS else each for key, each in given.items()}
+        chosen: dict[str, Any] = {key: tuple(each) if key in _LISTS else each for key, each in given.items()}
         placed = value.get("alignment")
         alignment = None if placed is None else from_json(str(placed).encode(), f"{DRAFT}.alignment")
         plan = ProbePlan(alignment=alignment, painted=bool(value.get("painted", True)), **chosen)

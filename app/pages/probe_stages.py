@@ -366,8 +366,7 @@ class ProbeStages(QObject):
     @property
     def _surface(self) -> object:
         """What a comparison of numbers of facets rests on."""
-        untargeted: dict[str, Any] = dict.fromkeys(TARGETS)
-        return (self.mesh, replace(self.plan, **untargeted))
+        return (self.mesh, replace(self.plan, facets=None, max_deviation=None, max_contact_error=None))
 
     # ---- how many facets ---------------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ from shiboken6 import isValid
 from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from PySide6.QtGui import QFontMetrics, QResizeEvent
     from PySide6.QtWidgets import QLayoutItem, QProgressBar
@@ -46,9 +46,10 @@ _SHORT = 12  # characters of a list of choices whose words somebody else chose
 _BESIDE_PX, _CHECK_PX = 34, 30  # of a button, of a check box
 _IGNORED = QSizePolicy.Policy.Ignored
 _Field = TypeVar("_Field", bound=QWidget)
-_Button: Any = (
-    QAbstractButton if TYPE_CHECKING else object
-)  # with two Qt classes as its bases a button crashes
+if TYPE_CHECKING:
+    _Button = QAbstractButton
+else:
+    _Button = object  # with two Qt classes as its bases a button crashes
 
 
 # ---- parts -----------------------------------------------------------------------------------------
@@ -231,7 +232,8 @@ class ElidedLabel(QLabel):
 
     def _elide(self) -> None:
         room, metrics = self.contentsRect().width(), self.fontMetrics()
-        shown, rest = [], self._words
+        shown: list[str] = []
+        rest = self._words
         while rest and len(shown) < self._lines - 1:
             line, rest = _first_line(rest, metrics, room)
             shown.append(line)
@@ -313,12 +315,12 @@ class FoldRow(QLayout):
         self._forget_deleted()
         return len(self._items)
 
-    def itemAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
+    def itemAt(self, index: int) -> QLayoutItem | None:
         """Return one of them."""
         self._forget_deleted()
         return self._items[index] if 0 <= index < len(self._items) else None
 
-    def takeAt(self, index: int) -> QLayoutItem | None:  # type: ignore[override]
+    def takeAt(self, index: int) -> QLayoutItem | None:
         """Take one out."""
         self._forget_deleted()
         if not 0 <= index < len(self._items):
@@ -591,6 +593,7 @@ def _order_keys(root: QWidget) -> None:
 
 def _as_laid_out(widget: QWidget) -> Iterator[QWidget]:
     yield widget
+    below: Sequence[QWidget | None]
     if isinstance(widget, QScrollArea):
         below = [widget.widget()]
     elif isinstance(widget, QTabWidget):
@@ -608,8 +611,8 @@ def _parts(layout: QLayout | None) -> list[QWidget]:
     found: list[QWidget] = []
     for index in range(0 if layout is None else layout.count()):
         item = layout.itemAt(index)  # type: ignore[union-attr]
-        if item is not None and item.widget() is not None:
-            found.append(item.widget())
+        if item is not None and (widget := item.widget()) is not None:
+            found.append(widget)
         elif item is not None:
             found += _parts(item.layout())
     return found

@@ -7,10 +7,11 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QVBoxLayout, QWidget
 
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
+    FoldRow,
     PanelScroll,
     accent,
     choice,
@@ -264,5 +265,5 @@ class MotionControls(QWidget):
         }
 
 
-def _even(*widgets: QWidget) -> QHBoxLayout:
+def _even(*widgets: QWidget) -> FoldRow:
     return row(*((each, 1) for each in widgets))

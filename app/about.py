@@ -56,7 +56,7 @@ def _licence(part: Distribution) -> str:
         given = (meta.get_all("License") or [""])[0].strip().partition("\n")[0]
     if given.startswith("Copyright"):  # the text of a licence, not its name
         given = ""
-    return given[:_LONGEST] or QCoreApplication.translate("AboutDialog", "see its own files")
+    return given[:_LONGEST] or QCoreApplication.translate("AboutDialog", "see the package's own files")
 
 
 class AboutDialog(ShowDialog):
@@ -68,16 +68,17 @@ class AboutDialog(ShowDialog):
         title = plain_label(self.tr("contactbench {}").format(__version__), "title")
         words = QLabel(
             self.tr(
-                "Finds where a probe is touched, from one force/torque sensor, and how sure that is. Licensed under"
-                " the Apache License 2.0. A tool for the bench and for research: no medical device."
+                "Locates contacts on a probe from a single force/torque sensor and states how certain"
+                " each one is. Licensed under the Apache License 2.0. For bench work and research only:"
+                " not a medical device."
             ),
             wordWrap=True,
         )
         self.licences = QTextBrowser()
-        self.licences.setAccessibleName(self.tr("Licences of the parts"))
+        self.licences.setAccessibleName(self.tr("Component licences"))
         rows = "".join(
             f"<tr><td>{part.name}&nbsp;&nbsp;</td><td>{part.version}&nbsp;&nbsp;</td><td>{part.licence}</td></tr>"
             for part in parts()
         )
         self.licences.setHtml(f"<table>{rows}</table>")
-        self.fill(title, words, QLabel(self.tr("Its parts and their licences:")), self.licences)
+        self.fill(title, words, QLabel(self.tr("Components and their licences:")), self.licences)

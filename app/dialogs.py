@@ -99,7 +99,7 @@ class CheatSheet(ShowDialog):
         self.setWindowTitle(self.tr("Shortcuts"))
         keys = (*keys_of(window), *self._handled())
         self.table = QTableWidget(len(keys), 2)
-        self.table.setHorizontalHeaderLabels([self.tr("Key"), self.tr("What it does")])
+        self.table.setHorizontalHeaderLabels([self.tr("Key"), self.tr("Action")])
         self.table.verticalHeader().hide()
         self.table.setShowGrid(False)
         self.table.setSelectionMode(QTableWidget.SelectionMode.NoSelection)
@@ -118,16 +118,16 @@ class CheatSheet(ShowDialog):
         """Return what widgets take themselves where they have the focus or the pointer; no action stands for it."""
         return (
             Key(self.tr("Delete"), self.tr("Leave out the selected poses; remove the selected markers")),
-            Key(self.tr("Return"), self.tr("Take the selected poses back")),
+            Key(self.tr("Return"), self.tr("Restore the selected poses")),
             Key(
                 self.tr("Arrow keys"),
-                self.tr("Choose a point of the chart of facets; move a handle of a range"),
+                self.tr("Choose a point in the facets chart; move a range handle"),
             ),
-            Key(self.tr("Left or right button, dragged"), self.tr("Turn the view")),
-            Key(self.tr("Middle button, dragged"), self.tr("Move the view")),
-            Key(self.tr("Wheel"), self.tr("Nearer or farther")),
-            Key(self.tr("Ctrl and wheel"), self.tr("Larger or smaller brush")),
-            Key(self.tr("Shift, held"), self.tr("The brush erases, the eraser paints")),
+            Key(self.tr("Drag with the left or right button"), self.tr("Rotate the view")),
+            Key(self.tr("Drag with the middle button"), self.tr("Pan the view")),
+            Key(self.tr("Wheel"), self.tr("Zoom in or out")),
+            Key(self.tr("Ctrl + wheel"), self.tr("Larger or smaller brush")),
+            Key(self.tr("Hold Shift"), self.tr("Swap brush and eraser")),
             Key(self.tr("Esc"), self.tr("Have the probe go back (motion control)")),
             Key(self.tr("P"), self.tr("Play or pause (heatmap viewer)")),
             Key(self.tr("Ctrl+S"), self.tr("Save a picture (heatmap viewer)")),

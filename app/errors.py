@@ -152,13 +152,13 @@ def _sentence(error: BaseException) -> tuple[str, bool]:
     if isinstance(error, OSError) and error.errno in _FULL:
         words = QCoreApplication.translate(
             "Faults",
-            "The disk is full ({}). What was recorded before is safe: free some space, then do it again.",
+            "The disk is full ({}). Earlier recordings are safe. Free some space, then try again.",
         )
         return words.format(error), True
     if isinstance(error, MemoryError):
         words = QCoreApplication.translate(
             "Faults",
-            "There is not enough memory for this: close other programs, or use a smaller file, then do it again.",
+            "Not enough memory. Close other programs or use a smaller file, then try again.",
         )
         return words, True
     return f"{type(error).__name__}: {error}", False

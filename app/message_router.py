@@ -57,8 +57,8 @@ class MessageRouter(QObject):
         """Tell of what nobody caught; once in the journal, too."""
         if not expected:
             sentence = self.tr(
-                "Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes"
-                " again, save diagnostics (menu File) and send them to whoever looks after this program."
+                "Unexpected error: {}. Your session is safe. Try again. If the error persists, save"
+                " diagnostics (File menu) and send them to your support contact."
             ).format(sentence)
         self.tell(Weight.WARNING if expected else Weight.ERROR, sentence, details)
         bench = self._bench()

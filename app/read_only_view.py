@@ -56,14 +56,15 @@ class ReadOnlyView(QObject):
     def _sentence(self, why: str) -> str:
         if why == "damaged":
             return self.tr(
-                "Read-only: this session is damaged. To go on working, close it, open it again and salvage a copy."
+                "Read-only: this session is damaged. To continue working, close it, open it again and"
+                " salvage a copy."
             )
         if why == "elsewhere":
             return self.tr(
-                "Read-only: another program is writing this session. It is shown as it was when it was opened."
+                "Read-only: another program is using this session. It is shown as it was when opened."
             )
         return self.tr(
-            "Read-only: the folder of this session cannot be written. To go on working, make it writable or copy it."
+            "Read-only: the session folder is not writable. To continue working, make it writable or copy it."
         )
 
     def _lock(self) -> None:

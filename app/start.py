@@ -63,8 +63,8 @@ class StartPage(QWidget):
         column.addWidget(title)
         words = QLabel(
             self.tr(
-                "Calibrate a force/torque sensor behind a probe, prepare the probe's mesh, verify contacts at the"
-                " bench, and export a bundle."
+                "Calibrate a force/torque sensor behind a probe, prepare the probe mesh, verify contacts"
+                " on the bench, and export a bundle."
             ),
             wordWrap=True,
         )
@@ -89,7 +89,7 @@ class StartPage(QWidget):
         self._recent.itemActivated.connect(self._open_recent)
         self._recent.itemClicked.connect(self._open_recent)
         column.addWidget(self._recent, 3)
-        hint = QLabel(self.tr("A session's folder can also be dropped on this window."), wordWrap=True)
+        hint = QLabel(self.tr("You can also drop a session folder on this window."), wordWrap=True)
         hint.setProperty("role", "muted")
         column.addWidget(hint)
         column.addStretch(1)
@@ -106,13 +106,11 @@ class StartPage(QWidget):
     def _buttons(self) -> FoldRow:
         self.virtual_button = QPushButton(icon("play", "panel"), self.tr("Try the virtual bench"))
         self.virtual_button.setProperty("primary", True)
-        self.virtual_button.setToolTip(
-            self.tr("A simulated sensor, robot and probe: nothing needs to be connected")
-        )
+        self.virtual_button.setToolTip(self.tr("Simulated sensor, robot and probe; no hardware needed"))
         self.new_button = QPushButton(icon("add"), self.tr("New session"))
-        self.new_button.setToolTip(self.tr("Begin with an empty folder for one sensor and one probe"))
+        self.new_button.setToolTip(self.tr("Start with an empty folder for one sensor and one probe"))
         self.open_button = QPushButton(icon("folder"), self.tr("Open session"))
-        self.open_button.setToolTip(self.tr("Go on with a session that is on this computer"))
+        self.open_button.setToolTip(self.tr("Open an existing session"))
         buttons = FoldRow()
         for button, signal in (
             (self.virtual_button, self.virtual),

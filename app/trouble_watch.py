@@ -81,7 +81,7 @@ class TroubleWatch(QObject):
         def look(_progress: object, cancelled: object) -> tuple[dict[str, str], tuple[str, ...]]:
             return self._watch.look(state, cancelled), other_problems(folder)  # type: ignore[arg-type]
 
-        bench.jobs.start(self.tr("Checking the session's files"), look, self._looked_at_all)
+        bench.jobs.start(self.tr("Checking session files"), look, self._looked_at_all)
 
     def _looked_at_all(self, found: tuple[dict[str, str], tuple[str, ...]]) -> None:
         self._files, others = found
@@ -115,26 +115,27 @@ class TroubleWatch(QObject):
             tell(Weight.ERROR, now.disk)
         elif before.disk and not now.disk:
             words = self.tr(
-                "The disk can be written again, and the session goes on. Do again what was refused;"
-                " what was recorded before is there."
+                "The disk is writable again and the session continues. Repeat the actions that were"
+                " refused; earlier recordings are intact."
             )
             tell(Weight.GOOD, words)
         if now.devices and now.devices != before.devices:
             tell(Weight.WARNING, now.devices)
         elif before.devices and not now.devices and self._bench.connected:
-            tell(Weight.GOOD, self.tr("The sensor is back: readings come again."))
+            tell(Weight.GOOD, self.tr("The sensor is back and sending readings."))
         new = [why for place, why in now.files.items() if before.files.get(place) != why]
         for why in reversed(new[:_MOST]):
             tell(Weight.ERROR, why)
         if new:
             words = (
                 self.tr(
-                    "A file of this session is not as it was written, so nothing that rests on it counts."
+                    "A file in this session has changed since it was written. Results that depend on it"
+                    " are invalid."
                 )
                 if len(now.files) == 1
                 else self.tr(
-                    "{} files of this session are not as they were written, so nothing that rests on them counts."
-                    " `contactbench session verify` lists them all."
+                    "{} files in this session have changed since they were written. Results that depend"
+                    " on them are invalid. Run `contactbench session verify` to list them."
                 ).format(len(now.files))
             )
             tell(Weight.ERROR, words)

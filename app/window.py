@@ -232,7 +232,7 @@ class MainWindow(QMainWindow):
         self.setUpdatesEnabled(True)
         self.start.set_busy(False)
         if opened is not None:
-            self.jobs.start(self.tr("Closing the session"), lambda _progress, _cancelled: opened.desk.close())
+            self.jobs.start(self.tr("Closing session"), lambda _progress, _cancelled: opened.desk.close())
             self._show_start()
         else:
             self.close_session()
@@ -270,7 +270,7 @@ class MainWindow(QMainWindow):
         self.pages.close()
         bench.let_go()
         self.jobs.start(
-            self.tr("Closing the session"),
+            self.tr("Closing session"),
             lambda _progress, _cancelled: self._end(bench),
             lambda _: self._session_closed(bench),
             partial(self._not_closed, bench),
@@ -313,7 +313,7 @@ class MainWindow(QMainWindow):
         step = self.pages.step
         done = [each for each, status in self.pages.statuses.items() if status.state is StepState.DONE]
         words = ", ".join(self.steps.name_of(each) for each in done)
-        words = self.tr("done: {}").format(words) if words else self.tr("begun")
+        words = self.tr("done: {}").format(words) if words else self.tr("started")
         self.settings.opened(bench.desk.folder, "" if step is None else step.value, words, write=False)
 
     # ---- steps -------------------------------------------------------------------------------------
@@ -328,7 +328,9 @@ class MainWindow(QMainWindow):
         self.pages.show(step)
         # At once: after a crash the window comes back to this page.
         self._remember_page(self.bench)
-        self.jobs.start(self.tr("Remembering the page"), lambda _progress, _cancelled: self.settings.write())
+        self.jobs.start(
+            self.tr("Saving the current page"), lambda _progress, _cancelled: self.settings.write()
+        )
         self.steps.show_step(step)
         self.docks.page_dock.setWindowTitle(
             self.tr("Step {} of {}: {}").format(

@@ -76,11 +76,11 @@ class LiveView(QObject):
             bench.live.open(sensor, poses if isinstance(poses, str) else None, mount_rotation(mount))
 
         def failed(error: BaseException) -> None:
-            words = self.tr("The devices of this session could not be opened: {} Choose them anew in step 1.")
+            words = self.tr("Could not open this session's devices: {} Choose them again in step 1.")
             reason = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}."
             bench.tell(Weight.WARNING, words.format(reason))
 
-        bench.jobs.start(self.tr("Opening the devices"), work, None, failed)
+        bench.jobs.start(self.tr("Opening devices"), work, None, failed)
 
     def tick(self) -> None:
         """Show the newest samples in the charts; a fault is told once, and leaves the charts as they are."""

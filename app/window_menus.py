@@ -61,7 +61,7 @@ class Menus(QObject):
         self._add(menu, self.tr("&Open session…"), sessions.ask_open, _KEY.Open)
         self._recent = menu.addMenu(self.tr("&Recent sessions"))
         self._recent.aboutToShow.connect(self._list_recent)
-        self._add(menu, self.tr("Open this session a&gain"), self.open_again, only_open=True)
+        self._add(menu, self.tr("&Reload session"), self.open_again, only_open=True)
         self._add(menu, self.tr("&Close session"), window.close_session, "Ctrl+W", only_open=True)
         menu.addSeparator()
         self._add(menu, self.tr("Save &diagnostics…"), self.ask_diagnostics)
@@ -91,12 +91,12 @@ class Menus(QObject):
         self._add(menu, self.tr("&Reset layout"), window.reset_layout, only_open=True)
         menu.addSeparator()
         themes = (
-            ("system", self.tr("As the &system")),
+            ("system", self.tr("Follow &system")),
             ("light", self.tr("&Light")),
             ("dark", self.tr("&Dark")),
         )
         self._choice(menu, self.tr("&Theme"), themes, window.settings.now.theme, window.set_theme)
-        languages = (("", self.tr("As the &computer")), *((code, name) for code, name in LANGUAGES.items()))
+        languages = (("", self.tr("Follow s&ystem")), *((code, name) for code, name in LANGUAGES.items()))
         self._choice(menu, self.tr("Lan&guage"), languages, window.settings.now.language, self._set_language)
         menu.addSeparator()
         full = self._add(menu, self.tr("&Full screen"), self._full_screen, "F11")
@@ -158,11 +158,9 @@ class Menus(QObject):
         """Show the log."""
         log = self._window.log
         stalls = self._window.heartbeat.stalls()
-        words = self.tr(
-            "The window stood still for at most {:.0f} ms; 99 of 100 times for at most {:.0f} ms."
-        )
+        words = self.tr("Longest UI stall {:.0f} ms; 99th percentile {:.0f} ms.")
         head = words.format(1000 * stalls.longest, 1000 * stalls.p99)
-        text = self.tr("No log is kept.") if log is None else f"{log.file}\n\n{log.read()}"
+        text = self.tr("Logging is off.") if log is None else f"{log.file}\n\n{log.read()}"
         dialog = TextDialog(self.tr("Log"), f"{head}\n{text}", self._window)
         dialog.view.moveCursor(dialog.view.textCursor().MoveOperation.End)
         dialog.open()
@@ -233,9 +231,7 @@ class Menus(QObject):
             ),
             lambda _: window.tell(
                 Weight.GOOD,
-                self.tr(
-                    "Diagnostics are saved as {}. They hold no recordings, no meshes and no names."
-                ).format(file),
+                self.tr("Diagnostics saved as {}. They contain no recordings, meshes or names.").format(file),
             ),
         )
 
@@ -289,7 +285,7 @@ class Menus(QObject):
 
     def _set_language(self, code: str) -> None:
         self._window.settings.change(language=code)
-        self._window.tell(Weight.INFO, self.tr("The language changes when contactbench is started again."))
+        self._window.tell(Weight.INFO, self.tr("The language changes after a restart of contactbench."))
 
     def _full_screen(self) -> None:
         self._window.setWindowState(self._window.windowState() ^ Qt.WindowState.WindowFullScreen)

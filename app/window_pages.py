@@ -162,7 +162,7 @@ class Pages(QObject):
                 self._facts = facts
                 self._judge()
 
-        bench.jobs.start(self.tr("Looking at the session"), lambda _p, _c: read_facts(folder, state), came)
+        bench.jobs.start(self.tr("Checking session"), lambda _p, _c: read_facts(folder, state), came)
 
     def _judge(self) -> None:
         bench = self._bench
@@ -248,6 +248,8 @@ class _Missing(Page):
 
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
-        words = self.tr("This page could not be made; the messages say why. The other steps can be used.")
+        words = self.tr(
+            "This page could not be created. See Messages for details. The other steps still work."
+        )
         self.bar.hide()
         self.fill(QLabel(words, wordWrap=True))

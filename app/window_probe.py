@@ -49,4 +49,4 @@ class SessionProbe(QObject):
                 scene.show_probe(found[0], regions=found[1])
                 scene.look("fit")
 
-        bench.jobs.start(self.tr("Reading the probe"), read, came)
+        bench.jobs.start(self.tr("Loading probe"), read, came)

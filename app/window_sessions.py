@@ -95,7 +95,7 @@ class Sessions(QObject):
             return {each.folder for each in recent if not holds_session(Path(each.folder))}
 
         self._jobs.start(
-            self.tr("Looking for recent sessions"),
+            self.tr("Finding recent sessions"),
             look,
             lambda missing: self._start.show_recent(self._settings.now.recent, missing),
         )
@@ -109,7 +109,7 @@ class Sessions(QObject):
             place = folder or free_folder(self._settings.sessions, "virtual bench")
             return virtual_session(place)
 
-        self._ask_for(lambda: self._begin(self.tr("Preparing the virtual bench"), work, Step.GRAVITY))
+        self._ask_for(lambda: self._begin(self.tr("Preparing virtual bench"), work, Step.GRAVITY))
 
     def open(self, folder: Path, *, write: bool = True) -> None:
         """Open a session; `write`: False opens it read-only, also if it is damaged or open elsewhere."""
@@ -134,15 +134,15 @@ class Sessions(QObject):
 
     def new(self, folder: Path) -> None:
         """Make a session."""
-        title = self.tr("Making {}").format(session_name(folder))
+        title = self.tr("Creating {}").format(session_name(folder))
         self._ask_for(lambda: self._begin(title, lambda _p, _c: new_session(folder), Step.DEVICES, folder))
 
     def ask_new(self) -> None:
         """Ask for a place and make a session."""
-        dialog = QFileDialog(self._start.window(), self.tr("Make a session in a new or empty folder"))
+        dialog = QFileDialog(self._start.window(), self.tr("Create a session in a new or empty folder"))
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setOption(QFileDialog.Option.ShowDirsOnly)
-        dialog.setLabelText(QFileDialog.DialogLabel.Accept, self.tr("Make session"))
+        dialog.setLabelText(QFileDialog.DialogLabel.Accept, self.tr("Create session"))
         dialog.setDirectory(str(self._place()))
         dialog.selectFile(free_folder(self._settings.sessions, "session").name)
         dialog.fileSelected.connect(lambda name: self.new(Path(name)))
@@ -151,7 +151,7 @@ class Sessions(QObject):
 
     def ask_open(self) -> None:
         """Ask for a folder and open it."""
-        dialog = QFileDialog(self._start.window(), self.tr("Open the folder of a session"))
+        dialog = QFileDialog(self._start.window(), self.tr("Open session folder"))
         dialog.setFileMode(QFileDialog.FileMode.Directory)
         dialog.setOption(QFileDialog.Option.ShowDirsOnly)
         dialog.setDirectory(str(self._place()))
@@ -221,20 +221,20 @@ class Sessions(QObject):
         one = len(opened.unfinished) == 1
         sentence = (
             self.tr(
-                "The last work on {} ended abruptly, while a recording was being made. Everything up to half a"
-                " second before the end is there. Take the recording into the session?"
+                "The last run on {} ended unexpectedly during a recording. Everything up to half a second"
+                " before that is intact. Add the recording to the session?"
             )
             if one
             else self.tr(
-                "The last work on {} ended abruptly, while {} recordings were being made. Everything up to half a"
-                " second before the end is there. Take the recordings into the session?"
+                "The last run on {} ended unexpectedly during {} recordings. Everything up to half a"
+                " second before that is intact. Add the recordings to the session?"
             )
         ).format(session_name(opened.desk.folder), len(opened.unfinished))
         self._start.question.ask(
             sentence,
             (
                 (
-                    self.tr("Take it in") if one else self.tr("Take them in"),
+                    self.tr("Add recording") if one else self.tr("Add recordings"),
                     lambda: self._adopt(opened, step),
                 ),
                 (
@@ -271,7 +271,7 @@ class Sessions(QObject):
             self._refused(error, opened.desk.folder)
 
         self._jobs.follow(
-            self.tr("Taking the recordings in"),
+            self.tr("Adding recordings"),
             opened.desk.do(lambda session: adopt(session)),
             adopted,
             failed,
@@ -286,7 +286,7 @@ class Sessions(QObject):
         problem = problem_with(error)
         if problem is None:
             sentence, details, _ = in_words(error)
-            problem = OpeningProblem(self.tr("The session could not be opened: {}").format(sentence), False)
+            problem = OpeningProblem(self.tr("Could not open the session: {}").format(sentence), False)
             self.told.emit("error", problem.sentence, details)
         if folder is not None and problem.damaged:
             self._look_at_damage(problem, folder)

@@ -66,14 +66,14 @@ class AlignmentPanel(QWidget):
         self._facet = -1
         self._toward: NDArray[np.float64] | None = None
         ways = (
-            self.tr("By numbers"),
-            self.tr("By matching points"),
-            self.tr("By the face on the sensor"),
-            self.tr("By touches of marked points"),
-            self.tr("By its shape"),
-            self.tr("From a file"),
+            self.tr("Enter numbers"),
+            self.tr("Match points"),
+            self.tr("Mounting face"),
+            self.tr("Touch marked points"),
+            self.tr("Estimate from shape"),
+            self.tr("Load from file"),
         )
-        name = self.tr("How the place of the mesh is given")
+        name = self.tr("Alignment method")
         self.way = choice(((each, None) for each in ways), name, short=True)
         self.stack = HeightStack(
             self._numbers_page(),
@@ -119,8 +119,8 @@ class AlignmentPanel(QWidget):
     # ---- the ways ----------------------------------------------------------------------------
 
     def _numbers_page(self) -> QWidget:
-        along = self.tr("The mesh's origin along {} of the sensor, in mm")
-        turned = self.tr("Turned about the fixed axis {} of the sensor, in degrees; x first, then y, then z")
+        along = self.tr("Mesh origin along sensor {}, mm")
+        turned = self.tr("Rotation about the sensor's fixed {} axis, degrees; applied in the order x, y, z")
         self.numbers = (
             *(self._number(1e4, " mm", 2, along.format(axis)) for axis in "xyz"),
             *(self._number(360.0, "°", 2, turned.format(axis)) for axis in "xyz"),
@@ -131,18 +131,18 @@ class AlignmentPanel(QWidget):
             for label, field in zip(labels, (moved, angle), strict=True):
                 label.setBuddy(field)
             rows.append(row(labels[0], (moved, 1), labels[1], (angle, 1)))
-        words = self.tr("Where the mesh's origin lies, and how the mesh is turned:")
-        self.place_numbers = push_button(self.tr("Place it so"), self._give_numbers)
+        words = self.tr("Position and rotation of the mesh in the sensor frame:")
+        self.place_numbers = push_button(self.tr("Apply placement"), self._give_numbers)
         return _page(sentence_label(words), *rows, self.place_numbers)
 
     def _points_page(self) -> QWidget:
         words = self.tr(
-            "Click a place on the mesh, then type where it lies in the sensor frame. Three places, far from"
-            " one another; a fourth shows a wrong one."
+            "Click a point on the mesh, then enter its position in the sensor frame. Use three widely"
+            " spaced points; a fourth reveals errors."
         )
         self.points = PointTable()
         self.place_points = push_button(
-            self.tr("Place it by these points"), lambda: self.points_given.emit(self.points.pairs())
+            self.tr("Align to these points"), lambda: self.points_given.emit(self.points.pairs())
         )
         self.place_points.setEnabled(False)
         self.points.changed.connect(lambda: self.place_points.setEnabled(self.points.complete))
@@ -150,13 +150,13 @@ class AlignmentPanel(QWidget):
 
     def _flange_page(self) -> QWidget:
         self.flange_words, rows = sentence_label(), form()
-        angle = self.tr("Angle of the second place from +x of the sensor about +z, degrees")
-        height = self.tr("Height of the mounting plane above the sensor's origin, mm")
+        angle = self.tr("Angle of the second point about +z, from the sensor's +x, degrees")
+        height = self.tr("Height of the mounting plane above the sensor origin, mm")
         self.clock = self._number(360.0, "°", 2, angle)
         self.height_mm = self._number(1e3, " mm", 3, height)
-        rows.addRow(self.tr("Second place at"), self.clock)
-        rows.addRow(self.tr("Height of the face"), self.height_mm)
-        self.place_flange = push_button(self.tr("Put this face on the sensor"), self._give_flange)
+        rows.addRow(self.tr("Second point at"), self.clock)
+        rows.addRow(self.tr("Face height"), self.height_mm)
+        self.place_flange = push_button(self.tr("Align this face"), self._give_flange)
         self.forget = push_button(self.tr("Pick again"), self._forget_flange)
         page = _page(self.flange_words, rows, self.place_flange, self.forget)
         self._show_flange()
@@ -164,34 +164,28 @@ class AlignmentPanel(QWidget):
 
     def _touches_page(self) -> QWidget:
         words = self.tr(
-            "Touch marked points of the probe, and choose the table of them: px, py, pz in the mesh, mm, and"
-            " fx to mz in the sensor frame. The place above is where the search begins."
+            "Touch marked points on the probe, then choose the table: px, py, pz in the mesh frame in mm,"
+            " and fx to mz in the sensor frame. The search starts from the placement above."
         )
         title, kinds = self.tr("Touches"), self.tr("Tables (*.csv)")
-        choose = push_button(
-            self.tr("Choose the touches..."), lambda: self._ask(title, kinds, self.touches_given)
-        )
+        choose = push_button(self.tr("Choose touches…"), lambda: self._ask(title, kinds, self.touches_given))
         return _page(sentence_label(words), choose)
 
     def _shape_page(self) -> QWidget:
         words = self.tr(
-            "The longest axis along z, the middle one along x. A guess that is good to begin with: look at it,"
-            " and correct it by numbers or touches."
+            "Puts the longest axis along z and the middle one along x. This is only a first guess: check"
+            " it, then correct it by numbers or touches."
         )
-        name = self.tr("Height of the probe's lowest point above the sensor's origin, mm")
+        name = self.tr("Height of the probe's lowest point above the sensor origin, mm")
         self.lowest, rows = self._number(1e3, " mm", 3, name), form()
         rows.addRow(self.tr("Lowest point at"), self.lowest)
-        place = push_button(
-            self.tr("Place it by its shape"), lambda: self.shape_given.emit(self.lowest.value())
-        )
+        place = push_button(self.tr("Align by shape"), lambda: self.shape_given.emit(self.lowest.value()))
         return _page(sentence_label(words), rows, place)
 
     def _file_page(self) -> QWidget:
-        words = self.tr("An alignment that contactbench wrote before.")
+        words = self.tr("An alignment saved by contactbench.")
         title, kinds = self.tr("Alignment"), self.tr("Alignments (*.json)")
-        choose = push_button(
-            self.tr("Choose the alignment..."), lambda: self._ask(title, kinds, self.file_given)
-        )
+        choose = push_button(self.tr("Choose alignment…"), lambda: self._ask(title, kinds, self.file_given))
         return _page(sentence_label(words), choose)
 
     # ---- what is asked for -----------------------------------------------------------------------
@@ -208,13 +202,13 @@ class AlignmentPanel(QWidget):
 
     def _show_flange(self) -> None:
         if self._facet < 0:
-            words = self.tr("Click the plane face of the mesh that sits on the sensor.")
+            words = self.tr("Click the flat face of the mesh that sits on the sensor.")
         elif self._toward is None:
             words = self.tr(
-                "The face is chosen. Click a second place that shows how the probe is turned about z, if you can."
+                "Face selected. If you can, click a second point that shows the rotation about z."
             )
         else:
-            words = self.tr("The face and the second place are chosen.")
+            words = self.tr("Face and second point selected.")
         self.flange_words.setText(words)
         self.place_flange.setEnabled(self._facet >= 0)
         self.forget.setEnabled(self._facet >= 0)

@@ -72,15 +72,17 @@ class CaptureState(QWidget):
             self._show(CAPTURED, self.tr("captured"), self.tr("Turn the tool to the next pose."), 1.0)
             return
         if state is StillState.STILL and by_key and not wanted:
-            self._show(ASKED, self.tr("still: SPACE"), self.tr("Press SPACE to take this pose."), share)
+            self._show(
+                ASKED, self.tr("still: press SPACE"), self.tr("Press SPACE to capture this pose."), share
+            )
             return
         words = {
             StillState.MOVING: (self.tr("moving"), self.tr("Hold the tool still.")),
             StillState.SETTLING: (self.tr("settling"), self.tr("Keep still.")),
-            StillState.STILL: (self.tr("still"), self.tr("Keep still: it is being averaged.")),
-            StillState.BUMPED: (self.tr("bumped"), self.tr("Keep still: it begins anew by itself.")),
-            StillState.TOUCHED: (self.tr("touched"), self.tr("Take away what touches the tool.")),
-            StillState.STALE: (self.tr("no samples"), self.tr("Nothing comes from the devices.")),
+            StillState.STILL: (self.tr("still"), self.tr("Keep still: averaging.")),
+            StillState.BUMPED: (self.tr("bumped"), self.tr("Keep still: capture restarts automatically.")),
+            StillState.TOUCHED: (self.tr("touched"), self.tr("Remove whatever is touching the tool.")),
+            StillState.STALE: (self.tr("no samples"), self.tr("The devices are not sending data.")),
         }
         word, line = words[state]
         if state is StillState.SETTLING and seconds is not None:

@@ -64,9 +64,9 @@ class Checklist(QFrame):
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
         self._grid.addWidget(words, row, 1)
         if not item.holds:
-            go = QPushButton(self.tr("Go there"))
+            go = QPushButton(self.tr("Open step"))
             go.setMinimumHeight(36)
-            go.setAccessibleName(self.tr("Go to {name}").format(name=name))
+            go.setAccessibleName(self.tr("Open {name}").format(name=name))
             go.clicked.connect(lambda _=False, step=item.step: self.wanted.emit(step))
             self._grid.addWidget(go, row, 2, Qt.AlignmentFlag.AlignTop)
 

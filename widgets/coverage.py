@@ -67,7 +67,7 @@ class Coverage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("Coverage of the directions of gravity"))
+        self.setAccessibleName(self.tr("Coverage of gravity directions"))
         self._rows: tuple[PoseRow, ...] = ()
         self._next: NDArray[np.float64] | None = None
         self._now: NDArray[np.float64] | None = None
@@ -101,7 +101,7 @@ class Coverage(QWidget):
         self._next, self._tilt = suggested, max_tilt
         counts = {state: sum(row.state is state for row in self._rows) for state in PoseState}
         self.setAccessibleDescription(
-            self.tr("Poses: {taken} taken, {left} left out, {rejected} rejected").format(
+            self.tr("Poses: {taken} captured, {left} left out, {rejected} rejected").format(
                 taken=counts[PoseState.TAKEN],
                 left=counts[PoseState.LEFT_OUT],
                 rejected=counts[PoseState.REJECTED],
@@ -168,7 +168,7 @@ class Coverage(QWidget):
         font.setPointSizeF(10)
         painter.setFont(font)
         painter.setPen(QColor(c.muted))
-        name = self.tr("gravity to the tool (+z)") if front else self.tr("away from it (-z)")
+        name = self.tr("gravity towards the tool (+z)") if front else self.tr("away from the tool (-z)")
         below = QRectF(disc.middle.x() - self.width() / 4, rim.bottom() + 4, self.width() / 2, 24)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, name)
 
@@ -222,6 +222,6 @@ class Coverage(QWidget):
             if away.x() ** 2 + away.y() ** 2 < _NEAR**2:
                 return f"{said(row.name)}: {said(row.words)}. {said(row.reason)}".strip()
         return self.tr(
-            "Where gravity pulled, seen from the sensor. Filled: taken; hollow: left out; cross: rejected; ring: the"
-            " next pose; dark dot: now. Poses that are spread out tell most."
+            "Gravity directions in the sensor frame. Filled: captured; hollow: left out; cross: rejected;"
+            " ring: next pose; dark dot: now. Well-spread poses give the best calibration."
         )

@@ -29,7 +29,7 @@ class DeviceTrial(QFrame):
         self._findings = QLabel()
         self._state.setProperty("role", "title")
         self._rate.setProperty("role", "number")
-        self._rate.setToolTip(self.tr("Readings a second, measured"))
+        self._rate.setToolTip(self.tr("Measured readings per second"))
         for label in (self._facts, self._findings):
             label.setWordWrap(True)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -80,7 +80,7 @@ class DeviceTrial(QFrame):
     def _counted(self, trial: ConnectionTrial) -> str:
         gaps = self.tr("no gaps")
         if trial.gaps:
-            gaps = self.tr("gaps in 5 s: {count}, the longest {longest:.0f} ms").format(
+            gaps = self.tr("{count} gaps in 5 s, longest {longest:.0f} ms").format(
                 count=trial.gaps, longest=1e3 * trial.longest_gap
             )
         poses = self.tr("no poses")
@@ -96,15 +96,15 @@ class DeviceChannels(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName(self.tr("Noise and margin of each channel"))
+        self.setAccessibleName(self.tr("Noise and headroom per channel"))
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(4)
         heads = (
             (self.tr("channel"), ""),
-            (self.tr("noise"), self.tr("Standard deviation of one reading while nothing moves, N or N·m")),
-            (self.tr("largest"), self.tr("Largest reading of either sign in the last 5 s, N or N·m")),
-            (self.tr("of range"), self.tr("Share of the sensor's range; beyond 100 % it is cut off")),
+            (self.tr("noise"), self.tr("Standard deviation of one reading at rest, N or N·m")),
+            (self.tr("largest"), self.tr("Largest absolute reading in the last 5 s, N or N·m")),
+            (self.tr("of range"), self.tr("Share of the sensor's range; readings above 100 % are clipped")),
         )
         for column, (text, tip) in enumerate(heads):
             label = QLabel(text)

@@ -52,7 +52,7 @@ class MarkerTable(QTableWidget):
         self.setHorizontalHeaderLabels(list(titles))
         for column, words in (
             (_PLACE, self.tr("Position in the sensor frame S, mm")),
-            (_TOUCHES, self.tr("Accepted touches, of those that are wanted")),
+            (_TOUCHES, self.tr("Accepted and required touches")),
             (_ERROR, self.tr("Mean error and largest error, mm")),
         ):
             item = self.horizontalHeaderItem(column)

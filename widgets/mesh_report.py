@@ -59,7 +59,7 @@ class MeshReport(QWidget):
             return
         found: list[tuple[str, str]] = [(each.level, each.text) for each in inspection.findings]
         if inspection.clear:
-            found.insert(0, ("good", self.tr("Nothing was found that spoils contacts.")))
+            found.insert(0, ("good", self.tr("No problems found that affect contacts.")))
         self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))
 
     def show_sentences(self, sentences: Sequence[tuple[str, str]]) -> None:
@@ -96,7 +96,7 @@ class MeshReport(QWidget):
     def _word(self, level: str) -> str:
         return {
             "fault": self.tr("Fault"),
-            "doubt": self.tr("Look at this"),
+            "doubt": self.tr("Check"),
             "note": self.tr("Note"),
             "good": self.tr("Good"),
         }[level]

@@ -93,7 +93,7 @@ class RegionBrush(QObject):
         try:
             self._work.begin(brush, self.rank)
         except RegionError:
-            self.refused.emit(self.tr("No region is chosen: add one, or choose one in the list, then paint."))
+            self.refused.emit(self.tr("No region selected. Add one or select one in the list, then paint."))
             return
         self._joined = True
         self._extend(pick)

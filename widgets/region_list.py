@@ -141,7 +141,7 @@ class RegionRows(QAbstractTableModel):
                 row + 1, self.rows[row].colour
             )
         if column == NAME:
-            return self.tr("Double-click to rename; drag, or Alt+Up and Alt+Down, to change the priority.")
+            return self.tr("Double-click to rename. Drag or press Alt+Up or Alt+Down to change the priority.")
         return self.tr("Area: {0:.1f} mm²; facets: {1:,}.").format(
             1e6 * self.rows[row].area, self.rows[row].facets
         )
@@ -215,7 +215,7 @@ class ColourMenu(QMenu):
             action.setChecked(colour == present)
             action.triggered.connect(lambda _=False, colour=colour: self.chosen.emit(colour))
         self.addSeparator()
-        self.addAction(self.tr("Another colour...")).triggered.connect(self._ask)
+        self.addAction(self.tr("Other colour…")).triggered.connect(self._ask)
 
     def _names(self) -> tuple[str, ...]:
         return (
@@ -230,7 +230,7 @@ class ColourMenu(QMenu):
 
     def _ask(self) -> None:
         parent = self.parentWidget()
-        colour = QColorDialog.getColor(QColor(self._present), parent, self.tr("Colour of the region"))
+        colour = QColorDialog.getColor(QColor(self._present), parent, self.tr("Region colour"))
         if colour.isValid():
             self.chosen.emit(colour.name())
 
@@ -300,7 +300,7 @@ class RegionListWidget(QWidget):
         view.setDropIndicatorShown(True)
         edit = QAbstractItemView.EditTrigger
         view.setEditTriggers(edit.DoubleClicked | edit.EditKeyPressed)
-        view.setAccessibleName(self.tr("Regions, the first priority first"))
+        view.setAccessibleName(self.tr("Regions, highest priority first"))
         header = view.header()
         header.setStretchLastSection(False)
         header.setSectionsMovable(False)
@@ -314,17 +314,17 @@ class RegionListWidget(QWidget):
 
     def _make_buttons(self) -> FoldRow:
         self.add_button = push_button(
-            self.tr("Add"), self.add_asked.emit, "add", tip=self.tr("Add a region with the last priority")
+            self.tr("Add"), self.add_asked.emit, "add", tip=self.tr("Add a region with the lowest priority")
         )
-        self.colour_button = self._tool("", self.tr("Choose the colour"), self._ask_colour)
+        self.colour_button = self._tool("", self.tr("Choose colour"), self._ask_colour)
         self.colour_button.setText(self.tr("Colour"))
         self.up_button = self._tool("up", self.tr("Raise the priority (Alt+Up)"), lambda: self._move(-1))
         self.down_button = self._tool("down", self.tr("Lower the priority (Alt+Down)"), lambda: self._move(1))
         self.remove_button = self._tool(
-            "remove", self.tr("Remove the region; its facets belong to none then"), self._remove
+            "remove", self.tr("Remove the region; its facets become unassigned"), self._remove
         )
-        add_key(self, self.tr("Raise the region's priority"), "Alt+Up", lambda: self._move(-1))
-        add_key(self, self.tr("Lower the region's priority"), "Alt+Down", lambda: self._move(1))
+        add_key(self, self.tr("Raise region priority"), "Alt+Up", lambda: self._move(-1))
+        add_key(self, self.tr("Lower region priority"), "Alt+Down", lambda: self._move(1))
         tools = (self.colour_button, self.up_button, self.down_button, self.remove_button)
         return row((self.add_button, 1), *tools, space=4)
 
@@ -332,8 +332,8 @@ class RegionListWidget(QWidget):
         self.untouchable = QCheckBox(self.tr("Untouchable"))
         self.untouchable.setToolTip(
             self.tr(
-                "Nothing can touch these facets: a clamp or a drape hides them. Contacts there count as 1000 times"
-                " less likely."
+                "These facets cannot be touched, for example under a clamp or drape. Contacts there are"
+                " treated as 1000 times less likely."
             )
         )
         self.untouchable.setMinimumHeight(36)

@@ -71,7 +71,15 @@ class PoseModel(QAbstractTableModel):
         if orientation is not Qt.Orientation.Horizontal:
             return None
         if role == Qt.ItemDataRole.DisplayRole:
-            return (self.tr("pose"), self.tr("tilt"), self.tr("residual"), self.tr("state"))[section]
+            return (
+                self.tr("pose"),
+                self.tr("tilt"),
+                self.tr("residual"),
+                self.tr(
+                    "Deviation of the reading from the fit to all poses, in standard deviations. About 1 is"
+                    " normal; check poses above 3."
+                ),
+            )[section]
         if role == Qt.ItemDataRole.ToolTipRole and section == SIGMAS:
             return self.tr(
                 "How far the reading is from what all poses together predict, in standard deviations: 1 is usual, above"
@@ -116,7 +124,7 @@ class PoseModel(QAbstractTableModel):
 
     def _state(self, row: PoseRow) -> str:
         return {
-            PoseState.TAKEN: self.tr("taken"),
+            PoseState.TAKEN: self.tr("captured"),
             PoseState.LEFT_OUT: self.tr("left out"),
             PoseState.REJECTED: self.tr("rejected"),
         }[row.state]
@@ -216,7 +224,7 @@ class ResidualTable(QTableView):
         """Return the menu for what is selected."""
         rows, menu = self.selected(), QMenu(self)
         out = menu.addAction(self.tr("Leave out"), lambda: self.leave_out.emit(rows))
-        back = menu.addAction(self.tr("Take back"), lambda: self.take_back.emit(rows))
+        back = menu.addAction(self.tr("Restore"), lambda: self.take_back.emit(rows))
         out.setEnabled(any(row.state is not PoseState.LEFT_OUT for row in rows))
         back.setEnabled(any(row.state is PoseState.LEFT_OUT for row in rows))
         return menu

@@ -67,7 +67,7 @@ class StripChart(QWidget):
         self.panes = (
             Pane(Curves(self.tr("Force"), ("Fx", "Fy", "Fz"), "N", 2, 0.5), self),
             Pane(Curves(self.tr("Torque"), ("Mx", "My", "Mz"), "N·m", 3, 0.02, 3), self),
-            Pane(Curves(self.tr("Size of the force"), ("|F|",), "N", 2, 0.5), self),
+            Pane(Curves(self.tr("Force magnitude"), ("|F|",), "N", 2, 0.5), self),
             Pane(Curves(self.tr("Contact point"), ("x", "y", "z"), "mm", 1, 5.0), self),
         )
         self._grid = QGridLayout()
@@ -80,7 +80,7 @@ class StripChart(QWidget):
         for pane in self.panes:
             pane.pointed.connect(self._point)
             pane.stretched.connect(self._stretch)
-        self._hint = QLabel(self.tr("Nothing is measured yet: choose the devices."), self)
+        self._hint = QLabel(self.tr("No measurements yet. Choose devices first."), self)
         self._hint.setProperty("role", "card")
         self._hint.setStyleSheet("padding: 4px 10px;")
         self._hint.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
@@ -94,28 +94,30 @@ class StripChart(QWidget):
         bar.setSpacing(4)
         self.kind = QComboBox()
         self.kind.addItems([self.tr("Raw"), self.tr("Compensated")])
-        self.kind.setAccessibleName(self.tr("Which wrenches the charts show"))
-        self.kind.setToolTip(self.tr("Raw: as the sensor gives them. Compensated: without bias and weight."))
+        self.kind.setAccessibleName(self.tr("Raw or compensated wrenches in the charts"))
+        self.kind.setToolTip(self.tr("Raw: sensor readings. Compensated: bias and weight removed."))
         self.kind.activated.connect(self._choose_kind)
         self.span = QComboBox()
         for seconds in _SPANS:
             self.span.addItem(self.tr("{seconds:g} s").format(seconds=seconds), seconds)
         self.span.setCurrentIndex(1)
-        self.span.setAccessibleName(self.tr("How much time the charts show"))
-        self.span.setToolTip(self.tr("How much time is shown, in seconds"))
+        self.span.setAccessibleName(self.tr("Time range of the charts"))
+        self.span.setToolTip(self.tr("Time range in seconds"))
         self.span.activated.connect(self.back_to_live)
         self.pause_button = self._button(
-            "pause", self.tr("Pause"), self.tr("Hold the picture; recording goes on")
+            "pause", self.tr("Pause"), self.tr("Freeze the charts; recording continues")
         )
         self.pause_button.setCheckable(True)
         self.pause_button.clicked.connect(self._pause)
-        self.live_button = self._button("play", self.tr("Back to live"), self.tr("Show what is measured now"))
+        self.live_button = self._button(
+            "play", self.tr("Resume live view"), self.tr("Show current measurements")
+        )
         self.live_button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.live_button.setText(self.tr("Back to live"))
+        self.live_button.setText(self.tr("Resume live view"))
         self.live_button.clicked.connect(self.back_to_live)
         self.live_button.setVisible(False)
         self.panes_button = self._button(
-            "settings", self.tr("Panes"), self.tr("Choose which charts are shown")
+            "settings", self.tr("Charts shown"), self.tr("Choose which charts to show")
         )
         self.panes_button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.panes_button.setMenu(self._menu())

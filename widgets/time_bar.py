@@ -36,26 +36,28 @@ class TimeBar(QWidget):
         self.slider.setAccessibleName(self.tr("Time window"))
         self.slider.setToolTip(
             self.tr(
-                "Time in seconds. Drag the handles, or what is between them; above the line, the moment shown.\n"
-                "Keys: left and right, Space for the other handle."
+                "Time in seconds. Drag the handles or the bar between them; above the line: current"
+                " time.\nKeys: left and right; Space switches handles."
             )
         )
         self.play = QPushButton(self)
         self.play.setProperty("primary", "true")
-        self.whole = QPushButton(self.tr("All at once"), self)
+        self.whole = QPushButton(self.tr("Show all"), self)
         self.whole.setIcon(icon("stop"))
-        self.whole.setToolTip(self.tr("Stop, and show the whole time window at once."))
+        self.whole.setToolTip(self.tr("Stop and show the whole time window."))
         self.speed, self.last = QComboBox(self), QComboBox(self)
         for each in SPEEDS:
             self.speed.addItem(self.tr("{speed:g}x").format(speed=each), each)
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
         self.speed.setAccessibleName(self.tr("Speed"))
-        self.speed.setToolTip(self.tr("Seconds of the recording that pass in one second."))
-        self.last.addItem(self.tr("touches stay"), None)
+        self.speed.setToolTip(self.tr("Recorded seconds per second of playback."))
+        self.last.addItem(self.tr("keep touches"), None)
         for seconds in WINDOWS:
             self.last.addItem(self.tr("last {seconds:g} s").format(seconds=seconds), seconds)
-        self.last.setAccessibleName(self.tr("What is shown while playing"))
-        self.last.setToolTip(self.tr("While playing: all since the start, or only the last seconds."))
+        self.last.setAccessibleName(self.tr("Contacts shown during playback"))
+        self.last.setToolTip(
+            self.tr("During playback: show all contacts from the start, or only the last seconds.")
+        )
         self.label = QLabel(self)
         self._timer = QTimer(self)
         self._timer.setInterval(_TICK)

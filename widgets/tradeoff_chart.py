@@ -40,14 +40,12 @@ class TradeoffChart(QWidget):
         self._dark: bool | None = None
         self._facets = 0
         self.across = QComboBox()
-        self.across.addItems(
-            [self.tr("facets"), self.tr("time of a solve, µs"), self.tr("time of the plain loop, µs")]
-        )
+        self.across.addItems([self.tr("facets"), self.tr("solve time, µs"), self.tr("plain loop time, µs")])
         narrow = QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         self.across.setSizeAdjustPolicy(narrow)
         self.across.setMinimumContentsLength(8)
-        self.across.setAccessibleName(self.tr("What the chart shows across"))
-        self.across.setToolTip(self.tr("What the chart shows across: facets, or µs of one solve"))
+        self.across.setAccessibleName(self.tr("Horizontal axis"))
+        self.across.setToolTip(self.tr("Horizontal axis: facets, or µs per solve"))
         self.across.currentIndexChanged.connect(self._draw)
         self._plot: Any = None  # made for the first trade: it takes as long as all the rest of a panel
         self._words = QLabel()
@@ -56,14 +54,14 @@ class TradeoffChart(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         row = QHBoxLayout()
         label = QLabel(self.tr("Error, mm, against"))
-        label.setToolTip(self.tr("How far 95 % of the contacts move at most, against all facets, mm"))
+        label.setToolTip(self.tr("95th percentile of the contact shift relative to the full mesh, mm"))
         label.setBuddy(self.across)
         row.addWidget(label)
         row.addWidget(self.across, 1)
         layout.addLayout(row)
         layout.addWidget(self._words)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(self.tr("Contact error against the number of facets"))
+        self.setAccessibleName(self.tr("Contact error against facet count"))
         self._say()
 
     def _make_plot(self) -> None:
@@ -160,7 +158,7 @@ class TradeoffChart(QWidget):
                 item.setData([x for x, _ in at], [y for _, y in at])
             limit = math.log10(max(self._trade.allowed_mm, _LEAST_MM))
             self._allowed.setValue(limit)
-            self._allowed.label.setFormat(self.tr("allowed {:.2g} mm").format(self._trade.allowed_mm))
+            self._allowed.label.setFormat(self.tr("limit {:.2g} mm").format(self._trade.allowed_mm))
             self._fit([x for x, _ in at], [*(y for _, y in at), limit])
         if knee is not None:
             x, y = self._at(knee)
@@ -213,11 +211,11 @@ class TradeoffChart(QWidget):
     def _say(self) -> None:
         known = next((each for each in self._points if each.facets == self._facets), None)
         if known is None:
-            words = self.tr("Choose a point: by a click, or by the arrow keys.") if self._points else ""
+            words = self.tr("Choose a point with a click or the arrow keys.") if self._points else ""
         else:
-            words = self.tr("{:,} facets: contacts move by up to {:.2g} mm, a solve takes {:.2g} µs.").format(
-                known.facets, known.error_mm, known.solve_us
-            )
+            words = self.tr(
+                "{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs."
+            ).format(known.facets, known.error_mm, known.solve_us)
         self._words.setText(words)
         self._words.setVisible(bool(words))
         self.setAccessibleDescription(words)

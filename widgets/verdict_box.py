@@ -54,8 +54,8 @@ class VerdictBox(QFrame):
         usual = {
             GOOD: self.tr("Good"),
             USABLE: self.tr("Usable"),
-            REFUSE: self.tr("Refused: it must not be used"),
-            LOCKED: self.tr("Not yet"),
+            REFUSE: self.tr("Rejected: do not use"),
+            LOCKED: self.tr("Not ready yet"),
         }
         name, colour = _LOOK[level]
         self.level = level
@@ -73,7 +73,7 @@ class Shrinking(QWidget):
         self._values: tuple[float, ...] = ()
         self._limit = 0.0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("How the contact error shrank"))
+        self.setAccessibleName(self.tr("Contact error over poses"))
 
     def sizeHint(self) -> QSize:
         """Return a size beside a number."""

@@ -69,16 +69,16 @@ class HeatmapControls(QWidget):
                 (self.tr("Uncertainty (1 sigma)"), "uncertainty"),
             ),
             self.tr("Quantity"),
-            tip=self.tr("What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm."),
+            tip=self.tr("Meaning of the colours. Density: per mm2; forces: N; error and uncertainty: mm."),
         )
         self.per = choice(
             (
-                (self.tr("number of contacts"), "contacts"),
-                (self.tr("seconds of contact"), "seconds"),
+                (self.tr("contact count"), "contacts"),
+                (self.tr("contact time in s"), "seconds"),
                 (self.tr("contacts per second"), "rate"),
             ),
-            self.tr("What a density adds up to"),
-            tip=self.tr("What the density adds up to over the whole surface."),
+            self.tr("Density normalisation"),
+            tip=self.tr("The integral of the density over the whole surface."),
         )
         self.bandwidth = QDoubleSpinBox(
             decimals=1, minimum=_LEAST_MM, maximum=_MOST_MM, singleStep=0.5, suffix=" mm", value=2.0
@@ -90,16 +90,14 @@ class HeatmapControls(QWidget):
         for each in (self.bandwidth, self.fine):
             each.setAccessibleName(self.tr("Bandwidth in mm"))
             each.setToolTip(
-                self.tr(
-                    "Standard deviation of the Gaussian by which each contact is spread along the surface, mm."
-                )
+                self.tr("Standard deviation of the Gaussian that spreads each contact along the surface, mm.")
             )
         self.force, self.force_words = RangeSlider(), QLabel()
-        self.force.setAccessibleName(self.tr("Range of force in N"))
-        self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
-        self.by_confidence = QCheckBox(self.tr("Weigh by confidence"))
-        self.compare = QCheckBox(self.tr("Compare two side by side"))
-        self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
+        self.force.setAccessibleName(self.tr("Force range in N"))
+        self.force.setToolTip(self.tr("Use only contacts with a force in this range, N."))
+        self.by_confidence = QCheckBox(self.tr("Weight by confidence"))
+        self.compare = QCheckBox(self.tr("Compare side by side"))
+        self.compare.setToolTip(self.tr("Show a second heatmap with the same view and colour scale."))
         for box in (self.by_confidence, self.compare):
             box.setMinimumHeight(HIGH)
         self.clock = choice(
@@ -129,13 +127,13 @@ class HeatmapControls(QWidget):
             self._button(
                 self.tr("Open files"),
                 "folder",
-                self.tr("Recordings with their calibration and probe, contacts, verifications."),
+                self.tr("Recordings with their calibration and probe, contacts, or verifications."),
                 lambda: self.asked_open.emit(False),
             ),
             self._button(
                 self.tr("Open session"),
                 "folder",
-                self.tr("The newest recording and verification of a session."),
+                self.tr("Latest recording and verification of a session."),
                 lambda: self.asked_open.emit(True),
             ),
         ]
@@ -143,19 +141,19 @@ class HeatmapControls(QWidget):
             self._button(
                 self.tr("Picture"),
                 "camera",
-                self.tr("What is shown, from two sides, as .png."),
+                self.tr("Save the current view from two sides as .png."),
                 lambda: self.asked_save.emit("picture"),
             ),
             self._button(
                 self.tr("Film"),
                 "play",
-                self.tr("The time window, played at the chosen speed, as .mp4 or .gif."),
+                self.tr("Save the time window at the chosen speed as .mp4 or .gif."),
                 lambda: self.asked_save.emit("film"),
             ),
             self._button(
                 self.tr("Mesh"),
                 "export",
-                self.tr("The values at the vertices, as .ply or .glb (glTF)."),
+                self.tr("Save the vertex values as .ply or .glb (glTF)."),
                 lambda: self.asked_save.emit("mesh"),
             ),
         ]
@@ -164,7 +162,7 @@ class HeatmapControls(QWidget):
         rows.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
         rows.setSpacing(4)
         rows.addRow(self.tr("Quantity"), self.quantity)
-        rows.addRow(self.tr("Adds up to"), self.per)
+        rows.addRow(self.tr("Normalise to"), self.per)
         rows.addRow(self.tr("Bandwidth"), row((self.fine, 1), self.bandwidth))
         rows.addRow(self.tr("Force"), self.force)
         self._per_label = rows.labelForField(self.per)
@@ -260,7 +258,7 @@ class HeatmapControls(QWidget):
     def _allow_weight(self) -> None:
         peak = self.quantity.currentData() == "peak"
         self.by_confidence.setEnabled(self._confidences and not peak)
-        tip = self.tr("Let each contact count as much as its place is sure.")
+        tip = self.tr("Give uncertain contacts less weight.")
         if peak:
             tip = self.tr("A peak is the largest force: nothing is weighed in it.")
         elif not self._confidences:
@@ -270,7 +268,7 @@ class HeatmapControls(QWidget):
     def show_force(self) -> None:
         """Say the range of force."""
         if not self.force.isEnabled():
-            self.force_words.setText(self.tr("The forces are unknown."))
+            self.force_words.setText(self.tr("Forces unknown."))
             return
         low, high = self.force.values()
         self.force_words.setText(self.tr("{low:.1f} to {high:.1f} N").format(low=low, high=high))

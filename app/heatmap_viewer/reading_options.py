@@ -31,9 +31,12 @@ class ReadingBox(QGroupBox):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("Reading recordings"))
-        self.own_mount = QCheckBox(self.tr("Mount of the sensor, degrees"))
+        self.own_mount = QCheckBox(self.tr("Sensor mount, degrees"))
         self.own_mount.setToolTip(
-            self.tr("Off: as the session says, or not turned. On: about the flange's fixed axes x, y, z.")
+            self.tr(
+                "Off: mounting from the session, or no rotation. On: rotation about the flange's fixed"
+                " axes x, y, z."
+            )
         )
         self.own_mount.setMinimumHeight(HIGH)
         self.mount = [
@@ -43,9 +46,9 @@ class ReadingBox(QGroupBox):
             for axis in "xyz"
         ]
         self.delay = self._field(
-            -1000.0, 1000.0, "", " ms", self.tr("How much later a wrench is heard than its pose, ms")
+            -1000.0, 1000.0, "", " ms", self.tr("Delay of the wrench relative to its pose, ms")
         )
-        self.least = self._field(0.0, 100.0, "", " N", self.tr("A touch is above this force, N"))
+        self.least = self._field(0.0, 100.0, "", " N", self.tr("Force above which a touch is counted, N"))
         self.least.setValue(HowRead().min_force)
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
         self._said = self.how()
@@ -68,7 +71,7 @@ class ReadingBox(QGroupBox):
         rows.addRow(self.own_mount)
         rows.addRow(row(*((field, 1) for field in self.mount), space=4))
         rows.addRow(self.tr("Delay"), self.delay)
-        rows.addRow(self.tr("Touched above"), self.least)
+        rows.addRow(self.tr("Touch threshold"), self.least)
 
     def how(self) -> HowRead:
         """Return what is chosen."""

@@ -45,19 +45,19 @@ class Side(QWidget):
         self._probe_of: object = None
         self.source = QComboBox(self)
         self.source.setMinimumHeight(36)
-        self.source.setAccessibleName(self.tr("What is shown"))
+        self.source.setAccessibleName(self.tr("Displayed quantity"))
         self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.source.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.words = QLabel(self)
         self.words.setWordWrap(True)
         self.value = QLabel(self)
         self.value.setProperty("role", "title")
-        self.value.setAccessibleName(self.tr("Value under the cursor"))
+        self.value.setAccessibleName(self.tr("Value at the pointer"))
         self.value.setMinimumHeight(28)  # an empty one takes as much room: the scene must not jump
         self.value.setToolTip(
             self.tr(
-                "± 1 sigma. Density: by the number of touches behind it.\n"
-                "Means: the spread of what they are the mean of. Peak force: the sensor's noise."
+                "± 1 sigma. Density: from the number of touches.\nMeans: spread of the averaged values."
+                " Peak force: sensor noise."
             )
         )
         self.place = QLabel(self)
@@ -125,13 +125,13 @@ class Side(QWidget):
 
     def _said(self, frame: HeatmapFrame) -> str:
         if self.playback is None or not frame.contacts:
-            return self.tr("No contact in this time window and range of force: widen one of them.")
+            return self.tr("No contacts in this time window and force range. Widen one of them.")
         contacts = self.playback.contacts
         touches = contacts.counted == "touches"
         text = (
-            self.tr("Touches: {count:,} of {all:,}; plain grey: no data")
+            self.tr("Touches: {count:,} of {all:,}; grey: no data")
             if touches
-            else self.tr("Samples: {count:,} of {all:,}; plain grey: no data")
+            else self.tr("Samples: {count:,} of {all:,}; grey: no data")
         )
         return text.format(count=frame.contacts, all=len(contacts.points))
 

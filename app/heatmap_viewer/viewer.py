@@ -81,9 +81,9 @@ class HeatmapViewer(QWidget):
     def _lay_out(self) -> None:
         self._empty = QLabel(
             self.tr(
-                "Drop files here: a recording (.mcap) with its calibration (.json) and the probe (.ply),\n"
-                "contacts (.csv) with the probe, a verification (.json) with the probe,\n"
-                "or the folder of a session, which has them all."
+                "Drop files here: a recording (.mcap) with its calibration (.json) and probe"
+                " (.ply),\ncontacts (.csv) with the probe, a verification (.json) with the probe,\nor a"
+                " session folder, which contains all of them."
             ),
             self,
         )
@@ -192,7 +192,7 @@ class HeatmapViewer(QWidget):
         self.sources = [each for each in self.sources if each.name not in {new.name for new in fresh}] + fresh
         said = [*opened.problems, *(note for source in fresh for note in source.notes)]
         if not opened.files.contacts:
-            said.append(self.tr("Now give what touched it: a recording, contacts, or a verification."))
+            said.append(self.tr("Now add contact data: a recording, contacts or a verification."))
         self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
         if not fresh:
             return
@@ -225,7 +225,7 @@ class HeatmapViewer(QWidget):
             self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
             self._sources_changed()
 
-        self.work.start(self.tr("Reading again"), work, came)
+        self.work.start(self.tr("Reloading"), work, came)
 
     def _sources_changed(self) -> None:
         names = [source.name for source in self.sources]
@@ -292,16 +292,16 @@ class HeatmapViewer(QWidget):
 
     def _ask_open(self, session: bool) -> None:
         if session:
-            folder = QFileDialog.getExistingDirectory(self, self.tr("Open the folder of a session"))
+            folder = QFileDialog.getExistingDirectory(self, self.tr("Open session folder"))
             names = [folder] if folder else []
         else:
             names, _ = QFileDialog.getOpenFileNames(
                 self,
-                self.tr("Open recordings, contacts or verifications, with probe and calibration"),
+                self.tr("Open recordings, contacts or verifications with probe and calibration"),
                 "",
                 self.tr(
-                    "What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;"
-                    "All files (*)"
+                    "Supported files (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb"
+                    " *.gltf);;All files (*)"
                 ),
             )
         if names:
@@ -351,7 +351,7 @@ class HeatmapViewer(QWidget):
 
             return Playback(source.probe.probe, source.contacts, bandwidth)
 
-        self.work.start(self.tr("Spreading contacts"), work, done, failed)
+        self.work.start(self.tr("Computing heatmap"), work, done, failed)
 
     def _made(self, number: int, playback: Playback) -> None:
         self.sides[number].set_playback(playback)

@@ -67,7 +67,7 @@ class ViewerWork(QObject):
         elif isinstance(error, ValueError | OSError):
             self._controls.say(str(error), bad=True)
         else:
-            said = self.tr("Something went wrong that should not have: {what}.")
+            said = self.tr("Unexpected error: {what}.")
             self._controls.say(said.format(what=error), bad=True)
 
     def _show(self, _share: float = 0.0) -> None:

@@ -73,42 +73,44 @@ class MotionControls(QWidget):
         self.robot = choice(
             ((self.tr("Elfin3 arm"), "virtual://arm"), (self.tr("stiff mount"), "virtual://platform")),
             self.tr("Robot"),
-            tip=self.tr("Both are simulated: nothing real moves."),
+            tip=self.tr("Both are simulated; no real hardware moves."),
         )
         self.motion = choice(
             (
-                (self.tr("tilts along the face"), "in-plane"),
-                (self.tr("tilts across the face"), "out-of-plane"),
-                (self.tr("goes up and down"), "vertical"),
-                (self.tr("rests"), "none"),
+                (self.tr("rocks along the face"), "in-plane"),
+                (self.tr("rocks across the face"), "out-of-plane"),
+                (self.tr("moves up and down"), "vertical"),
+                (self.tr("at rest"), "none"),
             ),
-            self.tr("The phantom"),
-            tip=self.tr("How the soft phantom moves under the probe."),
+            self.tr("Phantom"),
+            tip=self.tr("Motion of the soft phantom under the probe."),
         )
         self.period = choice(
             [(self.tr("{seconds:g} s").format(seconds=each), each) for each in _PERIODS_S],
-            self.tr("There and back in"),
+            self.tr("Period"),
             tip=self.tr("Period T of the phantom's motion."),
         )
         self.period.setCurrentIndex(_PERIODS_S.index(10.0))
         self.variant = choice(
             (
-                (self.tr("as in the bundle"), None),
-                (self.tr("aware"), "aware"),
-                (self.tr("plain"), "plain"),
+                (self.tr("from the bundle"), None),
+                (self.tr("predictive"), "aware"),
+                (self.tr("basic"), "plain"),
             ),
             self.tr("Control"),
-            tip=self.tr("Aware: how the phantom moves is estimated and led. Plain: force and place alone."),
+            tip=self.tr(
+                "Predictive: estimates the phantom's motion and leads it. Basic: force and position only."
+            ),
         )
         self.size_of = QDoubleSpinBox(decimals=0, minimum=0.0, maximum=20.0, value=10.0)
-        tip = self.tr("Amplitude of the phantom's motion, to either side.")
-        named(self.size_of, self.tr("How far"), tip=tip)
+        tip = self.tr("Amplitude of the phantom's motion to each side.")
+        named(self.size_of, self.tr("Amplitude"), tip=tip)
         self.bar, self.bundle = ActionBar(), sentence_label(role="muted")
         self.state, self.does = plain_label("", "title"), sentence_label()
         self.does.setMinimumHeight(_DOES_PX)  # the panel must not jump
         self.force, self.angle = plain_label("", "number"), plain_label("", "number")
         self.happened = sentence_label(role="muted")
-        self.state.setAccessibleName(self.tr("What the controller does"))
+        self.state.setAccessibleName(self.tr("Controller state"))
         self.force.setAccessibleName(self.tr("Force"))
         self.angle.setAccessibleName(self.tr("Angle to the phantom"))
         self.pace = plain_label("", "muted")
@@ -116,9 +118,9 @@ class MotionControls(QWidget):
             "How fast its time goes, against the clock: 1.00 is real time. Measured over the last frames."
         )
         self.pace.setToolTip(tip)
-        tip = self.tr("What would be exported of the open session now.")
-        self.of_session = push_button(self.tr("This session"), None, "folder", tip=tip)
-        tip = self.tr("A folder or zip file that was exported.")
+        tip = self.tr("Use a bundle of the open session in its current state.")
+        self.of_session = push_button(self.tr("Use session"), None, "folder", tip=tip)
+        tip = self.tr("An exported folder or zip file.")
         self.other = push_button(self.tr("Open bundle"), None, "folder", tip=tip)
         self.start, self.stop = self.bar.primary, self.bar.second
         self._lay_out()
@@ -209,7 +211,7 @@ class MotionControls(QWidget):
             picture="play",
         )
         can_stop = phase in (MotionPhase.STARTING, MotionPhase.RUNNING)
-        tip = self.tr("The probe goes back and stands still (Esc).")
+        tip = self.tr("Retract the probe and stop (Esc).")
         self.bar.offer_second(self.tr("Stop"), self.asked_stop.emit, enabled=can_stop, tip=tip)
         accent(self.stop, phase.going_on, "stop")
 
@@ -249,12 +251,12 @@ class MotionControls(QWidget):
 
     def _words(self) -> dict[str, tuple[str, str]]:
         return {
-            "approach": (self.tr("Approaching"), self.tr("The probe goes slowly towards the phantom.")),
-            "contact": (self.tr("In contact"), self.tr("The force grows; then the stiffness is felt.")),
-            "track": (self.tr("Tracking"), self.tr("It keeps its force and stands upright.")),
-            "hold": (self.tr("Holding"), self.tr("Nothing moves until it is sure again.")),
-            "retract": (self.tr("Going back"), self.tr("The probe leaves the phantom.")),
-            "safe": (self.tr("Standing still"), self.tr("Nothing moves any more; it is about to end.")),
+            "approach": (self.tr("Approaching"), self.tr("The probe is slowly approaching the phantom.")),
+            "contact": (self.tr("In contact"), self.tr("The force rises, then the stiffness is estimated.")),
+            "track": (self.tr("Tracking"), self.tr("Keeps its force and stays perpendicular.")),
+            "hold": (self.tr("Holding"), self.tr("Waiting until the readings are reliable again.")),
+            "retract": (self.tr("Retracting"), self.tr("The probe is leaving the phantom.")),
+            "safe": (self.tr("Stopped"), self.tr("Nothing moves any more; it is about to end.")),
             "EMPTY": (self.tr("No bundle"), self.tr("Choose the bundle that is to be run.")),
             "OPENING": (self.tr("Opening the bundle"), ""),
             "READY": (self.tr("Ready"), self.tr("Nothing moves until you press Start.")),

@@ -30,8 +30,8 @@ class Picture(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.scene = Scene(self)
-        self.force = Pane(Curves(self.tr("Force"), (self.tr("force"), self.tr("wanted")), "N", 2, 1.0))
-        names = (self.tr("angle along the face"), self.tr("across it"))
+        self.force = Pane(Curves(self.tr("Force"), (self.tr("force"), self.tr("target")), "N", 2, 1.0))
+        names = (self.tr("angle along the face"), self.tr("across the face"))
         self.angle = Pane(Curves(self.tr("Angle to the phantom"), names, "°", 2, 2.0, 2))
         charts = QHBoxLayout()
         charts.setSpacing(4)

@@ -67,7 +67,9 @@ class MotionWindow(QWidget):
         row.addWidget(self.picture, 1)
         row.addWidget(self.controls)
         self._connect()
-        self.controls.say(self.tr("Choose a bundle; then press Start. All is simulated: nothing real moves."))
+        self.controls.say(
+            self.tr("Choose a bundle, then press Start. Everything is simulated; no real hardware moves.")
+        )
 
     def _connect(self) -> None:
         controls = self.controls
@@ -111,7 +113,7 @@ class MotionWindow(QWidget):
         """Take what the open session would export now."""
         bench = self._bench()
         if bench is None:
-            self.controls.say(self.tr("No session is open: open one, or choose a bundle."), bad=True)
+            self.controls.say(self.tr("No session is open. Open one or choose a bundle."), bad=True)
             return
         place = Path(self._made.name) / "session.zip"
 
@@ -124,7 +126,7 @@ class MotionWindow(QWidget):
         self._begin_work()
         future = bench.desk.do(write)
         self.jobs.follow(
-            self.tr("Making a bundle"),
+            self.tr("Creating bundle"),
             future,
             lambda made: self._load(made, bench.desk.folder.name),
             self._failed,
@@ -146,7 +148,7 @@ class MotionWindow(QWidget):
             return RuntimeConfig.load(bundle)
 
         self.jobs.start(
-            self.tr("Opening a bundle"), work, lambda config: self._loaded(bundle, name, config), self._failed
+            self.tr("Opening bundle"), work, lambda config: self._loaded(bundle, name, config), self._failed
         )
 
     def _loaded(self, bundle: Path, name: str, config: RuntimeConfig) -> None:
@@ -163,18 +165,18 @@ class MotionWindow(QWidget):
         model = config.model
         words = self.tr("{name}: {facets:,} facets.").format(name=name, facets=model.probe.facets)
         if not model.verified:
-            words += " " + self.tr("It is not verified: for trials only.")
+            words += " " + self.tr("Not verified: for trials only.")
         if model.frames.quaternion_ES is None:
-            words += " " + self.tr("How the sensor is mounted is not said: it is taken as not turned.")
+            words += " " + self.tr("The bundle does not state the sensor's mounting; no rotation is assumed.")
         if model.controller is None:
-            return words + " " + self.tr("It has no gains: the usual ones for its probe are taken.")
-        gains = self.tr("It presses with {force:g} N.").format(force=model.controller.desired_force_N)
+            return words + " " + self.tr("The bundle has no gains; the defaults for its probe are used.")
+        gains = self.tr("Contact force {force:g} N.").format(force=model.controller.desired_force_N)
         return f"{words} {gains}"
 
     def _ask(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
             self,
-            self.tr("Open a bundle"),
+            self.tr("Open bundle"),
             "",
             self.tr("Bundles (*.zip contactbench.json);;All files (*)"),
         )
@@ -250,8 +252,8 @@ class MotionWindow(QWidget):
         low, high = outcome["force_N"]
         within, out = outcome["angle_error_deg"]
         return self.tr(
-            "It tracked for {seconds:.0f} s with {low:.1f} to {high:.1f} N, on average {within:.1f}° off along the face"
-            " and {out:.1f}° across it."
+            "Tracked for {seconds:.0f} s at {low:.1f} to {high:.1f} N; mean angle error {within:.1f}°"
+            " along the face and {out:.1f}° across it."
         ).format(seconds=outcome["tracked_s"], low=low, high=high, within=within, out=out)
 
     # ---- work and end ------------------------------------------------------------------------------

@@ -50,14 +50,14 @@ class DevicesPage(Page):
         self._status = sentence_label()
         self.sensor, self.poses = SensorSource(), PoseSource()
         self.serial = QLineEdit()
-        self.serial.setPlaceholderText(self.tr("on the sensor's label"))
-        self.serial.setAccessibleName(self.tr("Serial number of the sensor"))
+        self.serial.setPlaceholderText(self.tr("see the sensor's label"))
+        self.serial.setAccessibleName(self.tr("Sensor serial number"))
         self.mount = [angle_field(axis) for axis in "xyz"]
         for spin in self.mount:
             spin.setAccessibleName(self.tr("Mounting angle about {axis}").format(axis=spin.prefix()))
             spin.setToolTip(
                 self.tr(
-                    "How the sensor is turned on the flange, about the flange's fixed axes x, then y, then z"
+                    "Rotation of the sensor on the flange about the flange's fixed axes, in the order x, y, z"
                 )
             )
         self.use_button, self.try_button = self.bar.primary, self.bar.second
@@ -125,16 +125,16 @@ class DevicesPage(Page):
         if note in (self.sensor.problem, self.poses.problem):
             note = ""
         if recording:
-            note = self.tr("A recording is being made with the devices: finish it before you change them.")
+            note = self.tr("These devices are recording. Stop the recording before you change them.")
         elif self._opening:
-            note = self.tr("Opening the devices…")
+            note = self.tr("Opening devices…")
         self.bar.say(note)
 
     # ---- trying and using --------------------------------------------------------------------------
 
     def test(self) -> None:
         """Open what is chosen and show how good it is; the session is not changed."""
-        self._open(self.devices(), self.tr("Testing the connection"))
+        self._open(self.devices(), self.tr("Testing connection"))
 
     def use(self) -> None:
         """Write what is chosen into the session, and open it; can be undone."""
@@ -142,7 +142,7 @@ class DevicesPage(Page):
         self.bench.undo.push(
             SetParameters(self.bench, devices.settings, self.tr("choose devices"), failed=self._not_set)
         )
-        self._open(devices, self.tr("Opening the devices"))
+        self._open(devices, self.tr("Opening devices"))
 
     def _open(self, devices: Devices, title: str) -> None:
         if self._opening:
@@ -165,13 +165,13 @@ class DevicesPage(Page):
     def _not_opened(self, error: BaseException) -> None:
         self._opening, self._refused = False, (self.sensor.address_now(), str(error))
         self._allow()
-        words = self.tr("The devices could not be opened: {why}").format(why=error)
+        words = self.tr("Could not open the devices: {why}").format(why=error)
         self.sensor.say(str(error))
         self.bench.tell(Weight.ERROR, words)
         self.bench.set_failed(Step.DEVICES, words)
 
     def _not_set(self, error: BaseException) -> None:
-        self.bench.tell(Weight.ERROR, self.tr("The devices could not be noted: {why}").format(why=error))
+        self.bench.tell(Weight.ERROR, self.tr("Could not save the device settings: {why}").format(why=error))
 
     def _follow_session(self) -> None:
         """Show, and open, what the session says now, such as after an undo."""
@@ -188,9 +188,9 @@ class DevicesPage(Page):
         if self._opening or busy or not moved or live.pair is None:
             return
         if devices.sensor:
-            self._open(devices, self.tr("Opening the devices"))
+            self._open(devices, self.tr("Opening devices"))
         else:
-            self.bench.jobs.start(self.tr("Closing the devices"), lambda _progress, _cancelled: live.close())
+            self.bench.jobs.start(self.tr("Closing devices"), lambda _progress, _cancelled: live.close())
 
     # ---- the page ----------------------------------------------------------------------------------
 
@@ -204,7 +204,7 @@ class DevicesPage(Page):
         live = self.bench.live
         known = (devices.sensor, devices.poses)
         if devices.sensor and live.pair is not None and live.addresses != known and not self._opening:
-            self._open(devices, self.tr("Opening the devices"))
+            self._open(devices, self.tr("Opening devices"))
 
     def show_state(self, status: StepStatus) -> None:
         """Show how the step stands."""

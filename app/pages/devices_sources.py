@@ -121,18 +121,20 @@ class SensorSource(DeviceChoice):
         self.kind.setAccessibleName(self.title())
         self.protocol, self.probe = QComboBox(), QComboBox()
         for protocol, name in zip(devices.SERIAL_PROTOCOLS, ("SRI", "Bota", "Robotiq FT 300"), strict=True):
-            self.protocol.addItem(self.tr("It is a sensor of {maker}").format(maker=name), protocol)
+            self.protocol.addItem(self.tr("Sensor made by {maker}").format(maker=name), protocol)
         for name in PROBE_NAMES:
             self.probe.addItem(self.tr("with the {name} probe").format(name=name), name)
         self.probe.setCurrentIndex(self.probe.findData("t-shape"))
         self.recording = FileField(self.tr("Recording"), self.tr("Recordings (*.mcap);;All files (*)"))
         self.address = QLineEdit()
         self.address.setPlaceholderText("sri+tcp://192.168.0.108")
-        self.protocol.setAccessibleName(self.tr("Maker of the sensor"))
-        self.probe.setAccessibleName(self.tr("Probe of the virtual bench"))
-        self.address.setAccessibleName(self.tr("Address of the sensor"))
+        self.protocol.setAccessibleName(self.tr("Sensor manufacturer"))
+        self.probe.setAccessibleName(self.tr("Virtual bench probe"))
+        self.address.setAccessibleName(self.tr("Sensor address"))
         self.address.setToolTip(
-            self.tr("sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, ://, and where it is")
+            self.tr(
+                "sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and the device address"
+            )
         )
         for widget in (self.protocol, self.probe, self.recording, self.address):
             self._add(widget)
@@ -153,7 +155,7 @@ class SensorSource(DeviceChoice):
         fixed = [
             (self.tr("Virtual bench"), _VIRTUAL),
             (self.tr("Replay a recording"), _REPLAY),
-            (self.tr("Address typed in"), _ADDRESS),
+            (self.tr("Enter address"), _ADDRESS),
         ]
         wanted = [*entries, *fixed]
         there = [(self.kind.itemText(i), self.kind.itemData(i)) for i in range(self.kind.count())]
@@ -235,12 +237,12 @@ class PoseSource(DeviceChoice):
         self.kind.setAccessibleName(self.title())
         self.address = QLineEdit()
         self.address.setPlaceholderText("ur+tcp://192.168.0.10")
-        self.address.setAccessibleName(self.tr("Address of the robot"))
-        self.file = FileField(self.tr("File of poses"), self.tr("Poses (*.csv);;All files (*)"))
+        self.address.setAccessibleName(self.tr("Robot address"))
+        self.file = FileField(self.tr("Pose file"), self.tr("Poses (*.csv);;All files (*)"))
         self._hint = sentence_label(role="muted")
         self.angles = [angle_field(axis) for axis in "xyz"]
         for spin in self.angles:
-            spin.setAccessibleName(self.tr("Turn of the flange about {axis}").format(axis=spin.prefix()))
+            spin.setAccessibleName(self.tr("Flange rotation about {axis}").format(axis=spin.prefix()))
         still, angles = QWidget(), row(*self.angles)
         angles.setContentsMargins(0, 0, 0, 0)
         still.setLayout(angles)
@@ -248,11 +250,11 @@ class PoseSource(DeviceChoice):
         for widget in (self.address, self.file, self._hint):
             self._add(widget)
         for name, data in (
-            (self.tr("From the sensor's own source"), _SAME),
+            (self.tr("From the sensor source"), _SAME),
             (self.tr("Robot"), _ADDRESS),
-            (self.tr("Does not move"), _STILL),
-            (self.tr("File of poses"), _FILE),
-            (self.tr("Nothing tells it"), _NONE),
+            (self.tr("Stationary"), _STILL),
+            (self.tr("Pose file"), _FILE),
+            (self.tr("None"), _NONE),
         ):
             self.kind.addItem(name, data)
         self.address.textChanged.connect(self.changed)
@@ -263,8 +265,10 @@ class PoseSource(DeviceChoice):
     def _show_fields(self) -> None:
         chosen = self.kind.currentData()
         words = {
-            _SAME: self.tr("A virtual bench and most recordings also give the orientation."),
-            _NONE: self.tr("Without it gravity cannot be calibrated: only raw readings can be seen."),
+            _SAME: self.tr("A virtual bench and most recordings include the orientation."),
+            _NONE: self.tr(
+                "Gravity cannot be calibrated without an orientation. Only raw readings are shown."
+            ),
         }
         self._hint.setText(words.get(chosen, ""))
         self._show({_ADDRESS: self.address, _STILL: self._still, _FILE: self.file}.get(chosen, self._hint))
@@ -292,9 +296,9 @@ class PoseSource(DeviceChoice):
         if self.kind.currentData() == _SAME:
             if devices.gives_poses(sensor) or devices.problem_of(sensor):
                 return ""
-            return self.tr("This sensor does not tell its orientation: choose the robot that moves it.")
+            return self.tr("This sensor does not report its orientation. Choose the robot that moves it.")
         if not address:
-            return self.tr("Choose a file of poses.")
+            return self.tr("Choose a pose file.")
         return devices.problem_of(address, poses=True)
 
     def choose(self, address: str | None, sensor: str) -> None:

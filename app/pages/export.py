@@ -75,14 +75,12 @@ class ExportPage(Page):
         self.sign, self.standing = Sign(_ICON), self._label()
         self.checklist = Checklist()
         self.checklist.wanted.connect(self.bench.go_to)
-        tip = self.tr("For trials only: the bundle says that nobody has shown that it is right")
-        self.unverified = check_box(self.tr("Write it although it is not verified"), tip=tip)
+        tip = self.tr("For trials only: the bundle is marked as not verified")
+        self.unverified = check_box(self.tr("Export without verification"), tip=tip)
         self.unverified.toggled.connect(lambda _: self._allow())
         self.zip, self.folder = self.bar.primary, self.bar.second
-        self.report = push_button(self.tr("Open the report"), lambda: self._open(self._report_file()), "info")
-        self.show_folder = push_button(
-            self.tr("Show where it is"), lambda: self._open(self._place()), "folder"
-        )
+        self.report = push_button(self.tr("Open report"), lambda: self._open(self._report_file()), "info")
+        self.show_folder = push_button(self.tr("Show in folder"), lambda: self._open(self._place()), "folder")
         for button in (self.report, self.show_folder):
             button.hide()
         self.figures, self.files, self.changes = self._label(), self._label("muted"), self._label()
@@ -96,7 +94,7 @@ class ExportPage(Page):
         column(
             inside, plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
             row((self.report, 1), (self.show_folder, 1)),
-            _boxed(self.tr("What will be in it"), self.figures, self.files, self.changes),
+            _boxed(self.tr("Contents"), self.figures, self.files, self.changes),
             _boxed(self.tr("Settings"), self.settings), margins=(10, 8, 10, 8),
         ).addStretch(1)  # fmt: skip
         self.fill(PanelScroll(inside))
@@ -148,7 +146,7 @@ class ExportPage(Page):
             self._looking, self._read_at = False, key
             self._said(error)
 
-        self.bench.do(self.tr("Looking at the bundle"), lambda session: survey(session, trouble), came, wrong)
+        self.bench.do(self.tr("Checking the bundle"), lambda session: survey(session, trouble), came, wrong)
 
     def _setting(self, key: str) -> str:
         setting = self.bench.desk.state.settings.get(key)
@@ -173,8 +171,8 @@ class ExportPage(Page):
         if view.lacks != "rate":
             return said(view.problem)
         return self.tr(
-            "How many readings a second the robot will get is not known: a verification would have told. Verify in"
-            " step 5, or fill in Readings under Settings, as the sensor is set."
+            "The sensor rate is unknown because nothing has been verified. Verify in step 5, or enter"
+            " Readings under Settings to match the sensor."
         )
 
     def _show_preview(self, preview: ExportPreview) -> None:
@@ -184,26 +182,26 @@ class ExportPage(Page):
         total = sum(size for _, size in preview.files)
         lines = [f"{name}  {_size(size)}" for name, size in preview.files]
         lines.append(
-            self.tr("together {size}, SHA-256 {sha256}…").format(
-                size=_size(total), sha256=preview.sha256[:12]
-            )
+            self.tr("total {size}, SHA-256 {sha256}…").format(size=_size(total), sha256=preview.sha256[:12])
         )
         self.files.setText("\n".join(lines))
         changes = preview.changes
         if changes is None:
-            self.changes.setText(self.tr("Nothing was exported from this session before."))
+            self.changes.setText(self.tr("Nothing has been exported from this session yet."))
         else:
             self.changes.setText(
-                self.tr("Against the last export:") + "\n" + "\n".join(f"• {said(each)}" for each in changes)
+                self.tr("Changes since the last export:")
+                + "\n"
+                + "\n".join(f"• {said(each)}" for each in changes)
             )
         if preview.reasons:
             why = " ".join(said(reason) for reason in preview.reasons[:2])
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
         else:
             words = (
-                self.tr("Verified, and exported as it is.")
+                self.tr("Verified and exported.")
                 if self._setting("export.sha256") == preview.sha256
-                else self.tr("Verified: ready to be exported.")
+                else self.tr("Verified and ready to export.")
             )
             sign = ("warning", "warning") if preview.unchecked else ("done", "good")
             self._stand(*sign, f"{words} {said(preview.unchecked)}".strip())
@@ -229,9 +227,9 @@ class ExportPage(Page):
         doubtful = preview is not None and bool(preview.reasons)
         self.unverified.setVisible(doubtful)
         ready = preview is not None and not self._busy and (not doubtful or self.unverified.isChecked())
-        tip = self.tr("One zip file, which a robot's runtime loads as it is")
-        self.bar.offer(self.tr("Export a file…"), self._choose_file, enabled=ready, tip=tip, picture="export")
-        self.bar.offer_second(self.tr("Export a folder…"), self._choose_folder, enabled=ready)
+        tip = self.tr("One zip file that a robot's runtime loads directly")
+        self.bar.offer(self.tr("Export file…"), self._choose_file, enabled=ready, tip=tip, picture="export")
+        self.bar.offer_second(self.tr("Export folder…"), self._choose_folder, enabled=ready)
         self.report.setVisible(self._report_file() is not None)
         place = self._place()
         self.show_folder.setVisible(place is not None)
@@ -260,7 +258,7 @@ class ExportPage(Page):
 
     def _choose_file(self) -> None:
         name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Export a file"), str(self._beside("runtime.zip")), self.tr("Bundles (*.zip)")
+            self, self.tr("Export file"), str(self._beside("runtime.zip")), self.tr("Bundles (*.zip)")
         )
         if name:
             place = Path(name)
@@ -268,7 +266,7 @@ class ExportPage(Page):
 
     def _choose_folder(self) -> None:
         name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Export a folder: give it a name"), str(self._beside("runtime")), ""
+            self, self.tr("Export folder: enter a name"), str(self._beside("runtime")), ""
         )
         if name:
             self.write(Path(name))

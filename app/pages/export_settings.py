@@ -26,64 +26,62 @@ class ExportSettingsPanel(QWidget):
         self.texts: dict[str, QLineEdit] = {}
         layout = form(self, top=4)
         for option, words, name, otherwise in (
-            ("sensor", self.tr("Sensor"), self.tr("Model of the sensor"), self.tr("unknown")),
+            ("sensor", self.tr("Sensor"), self.tr("Sensor model"), self.tr("unknown")),
             (
                 "serial",
                 self.tr("Serial number"),
-                self.tr("Serial number of the sensor"),
-                self.tr("as the session knows it"),
+                self.tr("Sensor serial number"),
+                self.tr("from the session"),
             ),
             (
                 "sensor_name",
-                self.tr("Name in ROS"),
-                self.tr("Name of the sensor in the robot description, for ros2.yaml"),
-                self.tr("to be filled in later"),
+                self.tr("ROS name"),
+                self.tr("Sensor name in the robot description, for ros2.yaml"),
+                self.tr("enter later"),
             ),
             (
                 "operator",
                 self.tr("Operator"),
-                self.tr("Who is answerable"),
-                self.tr("who made the newest result"),
+                self.tr("Person responsible"),
+                self.tr("author of the latest result"),
             ),
         ):
             self.texts[option] = self._text(name, otherwise, option)
             layout.addRow(words, self.texts[option])
         self.rate = self._number(
-            10e3, " Hz", self.tr("Readings a second, Hz"), self.tr("as verified"), "rate"
+            10e3, " Hz", self.tr("Readings per second, Hz"), self.tr("as verified"), "rate"
         )
-        self.smooth = self._switch(
-            self.tr("Filter the wrench"), self.tr("A Kalman filter: less noise, a little lag")
-        )
+        self.smooth = self._switch(self.tr("Filter wrench"), self.tr("Kalman filter: less noise, slight lag"))
         self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
         self.cutoff = self._number(
-            5e3, " Hz", self.tr("Low-pass of the contact point, Hz"), self.tr("none"), "cutoff"
+            5e3, " Hz", self.tr("Low-pass cutoff of the contact point, Hz"), self.tr("none"), "cutoff"
         )
         self.region_only = self._switch(
-            self.tr("Only contacts on a region"),
-            self.tr("The runtime refuses contacts outside every painted region"),
+            self.tr("Accept contacts on regions only"),
+            self.tr("The runtime rejects contacts outside all painted regions"),
         )
         self.region_only.toggled.connect(lambda on: self._say("region_only", on, self.region_only.text()))
-        self.force = self._number(
-            1e3, " N", self.tr("What a controller must never exceed, N"), "", "max_force"
-        )
+        self.force = self._number(1e3, " N", self.tr("Force limit for the controller, N"), "", "max_force")
         self.torque = self._number(
-            100.0, " N·m", self.tr("What a controller must never exceed, N·m"), "", "max_torque"
+            100.0, " N·m", self.tr("Torque limit for the controller, N·m"), "", "max_torque"
         )
         self.gains, self.no_gains = push_button("", self._ask_gains, "folder"), QToolButton()
-        self.gains.setAccessibleName(self.tr("Gains of the controller"))
+        self.gains.setAccessibleName(self.tr("Controller gains"))
         self.gains.setToolTip(
-            self.tr("How a robot presses and follows: gains.json of contactbench bench control tune")
+            self.tr(
+                "Controller gains for pressing and following: gains.json from contactbench bench control tune"
+            )
         )
         self.no_gains.setIcon(icon("cross"))
-        self.no_gains.setAccessibleName(self.tr("Leave the gains out"))
+        self.no_gains.setAccessibleName(self.tr("Remove gains"))
         self.no_gains.setToolTip(self.no_gains.accessibleName())
         self.no_gains.clicked.connect(lambda: self._say("controller", None, self.no_gains.toolTip()))
         layout.addRow(self.tr("Readings"), self.rate)
         layout.addRow(self.smooth)
         layout.addRow(self.tr("Low-pass"), self.cutoff)
         layout.addRow(self.region_only)
-        layout.addRow(self.tr("Largest force"), self.force)
-        layout.addRow(self.tr("Largest torque"), self.torque)
+        layout.addRow(self.tr("Maximum force"), self.force)
+        layout.addRow(self.tr("Maximum torque"), self.torque)
         layout.addRow(self.tr("Gains"), row((self.gains, 1), self.no_gains))
 
     def _ask_gains(self) -> None:
@@ -148,7 +146,7 @@ class ExportSettingsPanel(QWidget):
             if part is None
             else self.tr("{force:g} N, {variant}").format(
                 force=part.desired_force_N,
-                variant=self.tr("aware") if part.variant == "aware" else self.tr("plain"),
+                variant=self.tr("predictive") if part.variant == "aware" else self.tr("basic"),
             )
         )
         self.no_gains.setVisible(part is not None)

@@ -56,7 +56,7 @@ class GravityPage(Page):
         self.fill(self.panel)
         self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
         self.space.setContext(Qt.ShortcutContext.WindowShortcut)
-        self.space.setWhatsThis(self.tr("Take this pose (gravity)"))
+        self.space.setWhatsThis(self.tr("Capture this pose (gravity)"))
         self._connect()
         self._show()
 
@@ -144,7 +144,7 @@ class GravityPage(Page):
         self.space.setEnabled(self._entered and capturing)
         panel.problem.setVisible(bool(run.problem))
         if run.problem:
-            panel.problem.show_verdict(REFUSE, [run.problem], self.tr("This did not work"))
+            panel.problem.show_verdict(REFUSE, [run.problem], self.tr("Action failed"))
         panel.intro.setVisible(run.phase is Phase.IDLE and outcome is None)
         # No "captured" beside what is wrong: while nothing is recorded, nothing is captured.
         well = not (run.problem or self.bench.trouble.devices or self.bench.trouble.disk)
@@ -190,7 +190,7 @@ class GravityPage(Page):
         if run.checked is not None:
             verdict = run.checked.verdict
             panel.checked.show_verdict(
-                verdict.level.value, verdict.reasons, self.tr("Checked in a pose it had not seen")
+                verdict.level.value, verdict.reasons, self.tr("Checked with a new pose")
             )
 
     def _show_view(self, view: GravityView) -> None:
@@ -234,7 +234,7 @@ class GravityPage(Page):
         return {
             "good": self.tr("good"),
             "usable": self.tr("usable"),
-            "refuse": self.tr("not enough to be used"),
+            "refuse": self.tr("not good enough to use"),
         }[level]
 
     def _beep(self, rows: tuple[PoseRow, ...]) -> None:
@@ -251,14 +251,14 @@ class GravityPage(Page):
         can, tip = not waits, ""
         if run.phase is Phase.CAPTURING and run.work is not None:
             can = run.work.view().count >= 3
-            tip = "" if can else self.tr("A calibration needs three poses or more.")
+            tip = "" if can else self.tr("A calibration needs at least three poses.")
         good = (
             self._enough()
             if run.work is not None
             else run.phase is Phase.IDLE and not self._mendable() and not self.weight.unloaded
         )
         if self._locked and not waits and run.phase is Phase.IDLE:
-            words, good = self.tr("Go to Devices"), True
+            words, good = self.tr("Open Devices"), True
         elif self._locked:
             can = False
         bar.offer(words, lambda: self._press(0), enabled=can, accented=good, tip=tip)
@@ -272,27 +272,27 @@ class GravityPage(Page):
         stop = (self.tr("Stop"), run.stop)
         match run.phase:
             case Phase.STARTING:
-                return (self.tr("Beginning..."), lambda: None), None
+                return (self.tr("Starting…"), lambda: None), None
             case Phase.CAPTURING:
                 return (self.tr("Finish"), run.finish), stop
             case Phase.FINISHING:
-                return (self.tr("Computing..."), lambda: None), None
+                return (self.tr("Computing…"), lambda: None), None
             case Phase.CHECKING:
-                return (self.tr("Waiting for a still pose..."), lambda: None), stop
+                return (self.tr("Waiting for a still pose…"), lambda: None), stop
             case _:
                 return self._idle_choices()
 
     def _idle_choices(self) -> tuple[Choice, Choice | None]:
         run, outcome = self.run, self.run.outcome
-        anew = (self.tr("Start anew"), lambda: run.start(""))
+        anew = (self.tr("Start over"), lambda: run.start(""))
         if left := run.left_behind:
-            return (self.tr("Go on with {recording}").format(recording=left), lambda: run.start(left)), anew
+            return (self.tr("Continue {recording}").format(recording=left), lambda: run.start(left)), anew
         if outcome is None:
             return (self.tr("Start"), lambda: run.start("")), None
         add = (self.tr("Add poses"), lambda: run.start(outcome.recording)) if outcome.changeable else anew
         if outcome.calibration.verdict.level is Level.REFUSE:
             return add, anew if outcome.changeable else None
-        check = (self.tr("Check one more pose"), run.begin_check)
+        check = (self.tr("Check with another pose"), run.begin_check)
         go_on = (self.tr("Next: Probe"), lambda: self.bench.go_to.emit(Step.PROBE))
         if outcome.calibration.verdict.level is Level.GOOD:
             return go_on, check
@@ -356,18 +356,16 @@ class GravityPage(Page):
 
     def _set_tilt(self, degrees: int) -> None:
         self.run.set_parameters(
-            self.tr("set the largest tilt to {degrees}°").format(degrees=degrees), ((TILT, float(degrees)),)
+            self.tr("set the tilt limit to {degrees}°").format(degrees=degrees), ((TILT, float(degrees)),)
         )
 
     def _set_down(self, index: int) -> None:
         down = self.panel.down.itemData(index)
-        self.run.set_parameters(self.tr("say where down is"), ((DOWN, list(down)),))
+        self.run.set_parameters(self.tr("set the down direction"), ((DOWN, list(down)),))
 
     def _set_orientation_noise(self, index: int) -> None:
         degrees = self.panel.orientation_noise.itemData(index)
-        self.run.set_parameters(
-            self.tr("say how well orientations are known"), ((ORIENTATION_NOISE, degrees),)
-        )
+        self.run.set_parameters(self.tr("set the orientation accuracy"), ((ORIENTATION_NOISE, degrees),))
 
     # ---- on the virtual bench ----------------------------------------------------------------------
 

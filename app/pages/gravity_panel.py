@@ -57,15 +57,15 @@ class GravityFigures(QWidget):
         super().__init__(parent)
         self.count, self.before, self.error = (plain_label("", each) for each in ("title", "muted", "number"))
         self.curve = Shrinking()
-        caption = sentence_label(self.tr("contact error from the calibration (1 sigma)"), "muted")
+        caption = sentence_label(self.tr("contact error from calibration (1 sigma)"), "muted")
         caption.setToolTip(
             self.tr(
-                "How far a contact point may be off because of the calibration alone, in mm: the worst case over the"
-                " touches that it is for. 0.5 mm is good."
+                "Contact error caused by the calibration alone, mm: worst case over the intended touches."
+                " 0.5 mm is good."
             )
         )
         self.curve.setToolTip(
-            self.tr("With each pose, on a logarithmic scale; dashed: 0.5 mm, the limit for good")
+            self.tr("Error after each pose, logarithmic scale; dashed: 0.5 mm, the limit for good")
         )
         numbers = QHBoxLayout()
         numbers.setSpacing(6)
@@ -77,7 +77,7 @@ class GravityFigures(QWidget):
     def show_figures(self, count: int, expected: int, errors: Sequence[float], *, running: bool) -> None:
         """Show the numbers."""
         if running:
-            text = self.tr("pose {count} of ~{expected}").format(
+            text = self.tr("pose {count} of about {expected}").format(
                 count=min(count + 1, expected), expected=expected
             )
             if count >= expected:
@@ -125,11 +125,11 @@ class FindingCards(QWidget):
         box = QVBoxLayout(card)
         words = VerdictBox()
         heavy = bool(finding.settings) or not finding.leave_out
-        words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Found"))
+        words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Findings"))
         box.addWidget(words)
         if finding.remedy:
             remedy = said(finding.remedy)
-            button = push_button(self.tr("Do that"), None, "check", tip=remedy, high=_HIGH)
+            button = push_button(self.tr("Apply fix"), None, "check", tip=remedy, high=_HIGH)
             button.setAccessibleName(remedy)
             button.setProperty("primary", bool(finding.settings))
             button.clicked.connect(lambda: self.confirmed.emit(finding))
@@ -154,15 +154,16 @@ class GravityPanel(PanelScroll):
         title = plain_label(self.tr("Gravity"), "title")
         self.intro = sentence_label(
             self.tr(
-                "Hold the tool still in about six different tilts, touching nothing. From them follow its weight and"
-                " the sensor's zero, which are then taken off every reading."
+                "Hold the tool still in about six different tilts, touching nothing. These poses"
+                " determine the tool's weight and the sensor offset, which are then subtracted from every"
+                " reading."
             )
         )
         self.state = CaptureState()
         self.sentence = sentence_label(role="muted")
         self.sentence.setMinimumHeight(_THREE_LINES)  # what comes and goes does not move the rest
-        tip = self.tr("Off: press SPACE, or the foot switch, in each pose that shall count.")
-        self.automatic = check_box(self.tr("Take each still pose by itself"), tip=tip)
+        tip = self.tr("Off: press SPACE or the foot switch to capture each pose.")
+        self.automatic = check_box(self.tr("Capture automatically when still"), tip=tip)
         self.automatic.setChecked(True)
         self.figures = GravityFigures()
         self.verdict = VerdictBox()
@@ -187,9 +188,9 @@ class GravityPanel(PanelScroll):
         self.next = sentence_label()
         self.next.setMinimumHeight(_THREE_LINES)  # the buttons below stay where they are
         self.away = sentence_label(role="muted")
-        self.turn = push_button(self.tr("Turn it there for me"), None, "play", high=_HIGH)
-        tip = self.tr("Push the virtual tool for a moment, to see what that does")
-        self.bump = push_button(self.tr("Bump it"), tip=tip, high=_HIGH)
+        self.turn = push_button(self.tr("Move virtual tool there"), None, "play", high=_HIGH)
+        tip = self.tr("Push the virtual tool briefly to see the effect")
+        self.bump = push_button(self.tr("Bump virtual tool"), tip=tip, high=_HIGH)
         self._add(self.next, self.away)
         self._box.addLayout(row((self.turn, 1), self.bump))
 
@@ -199,23 +200,24 @@ class GravityPanel(PanelScroll):
             self.tr("Leave out"),
             lambda: table.leave_out.emit(table.selected()),
             "remove",
-            tip=self.tr("The selected poses do not count (Delete)"),
+            tip=self.tr("Leave out the selected poses (Delete)"),
             high=_HIGH,
         )
         self.back = push_button(
-            self.tr("Take back"),
+            self.tr("Restore"),
             lambda: table.take_back.emit(table.selected()),
             "check",
-            tip=self.tr("The selected poses count again (Return)"),
+            tip=self.tr("Restore the selected poses (Return)"),
             high=_HIGH,
         )
         self._box.addLayout(row(self.out, self.back))
 
     def _make_tilt(self) -> None:
-        words = self.tr("The tool can tilt by up to")
+        words = self.tr("Tilt limit of the tool")
         self.tilt = QSpinBox(minimum=20, maximum=180, singleStep=10, suffix="°")
         tip = self.tr(
-            "Largest angle between the sensor's z axis and straight down, degrees; poses beyond are not proposed."
+            "Largest angle between the sensor's z axis and straight down, degrees. Poses beyond it are"
+            " not proposed."
         )
         self._add_line(words, named(self.tilt, words, tip=tip))
 
@@ -227,36 +229,35 @@ class GravityPanel(PanelScroll):
     def _make_bench(self) -> None:
         """Make the questions of where down is, and of what gives the orientations."""
         self.down = self._choice(
-            self.tr("The robot"),
+            self.tr("Robot base"),
             (
-                (self.tr("stands upright"), (0.0, 0.0, -1.0)),
-                (self.tr("hangs from the ceiling"), (0.0, 0.0, 1.0)),
-                (self.tr("is on a wall, its +x points down"), (1.0, 0.0, 0.0)),
-                (self.tr("is on a wall, its -x points down"), (-1.0, 0.0, 0.0)),
-                (self.tr("is on a wall, its +y points down"), (0.0, 1.0, 0.0)),
-                (self.tr("is on a wall, its -y points down"), (0.0, -1.0, 0.0)),
+                (self.tr("upright"), (0.0, 0.0, -1.0)),
+                (self.tr("on the ceiling"), (0.0, 0.0, 1.0)),
+                (self.tr("on a wall, +x down"), (1.0, 0.0, 0.0)),
+                (self.tr("on a wall, -x down"), (-1.0, 0.0, 0.0)),
+                (self.tr("on a wall, +y down"), (0.0, 1.0, 0.0)),
+                (self.tr("on a wall, -y down"), (0.0, -1.0, 0.0)),
             ),
             self.tr(
-                "Where gravity points in the frame of the orientations. Others: session set calibration.down"
+                "Direction of gravity in the frame of the orientations. For other directions: session set"
+                " calibration.down"
             ),
         )
         names = {
-            "robot": self.tr("by a robot ({degrees}°)"),
-            "tracker": self.tr("by a tracker ({degrees}°)"),
+            "robot": self.tr("from a robot ({degrees}°)"),
+            "tracker": self.tr("from a tracker ({degrees}°)"),
             "hand": self.tr("by hand ({degrees}°)"),
         }
         self.orientation_noise = self._choice(
-            self.tr("Orientations are known"),
+            self.tr("Orientation accuracy"),
             (
-                (self.tr("as the poses show"), None),
+                (self.tr("estimate from poses"), None),
                 *(
                     (names[key].format(degrees=f"{degrees:g}"), degrees)
                     for key, degrees in ORIENTATION_NOISE_DEG.items()
                 ),
             ),
-            self.tr(
-                "How well, 1 sigma about each axis: errors of the orientations move the weight in the readings."
-            ),
+            self.tr("1 sigma about each axis. Orientation errors shift the weight in the readings."),
         )
 
     def _choice(self, words: str, choices: Sequence[tuple[str, Any]], tip: str) -> QComboBox:
@@ -281,7 +282,9 @@ class GravityPanel(PanelScroll):
     def show_next(self, proposal: Proposal | None, *, virtual: bool, running: bool) -> None:
         """Show the pose to take next, and on a virtual bench the buttons that do it."""
         self.next.setText(
-            "" if proposal is None else self.tr("Next: {words}").format(words=said(proposal.sentence))
+            ""
+            if proposal is None
+            else self.tr("Tilt the tool to match the ghost: {words}").format(words=said(proposal.sentence))
         )
         self.next.setVisible(proposal is not None)
         self.away.setVisible(proposal is not None)
@@ -294,5 +297,5 @@ class GravityPanel(PanelScroll):
             self.away.setText("")
             return
         angle = float(np.degrees(np.arccos(np.clip(R_WS[2] @ goal[2], -1, 1))))
-        words = self.tr("You are there: keep still.") if angle < _THERE else self.tr("{angle:.0f}° to go.")
+        words = self.tr("In position: keep still.") if angle < _THERE else self.tr("{angle:.0f}° to go.")
         self.away.setText(words.format(angle=angle))

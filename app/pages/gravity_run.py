@@ -119,7 +119,7 @@ class GravityRun(QObject):
         self._read = key
         folder = self.bench.desk.folder
         self.bench.jobs.start(
-            self.tr("Reading the calibration"),
+            self.tr("Loading calibration"),
             lambda _progress, _cancelled: results.outcome_of(folder, state),
             self.set_outcome,
             self.fail,
@@ -143,7 +143,7 @@ class GravityRun(QObject):
             else outcome.calibration.model
         )
         self.bench.jobs.start(
-            self.tr("Compensating"), lambda _progress, _cancelled: self.bench.live.set_model(model)
+            self.tr("Compensating readings"), lambda _progress, _cancelled: self.bench.live.set_model(model)
         )
         self.changed.emit()
 
@@ -179,7 +179,7 @@ class GravityRun(QObject):
             self._end_following = live.follow(self.work.feed)
             self.set_phase(Phase.CAPTURING)
 
-        self.bench.jobs.start(self.tr("Beginning to record"), begin, begun, self.idle_again)
+        self.bench.jobs.start(self.tr("Starting recording"), begin, begun, self.idle_again)
 
     def _waits(self, earlier: str) -> bool:
         """Tell whether the devices are still being opened; then it begins once they are."""
@@ -188,7 +188,7 @@ class GravityRun(QObject):
         if waits:
             self.problem = ""
             self.bench.tell(
-                Weight.INFO, self.tr("The devices are being opened; the first pose is waited for after that.")
+                Weight.INFO, self.tr("Opening devices. The first pose can be captured afterwards.")
             )
         return waits
 
@@ -196,11 +196,11 @@ class GravityRun(QObject):
         """Tell whether there is something to record from; a message says what is missing."""
         pair = self.bench.live.pair
         if pair is None:
-            self.problem = self.tr("No device is open: choose and open a sensor under Devices first.")
+            self.problem = self.tr("No device is open. Choose and open a sensor under Devices first.")
         elif pair.poses is None:
             self.problem = self.tr(
-                "There is no source of poses. A weight can only be told from the sensor's zero if it is known how the"
-                " sensor stands: choose a robot, a file of poses or the virtual bench under Devices."
+                "No pose source. The sensor's orientation is needed to separate the weight from the"
+                " sensor offset. Choose a robot, a pose file or the virtual bench under Devices."
             )
         else:
             self.problem = ""
@@ -251,7 +251,7 @@ class GravityRun(QObject):
                 self.bench.tell(Weight.INFO, differs)
             self.reopen()
 
-        self.bench.jobs.start(self.tr("Computing the calibration"), compute, done, self.idle_again)
+        self.bench.jobs.start(self.tr("Computing calibration"), compute, done, self.idle_again)
 
     def stop(self) -> None:
         """End the captures; what was recorded stays in the session, and can be gone on from."""
@@ -261,7 +261,7 @@ class GravityRun(QObject):
         self._end_following()
         self.set_phase(Phase.FINISHING)
         self.bench.jobs.start(
-            self.tr("Keeping the recording"),
+            self.tr("Saving recording"),
             lambda _progress, _cancelled: tape.keep().result(),
             lambda _record: self.idle_again(None),
             self.idle_again,
@@ -302,7 +302,7 @@ class GravityRun(QObject):
             self.set_phase(Phase.CHECKING)
 
         self.bench.jobs.start(
-            self.tr("Beginning to record"),
+            self.tr("Starting recording"),
             lambda _progress, _cancelled: SessionTape.start(desk, live, name).result(),
             begun,
             self.idle_again,
@@ -342,7 +342,9 @@ class GravityRun(QObject):
             if _DIGITS.sub("", sentence) not in before:
                 self.bench.tell(Weight.WARNING, sentence)
         if self._said and not said:
-            self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
+            self.bench.tell(
+                Weight.GOOD, self.tr("All devices are sending samples again. Recording continues.")
+            )
         self._said = said
 
     def _set_checked(self, found: StillVerification) -> None:
@@ -365,17 +367,15 @@ class GravityRun(QObject):
             self.idle_again(None)
             self.checked = found
             said = {
-                Level.GOOD: self.tr("In a pose that it had not seen, the calibration proved good."),
-                Level.USABLE: self.tr("In a pose that it had not seen, the calibration proved usable."),
-                Level.REFUSE: self.tr(
-                    "In a pose that it had not seen, the calibration proved wrong: do not use it."
-                ),
+                Level.GOOD: self.tr("The calibration was checked with a new pose and is good."),
+                Level.USABLE: self.tr("The calibration was checked with a new pose and is usable."),
+                Level.REFUSE: self.tr("The calibration failed the check with a new pose. Do not use it."),
             }[level]
             weight = Weight.GOOD if found.passed else Weight.ERROR
             self.bench.tell(weight, " ".join((said, *found.verdict.reasons)))
             self.changed.emit()
 
-        self.bench.jobs.start(self.tr("Keeping the check"), keep, done, self.idle_again)
+        self.bench.jobs.start(self.tr("Saving check"), keep, done, self.idle_again)
 
     # ---- poses left out ----------------------------------------------------------------------------
 
@@ -385,7 +385,7 @@ class GravityRun(QObject):
         if not moments:
             return
         names = ", ".join(row.name for row in rows)
-        text = self.tr("leave out {poses}") if left_out else self.tr("take back {poses}")
+        text = self.tr("leave out {poses}") if left_out else self.tr("restore {poses}")
         before, after = ((moments, each) for each in (not left_out, left_out))
         self.bench.undo.push(
             Exchange(self.bench, text.format(poses=names), before, after, self._put_left_out)
@@ -397,7 +397,8 @@ class GravityRun(QObject):
             self.bench.tell(
                 Weight.WARNING,
                 self.tr(
-                    "The calibration is being computed, so no pose was changed. Do it again in a moment."
+                    "No pose was changed because the calibration is still being computed. Try again in a"
+                    " moment."
                 ),
             )
             return
@@ -416,7 +417,7 @@ class GravityRun(QObject):
             self.set_phase(Phase.IDLE)
             self.set_outcome(outcome)
 
-        self.bench.do(self.tr("Computing the calibration"), action, done, self.idle_again)
+        self.bench.do(self.tr("Computing calibration"), action, done, self.idle_again)
 
     # ---- findings ----------------------------------------------------------------------------------
 
@@ -462,7 +463,7 @@ class GravityRun(QObject):
                 self.reopen()
             self.changed.emit()
 
-        self.bench.do(self.tr("Setting the parameters"), put, done, self.fail)
+        self.bench.do(self.tr("Saving settings"), put, done, self.fail)
 
     def reopen(self) -> None:
         """Open the devices with the mount that the session has now, if they have another."""
@@ -472,7 +473,7 @@ class GravityRun(QObject):
         sensor = str(pair.sensor.address)
         poses = None if pair.poses is None else str(pair.poses.address)
         self.bench.jobs.start(
-            self.tr("Opening the devices with the new mount"),
+            self.tr("Reopening devices with the new mount"),
             lambda _progress, _cancelled: live.open(sensor, poses, settings.R_ES),
             None,
             self.fail,

@@ -32,14 +32,14 @@ class WeightPanel(KnownCheckPanel):
         self.unloaded = ""
         intro = sentence_label(
             self.tr(
-                "Hang a weight of known mass on the tool. It shows a wrong unit, sign or scale of the sensor, which"
-                " poses cannot show."
+                "Hang a known mass on the tool. This reveals wrong sensor units, signs or scale, which"
+                " poses alone cannot show."
             )
         )
         self.mass = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=500.0, value=1.0, suffix=" kg")
         self.sigma = QDoubleSpinBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
         self.certificate = QLineEdit(maxLength=200)
-        self.certificate.setPlaceholderText(self.tr("Number, if there is one"))
+        self.certificate.setPlaceholderText(self.tr("Number (optional)"))
         rows = form()
         for text, field, tip in (
             (self.tr("Mass"), self.mass, ""),
@@ -53,12 +53,12 @@ class WeightPanel(KnownCheckPanel):
 
     def _read_unloaded(self) -> None:
         self.unloaded = ""
-        self.hint.setText(self.tr("Take everything off the tool, and hold it still."))
+        self.hint.setText(self.tr("Remove everything from the tool and hold it still."))
 
         def read(name: str) -> None:
             self.unloaded = name
             self.hint.setText(
-                self.tr("Read. Now hang the weight on the tool, wait until it is at rest, then press 2.")
+                self.tr("Done. Hang the weight on the tool, wait until it is at rest, then press 2.")
             )
 
         self.take(StillReading(), read)

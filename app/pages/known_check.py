@@ -81,7 +81,7 @@ class KnownCheckPanel(QGroupBox):
                 self.have(found)
 
         self.bench.jobs.start(
-            self.tr("Reading the check"),
+            self.tr("Loading check"),
             lambda *_: known_outcome(desk.folder, state, stale, self.kind),
             came,
             self._wrong,
@@ -101,7 +101,7 @@ class KnownCheckPanel(QGroupBox):
         """End it: a reading that is not complete is thrown away."""
         self._closed = True
         if self.work.reading is not None:
-            self.bench.jobs.start(self.tr("Ending the recording"), lambda *_: self.work.discard())
+            self.bench.jobs.start(self.tr("Stopping recording"), lambda *_: self.work.discard())
 
     # ---- readings ----------------------------------------------------------------------------------
 
@@ -110,19 +110,19 @@ class KnownCheckPanel(QGroupBox):
         if self.busy:
             return
         self._then = then
-        self._do(self.tr("Beginning to record"), lambda: self.work.start(reading), lambda _: self.began())
+        self._do(self.tr("Starting recording"), lambda: self.work.start(reading), lambda _: self.began())
 
     def began(self) -> None:
         """Be told that a reading has begun."""
 
     def _keep(self) -> None:
         then, self._then = self._then, None
-        self._do(self.tr("Keeping the recording"), self.work.keep, lambda name: then(name) if then else None)
+        self._do(self.tr("Saving recording"), self.work.keep, lambda name: then(name) if then else None)
 
     def discard(self) -> None:
         """Throw the reading away."""
         self._then = None
-        self._do(self.tr("Ending the recording"), self.work.discard, lambda _: self.hint.setText(""))
+        self._do(self.tr("Stopping recording"), self.work.discard, lambda _: self.hint.setText(""))
 
     def judge(self, recordings: Mapping[str, str], given: Mapping[str, Any]) -> None:
         """Have the session compute the check."""
@@ -135,9 +135,7 @@ class KnownCheckPanel(QGroupBox):
                 weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {said(found.sentence)}"
             )
 
-        self._do(
-            self.tr("Computing the check"), lambda: self.work.compute(self.kind, recordings, given), judged
-        )
+        self._do(self.tr("Computing check"), lambda: self.work.compute(self.kind, recordings, given), judged)
 
     def _do(self, title: str, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
         self._busy = True
@@ -171,11 +169,11 @@ class KnownCheckPanel(QGroupBox):
         if found is not None:
             words = {
                 CheckOutcome.PASSED: self.tr("Passed"),
-                CheckOutcome.UNDECIDED: self.tr("Cannot tell"),
+                CheckOutcome.UNDECIDED: self.tr("Inconclusive"),
                 CheckOutcome.FAILED: self.tr("Failed"),
             }
             if found.stale:
-                self.verdict.show_verdict(LOCKED, [found.stale], self.tr("Stale: check again"))
+                self.verdict.show_verdict(LOCKED, [found.stale], self.tr("Outdated: check again"))
             else:
                 self.verdict.show_verdict(_LEVELS[found.outcome], [found.sentence], words[found.outcome])
             self.show_parameters(found.parameters)

@@ -75,7 +75,7 @@ class ProbePage(Page):
 
     def _choose(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Mesh of the probe"), "", self.tr("Meshes") + f" {_MESHES}"
+            self, self.tr("Probe mesh"), "", self.tr("Meshes") + f" {_MESHES}"
         )
         if name:
             self.stages.take(Path(name))
@@ -99,19 +99,19 @@ class ProbePage(Page):
     def _next_words(self) -> tuple[str, bool]:
         """Return what the button says, and whether it can be pressed."""
         if self.stages.using:
-            return self.tr("Keeping the probe"), False
+            return self.tr("Saving probe"), False
         if self.stages.in_use:
             return self.tr("Next: Regions"), True
         if self.stages.mesh is None:
-            return self.tr("Choose a mesh..."), True
+            return self.tr("Choose mesh…"), True
         if self.stages.asked:
-            return self.tr("Say how long the probe is (1)"), True
+            return self.tr("Enter probe length (1)"), True
         if self.stages.dense is None:
-            return self.tr("Make the outer surface"), True
+            return self.tr("Create outer surface"), True
         if not self.stages.in_sensor_frame:
-            return self.tr("Say where it lies (3)"), True
+            return self.tr("Align with sensor (3)"), True
         if self.stages.preview is None:
-            return self.tr("Prepare the probe"), True
+            return self.tr("Prepare probe"), True
         return self.tr("Use this probe"), True
 
     def _show(self) -> None:
@@ -153,7 +153,7 @@ class ProbePage(Page):
                 *(each.sentence for each in preview.done.carried),
             )
         elif self.stages.view.used is not None and self.stages.in_use:
-            count, meaning = len(self.stages.view.used.faces), self.tr("The session's probe.")
+            count, meaning = len(self.stages.view.used.faces), self.tr("Probe of this session.")
         self.facets.show_result(count, meaning)
         reason = () if self.stages.trade is None else (self.stages.trade.reason,)
         self.facets.report.show_sentences([("note", each) for each in (*reason, *sentences)])

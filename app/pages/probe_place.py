@@ -38,7 +38,7 @@ class PlaceSection(QGroupBox):
 
     def __init__(self, stages: ProbeStages, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setTitle(self.tr("3  Place on the sensor"))
+        self.setTitle(self.tr("3  Alignment with sensor"))
         self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
         layout = QVBoxLayout(self)
         layout.addWidget(self.panel)
@@ -116,7 +116,7 @@ class PlaceSection(QGroupBox):
 
     def _work(self, align: Callable[[Callable[[float], None]], tuple[Alignment, tuple[str, ...]]]) -> None:
         self._stages.worker.start(
-            self.tr("Placing the mesh"),
+            self.tr("Aligning mesh"),
             lambda progress, _cancelled: align(progress),
             lambda found: self._stages.put(*found),
         )

@@ -49,11 +49,11 @@ class MeshSection(QGroupBox):
         layout = QVBoxLayout(self)
         self.name = sentence_label()
         self.choose = push_button(
-            self.tr("Choose a mesh..."),
-            tip=self.tr("STL, PLY, OBJ, OFF or 3MF; a file can also be dropped on the window"),
+            self.tr("Choose mesh…"),
+            tip=self.tr("STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window"),
             high=_HIGH,
         )
-        self.housing = push_button(self.tr("Use the virtual bench's housing"), high=_HIGH)
+        self.housing = push_button(self.tr("Use virtual bench housing"), high=_HIGH)
         self.question = sentence_label()
         self.report = MeshReport()
         self._units = QVBoxLayout()
@@ -73,9 +73,7 @@ class MeshSection(QGroupBox):
         self.name.setText(
             mesh.file.name
             if mesh is not None
-            else self.tr(
-                "Drop the mesh of the probe here, as it came from CAD or from a scanner, or choose it."
-            )
+            else self.tr("Drop the probe mesh from CAD or a scanner here, or choose a file.")
         )
         self.report.show_inspection(None if mesh is None else mesh.inspection)
         for button in self.unit_buttons.values():
@@ -86,7 +84,7 @@ class MeshSection(QGroupBox):
         self.question.setVisible(guess is not None)
         if mesh is None or guess is None:
             return
-        self.question.setText(self.tr("How long is the probe? The file does not say in which unit it is."))
+        self.question.setText(self.tr("How long is the probe? The file does not state its unit."))
         for unit in (guess.units, *guess.alternatives):
             length = mesh.inspection.size_m * _metres(unit) / _metres(guess.units)
             words = self.tr("{:.4g} mm long ({})").format(1e3 * length, NAMES[unit])
@@ -106,18 +104,18 @@ class SurfaceSection(QGroupBox):
         layout = QVBoxLayout(self)
         rows = form()
         ways = (
-            self.tr("as it seems best"),
-            self.tr("by a fair surface"),
-            self.tr("by straight lines"),
-            self.tr("by the hull of the rim"),
-            self.tr("leave them open"),
+            self.tr("Automatic"),
+            self.tr("Smooth surface"),
+            self.tr("Straight lines"),
+            self.tr("Hull of the rim"),
+            self.tr("Leave open"),
         )
-        tip = self.tr("How openings are closed, such as the one for the cable")
+        tip = self.tr("Method for closing openings such as the cable outlet")
         self.close_by = choice(zip(ways, _CLOSINGS, strict=True), self.tr("Close openings"), tip=tip)
         rows.addRow(self.tr("Close openings"), self.close_by)
-        tip = self.tr("Size of the outer surface's facets, mm; 0: a 190th of the probe's length")
+        tip = self.tr("Facet size of the outer surface, mm; 0: 1/190 of the probe length")
         self.alpha = _number(0.0, 50.0, " mm", 2, self.tr("Facet size"), tip)
-        self.alpha.setSpecialValueText(self.tr("by the size"))
+        self.alpha.setSpecialValueText(self.tr("Automatic"))
         rows.addRow(self.tr("Facet size"), self.alpha)
         layout.addLayout(rows)
         self.report = MeshReport(1)
@@ -152,9 +150,9 @@ class FacetsSection(QGroupBox):
         for each in (self.number, self.meaning, self.chart):
             layout.addWidget(each)
         layout.addLayout(self._target_form())
-        self.overlay = check_box(self.tr("Show the original over it"))
-        tip = self.tr("How far the outer surface is from the simplified one, in mm")
-        self.deviation = check_box(self.tr("Show the deviation as colours"), tip=tip)
+        self.overlay = check_box(self.tr("Overlay the original"))
+        tip = self.tr("Distance from the outer surface to the simplified surface, mm")
+        self.deviation = check_box(self.tr("Colour by deviation"), tip=tip)
         layout.addWidget(self.overlay)
         layout.addWidget(self.deviation)
         self.report = MeshReport(1)
@@ -164,19 +162,19 @@ class FacetsSection(QGroupBox):
     def _target_form(self) -> QFormLayout:
         rows = form()
         targets = (
-            self.tr("a number of facets"),
-            self.tr("a largest deviation"),
-            self.tr("a largest contact error"),
+            self.tr("number of facets"),
+            self.tr("largest deviation"),
+            self.tr("largest contact error"),
         )
-        self.target = choice(zip(targets, _TARGETS, strict=True), self.tr("Keep to"), tip="")
+        self.target = choice(zip(targets, _TARGETS, strict=True), self.tr("Limit by"), tip="")
         self.value = _number(4.0, 2e6, "", 0, self.tr("Number of facets, or mm"), "")
-        rows.addRow(self.tr("Keep to"), self.target)
-        rows.addRow(self.tr("Up to"), self.value)
-        tip = self.tr("Facets per area inside the regions over that outside")
+        rows.addRow(self.tr("Limit by"), self.target)
+        rows.addRow(self.tr("Limit"), self.value)
+        tip = self.tr("Facet density inside regions relative to outside")
         self.ratio = _number(1.0, 100.0, " : 1", 1, self.tr("Finer in regions"), tip)
         self.ratio_label = QLabel(self.tr("Finer in regions"))
         rows.addRow(self.ratio_label, self.ratio)
-        self.painted = check_box(self.tr("Put the painted regions on it"))
+        self.painted = check_box(self.tr("Copy painted regions"))
         self.painted.setChecked(True)
         rows.addRow(self.painted)
         self.target.activated.connect(self._target_changed)
@@ -194,8 +192,8 @@ class FacetsSection(QGroupBox):
         self.value.setToolTip(
             (
                 self.tr("Number of facets"),
-                self.tr("Largest distance, mm"),
-                self.tr("Of 95 % of contacts, mm"),
+                self.tr("Maximum distance, mm"),
+                self.tr("95 % of contacts within, mm"),
             )[index]
         )
         self.value.blockSignals(True)

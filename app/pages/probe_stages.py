@@ -102,7 +102,7 @@ class ProbeWorker(QObject):
             self._bar.say(self.tr("Stopped. Nothing was changed."))
             return
         self._bench.set_failed(Step.PROBE, str(error))
-        words = self.tr("Something unexpected went wrong ({}). What there was is as it was; try again.")
+        words = self.tr("Unexpected error ({}). Nothing was changed. Try again.")
         self._wrong(str(error) if isinstance(error, InputError) else words.format(error))
 
 
@@ -259,7 +259,7 @@ class ProbeStages(QObject):
         address = bench_address(self.bench.desk.state)
         if address is not None:
             self.worker.start(
-                self.tr("Making the housing of the virtual bench"),
+                self.tr("Creating the virtual bench housing"),
                 lambda progress, cancelled: take_housing(self.work, address, progress, cancelled),
                 self._housing_taken,
             )
@@ -291,7 +291,7 @@ class ProbeStages(QObject):
         mesh = self.mesh
         if mesh is not None:
             self.worker.start(
-                self.tr("Looking at the mesh in its unit"),
+                self.tr("Checking the mesh in its unit"),
                 lambda progress, cancelled: self.work.again(mesh, unit, progress, cancelled),
                 lambda seen: self._unit_said(seen, unit),
             )
@@ -322,7 +322,7 @@ class ProbeStages(QObject):
             dense = self.work.shell(mesh, plan, progress, cancelled)
             return dense, _shown(mesh, dense, plan.alignment)
 
-        self.worker.start(self.tr("Making the outer surface"), work, self._surface_made)
+        self.worker.start(self.tr("Creating outer surface"), work, self._surface_made)
 
     def _surface_made(self, made: tuple[Dense, Shown]) -> None:
         self.dense, self.view.shown = made
@@ -339,7 +339,7 @@ class ProbeStages(QObject):
         if mesh is None:
             return
         self.worker.start(
-            self.tr("Placing the mesh"),
+            self.tr("Aligning mesh"),
             lambda _progress, _cancelled: _shown(mesh, dense, alignment),
             self._placed,
         )
@@ -375,7 +375,7 @@ class ProbeStages(QObject):
         mesh, plan = self.mesh, self.plan
         if mesh is not None:
             self.worker.start(
-                self.tr("Comparing numbers of facets"),
+                self.tr("Comparing facet counts"),
                 lambda progress, cancelled: self.work.ladder(mesh, plan, progress, cancelled),
                 self._measured,
             )
@@ -405,7 +405,7 @@ class ProbeStages(QObject):
         mesh, plan = self.mesh, self.plan
         if mesh is not None:
             self.worker.start(
-                self.tr("Preparing the probe"),
+                self.tr("Preparing probe"),
                 lambda progress, cancelled: self.work.preview(mesh, plan, progress, cancelled),
                 self._prepared,
             )
@@ -428,7 +428,7 @@ class ProbeStages(QObject):
         self.bench.undo.push(
             SessionCommand(
                 self.bench,
-                self.tr("use the probe"),
+                self.tr("use probe"),
                 lambda session: use_draft(session, preview),
                 lambda _: self._used(preview),
                 self._not_used,
@@ -444,7 +444,7 @@ class ProbeStages(QObject):
         count = len(preview.done.content.probe.faces)
         self.bench.tell(
             Weight.GOOD,
-            self.tr("The probe of {:,} facets is in use. Next: regions, or verify.").format(count),
+            self.tr("The probe with {:,} facets is in use. Next: regions or verification.").format(count),
         )
         self.bench.set_failed(Step.PROBE, "")
         self.changed.emit()
@@ -473,7 +473,7 @@ class ProbeStages(QObject):
             shown = Shown() if known is None else _shown(known[0], None, known[1].alignment)
             return _Found(known, shown, used_probe(self.bench.desk))
 
-        self.worker.start(self.tr("Opening the probe"), work, self._restored)
+        self.worker.start(self.tr("Opening probe"), work, self._restored)
 
     def _restored(self, found: _Found) -> None:
         if found.known is None:

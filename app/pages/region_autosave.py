@@ -70,7 +70,7 @@ class RegionAutosave(QObject):
         work.abort()
         revision, regions, shell = work.revision, work.model.snapshot(), work.shell
         self._kept_at = revision
-        bench, title = self._bench, self.tr("Keeping the regions")
+        bench, title = self._bench, self.tr("Saving regions")
 
         def done(_record: object) -> None:
             # Something else may be watched by now, or the page be closed and this object be gone.

@@ -67,9 +67,9 @@ class ToolPanel(QWidget):
         self.tool = LOOK
         self._buttons: dict[str, QToolButton] = {}
         self._corner: tuple[float, float, float] | None = None
-        tip = self.tr("Facets that belong to another region stay there")
+        tip = self.tr("Facets of other regions are not changed")
         self.protect = check_box(self.tr("Protect other regions"), tip=tip)
-        look = sentence_label(self.tr("Choose a tool. The right button always turns the view."), "muted")
+        look = sentence_label(self.tr("Choose a tool. The right button always rotates the view."), "muted")
         buttons = self._make_buttons()
         self._stack = HeightStack(
             look, self._make_brush(), self._make_fill(), self._make_box(), self._make_plane()
@@ -139,7 +139,7 @@ class ToolPanel(QWidget):
             planned = self.planned_tool()
             self.planned.emit(planned)
             if planned is None:
-                self.show_plan(self.tr("Each low number must be below the high one."))
+                self.show_plan(self.tr("Each lower limit must be below the upper limit."))
         else:
             self.planned.emit(None)
 
@@ -154,12 +154,12 @@ class ToolPanel(QWidget):
         tools = FoldRow(4)
         group = QButtonGroup(self)
         entries = (
-            (LOOK, "camera", self.tr("Look"), "L", self.tr("Turn the view with the left button")),
-            (BRUSH, "brush", self.tr("Brush"), "B", self.tr("Paint the chosen region")),
-            (ERASER, "eraser", self.tr("Eraser"), "E", self.tr("Take facets out of their region")),
+            (LOOK, "camera", self.tr("Navigate"), "L", self.tr("Rotate the view with the left button")),
+            (BRUSH, "brush", self.tr("Brush"), "B", self.tr("Paint the selected region")),
+            (ERASER, "eraser", self.tr("Eraser"), "E", self.tr("Remove facets from their region")),
             (FILL, "flood", self.tr("Fill"), "F", self.tr("Fill up to sharp edges")),
-            (BOX, "box", self.tr("Box"), "X", self.tr("Everything between two corners")),
-            (PLANE, "down", self.tr("Half"), "H", self.tr("Everything on one side of a plane")),
+            (BOX, "box", self.tr("Box"), "X", self.tr("Select everything between two corners")),
+            (PLANE, "down", self.tr("Half"), "H", self.tr("Select everything on one side of a plane")),
         )
         for tool, picture, text, key, tip in entries:
             button = QToolButton()
@@ -181,32 +181,32 @@ class ToolPanel(QWidget):
     def _make_brush(self) -> QWidget:
         self.radius_slider = QSlider(Qt.Orientation.Horizontal)
         self.radius_slider.setRange(0, round(100 * math.log(LARGEST / SMALLEST)))
-        self.radius_slider.setAccessibleName(self.tr("Radius of the brush"))
-        self.radius_slider.setToolTip(self.tr("[ and ], or Ctrl and the wheel"))
-        self.radius = _length(1000 * SMALLEST, 1000 * LARGEST, self.tr("Radius of the brush, mm"))
+        self.radius_slider.setAccessibleName(self.tr("Brush radius"))
+        self.radius_slider.setToolTip(self.tr("[ and ], or Ctrl + wheel"))
+        self.radius = _length(1000 * SMALLEST, 1000 * LARGEST, self.tr("Brush radius, mm"))
         self.radius_slider.valueChanged.connect(
             lambda value: self.radius_changed.emit(SMALLEST * math.exp(value / 100))
         )
         self.radius.valueChanged.connect(lambda value: self.radius_changed.emit(value / 1000))
         self.show_radius(USUAL)
-        words = self.tr("Drag over the probe. Shift: the other way. Esc: take the stroke back.")
+        words = self.tr("Drag over the probe. Shift erases. Esc cancels the stroke.")
         line = _labelled(self.tr("Radius"), self.radius_slider, self.radius)
         return _page(line, sentence_label(words, "muted"))
 
     def _make_fill(self) -> QWidget:
         self.crease_slider = QSlider(Qt.Orientation.Horizontal)
         self.crease_slider.setRange(1, 90)
-        self.crease_slider.setAccessibleName(self.tr("Sharpest edge that is crossed"))
+        self.crease_slider.setAccessibleName(self.tr("Sharpest edge to cross"))
         self.crease = QDoubleSpinBox(minimum=1, maximum=90, decimals=0, suffix=" °")
         self.crease.setMinimumHeight(HIGH)
-        self.crease.setAccessibleName(self.tr("Sharpest edge that is crossed, degrees"))
-        self.crease.setToolTip(self.tr("Edges sharper than this stop the fill, degrees"))
+        self.crease.setAccessibleName(self.tr("Sharpest edge to cross, degrees"))
+        self.crease.setToolTip(self.tr("The fill stops at edges sharper than this, degrees"))
         self.crease_slider.valueChanged.connect(lambda value: self.crease.setValue(value))
         self.crease.valueChanged.connect(lambda value: self.crease_slider.setValue(round(value)))
         self.crease.setValue(30)
-        self.fill_erase = check_box(self.tr("Take away instead"))
-        words = self.tr("Click on the probe: everything up to such edges is filled.")
-        line = _labelled(self.tr("Edges over"), self.crease_slider, self.crease)
+        self.fill_erase = check_box(self.tr("Remove instead"))
+        words = self.tr("Click the probe to fill up to the nearest sharp edges.")
+        line = _labelled(self.tr("Edge limit"), self.crease_slider, self.crease)
         return _page(line, self.fill_erase, sentence_label(words, "muted"))
 
     def _make_box(self) -> QWidget:
@@ -225,15 +225,15 @@ class ToolPanel(QWidget):
         return _page(self.box_hint, *lines, self.box_plan, self._make_giving())
 
     def _make_plane(self) -> QWidget:
-        words = self.tr("Click on the probe to move the plane there, or type the number.")
+        words = self.tr("Click the probe to move the plane there, or enter a number.")
         sides = [
             (text.format(name), None)
             for name in _AXES
-            for text in (self.tr("{0} above"), self.tr("{0} below"))
+            for text in (self.tr("above {0}"), self.tr("below {0}"))
         ]
-        self.side = choice(sides, self.tr("Which side of the plane"), tip="")
+        self.side = choice(sides, self.tr("Side of the plane"), tip="")
         self.side.setCurrentIndex(4)
-        self.position = _length(-2000, 2000, self.tr("Where the plane is, mm in the sensor frame S"))
+        self.position = _length(-2000, 2000, self.tr("Position of the plane, mm in the sensor frame S"))
         self.side.currentIndexChanged.connect(self.plan)
         self.position.valueChanged.connect(self.plan)
         self.plane_plan = sentence_label("", "muted")
@@ -242,16 +242,16 @@ class ToolPanel(QWidget):
 
     def _make_giving(self) -> FoldRow:
         give, take = (
-            self.tr("Give these facets to the chosen region"),
-            self.tr("Take these facets out of the chosen region"),
+            self.tr("Add these facets to the selected region"),
+            self.tr("Remove these facets from the selected region"),
         )
         return row(
             push_button(self.tr("Add"), lambda: self._give(False), tip=give),
-            push_button(self.tr("Take away"), lambda: self._give(True), tip=take),
+            push_button(self.tr("Remove facets"), lambda: self._give(True), tip=take),
         )
 
     def _box_words(self) -> str:
-        return self.tr("Click two opposite corners on the probe, or type the numbers.")
+        return self.tr("Click two opposite corners on the probe, or enter the numbers.")
 
 
 class ShapePanel(QGroupBox):
@@ -261,32 +261,32 @@ class ShapePanel(QGroupBox):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setTitle(self.tr("The chosen region"))
+        self.setTitle(self.tr("Selected region"))
         self.across = choice(
             [(self.tr("at {0} =").format(axis), None) for axis in _AXES],
-            self.tr("Plane to mirror at"),
+            self.tr("Mirror plane"),
             tip="",
         )
-        self.at = _length(-2000, 2000, self.tr("Where the mirror plane is, mm in the sensor frame S"))
-        self.amount = _length(0.1, 100, self.tr("How far to grow or shrink, mm along the surface"))
+        self.at = _length(-2000, 2000, self.tr("Position of the mirror plane, mm in the sensor frame S"))
+        self.amount = _length(0.1, 100, self.tr("Distance to grow or shrink along the surface, mm"))
         self.amount.setValue(1)
         self.rings = QSpinBox(minimum=1, maximum=50, value=2, prefix=self.tr("Rings: "))
         named(
             self.rings,
-            self.tr("How many rings of facets to smooth over"),
-            tip=self.tr("What is narrower than about this many facets goes"),
+            self.tr("Smoothing width in rings of facets"),
+            tip=self.tr("Removes details narrower than about this many facets"),
         )
         self.mirror_button = push_button(
             self.tr("Mirror"),
             lambda: self.asked.emit(self._mirror()),
             "mirror",
-            tip=self.tr("Also take what lies on the other side of the plane (M)"),
+            tip=self.tr("Add the mirror image across the plane (M)"),
         )
         self.mirror_button.setIconSize(QSize(20, 20))
         self.grow_button = push_button(
             self.tr("Grow"),
             lambda: self.asked.emit(Grow(self.amount.value() / 1000)),
-            tip=self.tr("Move the border outwards; other regions stay"),
+            tip=self.tr("Move the border outwards; other regions are unchanged"),
         )
         self.shrink_button = push_button(
             self.tr("Shrink"),
@@ -301,7 +301,7 @@ class ShapePanel(QGroupBox):
         self.clear_button = push_button(
             self.tr("Clear"),
             lambda: self.asked.emit(Clear()),
-            tip=self.tr("Take all facets out of the region"),
+            tip=self.tr("Remove all facets from the region"),
         )
         column(
             self,
@@ -311,7 +311,7 @@ class ShapePanel(QGroupBox):
             margins=(2, 2, 2, 2),
             space=4,
         )
-        add_key(self, self.tr("Mirror the chosen region"), "M", self.mirror_button.click)
+        add_key(self, self.tr("Mirror the selected region"), "M", self.mirror_button.click)
 
     def _mirror(self) -> Tool:
         axis = self.across.currentIndex()

@@ -149,7 +149,7 @@ class RegionsPage(Page):
         brush = self.brush
         add_key(self, self.tr("Smaller brush"), "[", lambda: brush.resize(brush.radius / STEP))
         add_key(self, self.tr("Larger brush"), "]", lambda: brush.resize(brush.radius * STEP))
-        add_key(self, self.tr("Take the stroke back, or look only"), "Esc", self._escape)
+        add_key(self, self.tr("Cancel the stroke, or navigate"), "Esc", self._escape)
 
     # ---- the page ----------------------------------------------------------------------------
 
@@ -198,8 +198,7 @@ class RegionsPage(Page):
         self.panel.show_view(
             RegionsView(
                 self._mode(),
-                self._failure
-                or self.tr("There is no probe yet. Regions are painted on it: prepare it first."),
+                self._failure or self.tr("No probe yet. Prepare it first, then paint regions on it."),
                 regions=0 if work is None else len(work.model.regions),
                 chosen=work is not None and self.panel.regions.rank > 0,
                 painted=work is not None and bool(work.model.labels.any()),
@@ -255,11 +254,11 @@ class RegionsPage(Page):
         def failed(error: BaseException) -> None:
             if self._key == key:
                 self._loading = None
-                self._failure = self.tr("It was cancelled.") if isinstance(error, Cancelled) else str(error)
+                self._failure = self.tr("Cancelled.") if isinstance(error, Cancelled) else str(error)
                 self.show_all()
 
         self._loading = self.bench.jobs.start(
-            self.tr("Making the surface to paint on"),
+            self.tr("Preparing the surface for painting"),
             make,
             opened,
             failed,
@@ -452,7 +451,7 @@ class RegionsPage(Page):
             self._found(work, finder(), erase)
             return
         self._begin(
-            self.tr("Finding the facets"),
+            self.tr("Finding facets"),
             lambda *_: finder(),
             lambda found: self._found(work, found, erase),
         )
@@ -471,7 +470,7 @@ class RegionsPage(Page):
             self.bench.tell(Weight.INFO, found.sentence)
         self.push(text)
         if text is None:
-            self.bench.tell(Weight.INFO, self.tr("Nothing changed: the region is like that already."))
+            self.bench.tell(Weight.INFO, self.tr("No change: the region already has this shape."))
 
     def _apply(self) -> None:
         """Compute the probe again with these regions."""
@@ -479,7 +478,7 @@ class RegionsPage(Page):
         if self.job is not None:
             return
         self.keeper.keep_now()
-        text = self.tr("give the probe its regions")
+        text = self.tr("apply regions to probe")
 
         def work(progress: Progress, cancelled: Stop) -> Callable[[Session], Record]:
             desk.do(lambda _session: None).result()  # what was just painted is in the session now
@@ -487,7 +486,7 @@ class RegionsPage(Page):
 
         def recorded(_: object) -> None:
             bench.set_failed(Step.REGIONS, "")
-            bench.tell(Weight.GOOD, self.tr("The probe has its regions now."))
+            bench.tell(Weight.GOOD, self.tr("Regions applied to the probe."))
 
         def wrong(error: BaseException) -> None:
             bench.set_failed(Step.REGIONS, str(error))
@@ -497,7 +496,7 @@ class RegionsPage(Page):
             bench.undo.push(SessionCommand(bench, text, record, recorded, wrong))
 
         bench.set_running(Step.REGIONS, True)
-        self._begin(self.tr("Giving the probe its regions"), work, computed, wrong)
+        self._begin(self.tr("Applying regions"), work, computed, wrong)
 
     # ---- files -----------------------------------------------------------------------------------
 
@@ -540,5 +539,5 @@ class RegionsPage(Page):
         self._begin(
             self.tr("Writing regions"),
             lambda *_: save_regions(regions, work.probe, file),
-            lambda _: self.bench.tell(Weight.GOOD, self.tr("The regions are written to {0}.").format(file)),
+            lambda _: self.bench.tell(Weight.GOOD, self.tr("Regions saved to {0}.").format(file)),
         )

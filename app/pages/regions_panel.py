@@ -75,15 +75,15 @@ class RegionsPanel(PanelScroll):
         self.state_text.setObjectName("regions_state")
         self.state_text.setMinimumHeight(_THREE_LINES_PX)  # what lies below stays where it is
         self.import_button = push_button(
-            self.tr("Import..."), tip=self.tr("Replace all regions by those of a JSON or CSV file")
+            self.tr("Import…"), tip=self.tr("Replace all regions with those in a JSON or CSV file")
         )
         self.export_button = push_button(
-            self.tr("Export..."), tip=self.tr("Write the regions to a JSON or CSV file")
+            self.tr("Export…"), tip=self.tr("Save the regions to a JSON or CSV file")
         )
         self.regions, self.tools, self.shape = RegionListWidget(), ToolPanel(), ShapePanel()
         intro = self.tr(
-            "Mark the parts that are meant to be touched, the most important first: where a reading fits"
-            " several places, the contact is looked for there. Regions are optional."
+            "Mark the areas meant to be touched, most important first. If a reading fits several places,"
+            " these areas are preferred. Regions are optional."
         )
         state = row()
         state.add(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
@@ -120,10 +120,10 @@ class RegionsPanel(PanelScroll):
         bar.offer_second()
         planned = view.mode is Mode.READY and view.painted and view.standing is Standing.PLANNED
         if planned or view.mode in (Mode.LOCKED, Mode.FAILED):
-            bar.offer(self.tr("Go to Probe"), lambda: self.go_asked.emit(Step.PROBE))
+            bar.offer(self.tr("Open Probe"), lambda: self.go_asked.emit(Step.PROBE))
         elif view.painted and not applied:
-            tip = self.tr("Computes the probe again, with more facets in the regions")
-            bar.offer(self.tr("Give them to the probe"), self.apply_asked.emit, enabled=free, tip=tip)
+            tip = self.tr("Recompute the probe with more facets in the regions")
+            bar.offer(self.tr("Apply regions"), self.apply_asked.emit, enabled=free, tip=tip)
         else:
             words = self.tr("Next: Verify") if applied else self.tr("Next: Verify, without regions")
             bar.offer(words, lambda: self.go_asked.emit(Step.VERIFY), enabled=free, accented=applied)
@@ -135,28 +135,26 @@ class RegionsPanel(PanelScroll):
         if view.mode is Mode.FAILED:
             return StepState.FAILED, view.sentence
         if view.mode is Mode.OPENING:
-            return StepState.RUNNING, self.tr("The surface to paint on is being made.")
+            return StepState.RUNNING, self.tr("Preparing the surface for painting…")
         if view.busy:
-            return StepState.RUNNING, self.tr("Computing.")
+            return StepState.RUNNING, self.tr("Computing…")
         if view.unkept:
             return StepState.FAILED, self.tr(
-                "The regions are not kept in the session: {0} The next change tries again."
+                "The regions were not saved: {0} The next change tries again."
             ).format(view.unkept)
         if not view.regions:
-            return StepState.READY, self.tr("There are no regions yet: add one, then paint it on the probe.")
+            return StepState.READY, self.tr("No regions yet. Add one, then paint it on the probe.")
         if not view.chosen:
-            return StepState.READY, self.tr("Choose a region in the list, then paint it on the probe.")
+            return StepState.READY, self.tr("Select a region in the list, then paint it on the probe.")
         if not view.painted:
-            return StepState.READY, self.tr("Nothing is painted yet: take the brush and drag over the probe.")
+            return StepState.READY, self.tr("Nothing painted yet. Choose the brush and drag over the probe.")
         return self._of_painted(view)
 
     def _of_painted(self, view: RegionsView) -> tuple[StepState, str]:
         if view.dirty:
-            return StepState.READY, self.tr("Painted; it is kept in the session in a moment.")
+            return StepState.READY, self.tr("Saving…")
         if view.standing is Standing.APPLIED:
             return StepState.DONE, self.tr("The probe has these regions.")
         if view.standing is Standing.PLANNED:
-            return StepState.READY, self.tr(
-                "Kept in the session. The probe takes them along when it is made."
-            )
-        return StepState.STALE, self.tr("Kept in the session, but the probe does not have them yet.")
+            return StepState.READY, self.tr("Saved. The regions are applied when the probe is prepared.")
+        return StepState.STALE, self.tr("Saved, but not yet applied to the probe.")

@@ -76,7 +76,7 @@ class VerifyPage(Page):
         column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
         for panel, name in (
             (self.panel_markers, self.tr("Markers")),
-            (self.panel_how, self.tr("How")),
+            (self.panel_how, self.tr("Settings")),
             (point, self.tr("Point")),
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
@@ -108,7 +108,7 @@ class VerifyPage(Page):
     def enter(self) -> None:
         """Show markers and contacts in the scene."""
         self._entered = True
-        self.scene_view.begin(self.tr("Drawing the heat map"))
+        self.scene_view.begin(self.tr("Drawing heatmap"))
         self._read()
 
     def leave(self) -> None:
@@ -160,7 +160,9 @@ class VerifyPage(Page):
             self.panel_touch.say(self.work.error)
             self.bench.set_failed(Step.VERIFY, self.work.error)
         if before and not self._told and self.work.going_on:
-            self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
+            self.bench.tell(
+                Weight.GOOD, self.tr("All devices are sending samples again. Recording continues.")
+            )
         self.panel_point.poll()
 
     def close_page(self) -> None:
@@ -170,7 +172,7 @@ class VerifyPage(Page):
         if self._job is not None:
             self._job.cancel()
         # Not here: it may have to wait for what is just being judged, and for the disk.
-        self.bench.jobs.start(self.tr("Keeping the recording"), lambda *_: self.work.abandon())
+        self.bench.jobs.start(self.tr("Saving recording"), lambda *_: self.work.abandon())
         self.panel_touch.sounds.close()
 
     def _go(self) -> None:
@@ -202,7 +204,7 @@ class VerifyPage(Page):
                 self._show_outcome(found[1])
                 self._allow()
 
-        self.bench.jobs.start(self.tr("Reading the verification"), work, came, self._not_read)
+        self.bench.jobs.start(self.tr("Loading verification"), work, came, self._not_read)
         self.panel_point.read()
         self._load_tool()
 
@@ -236,14 +238,14 @@ class VerifyPage(Page):
             self.bench.live.set_solver(found[1])
             self.panel_markers.show_regions()
             if self._entered:
-                self.scene_view.begin(self.tr("Drawing the heat map"))
+                self.scene_view.begin(self.tr("Drawing heatmap"))
             self._allow()
 
         def wrong(error: BaseException) -> None:
             self._loading = None
             self._not_read(error)
 
-        self.bench.jobs.start(self.tr("Loading the probe"), work, came, wrong)
+        self.bench.jobs.start(self.tr("Loading probe"), work, came, wrong)
 
     def _show_outcome(self, outcome: VerifyOutcome | None) -> None:
         if outcome is not None:
@@ -304,7 +306,7 @@ class VerifyPage(Page):
         self.panel_touch.say("")
         self.scene_view.forget_contacts()
         self._do(
-            self.tr("Measuring the noise"),
+            self.tr("Measuring noise"),
             lambda _, cancelled: self.work.start(tool, markers, cancelled),
             lambda _: None,
         )
@@ -326,19 +328,19 @@ class VerifyPage(Page):
                 self.scene_view.show_worst()
                 self.panel_touch.sounds.play("done")
                 passed, failed = (
-                    self.tr("The verification passed."),
-                    self.tr("The verification did not pass."),
+                    self.tr("Verification passed."),
+                    self.tr("Verification failed."),
                 )
                 good = outcome.passed
                 self.bench.tell(Weight.GOOD if good else Weight.WARNING, passed if good else failed)
 
-        self._do(self.tr("Judging the touches"), lambda *_: self.work.finish(deed), judged)
+        self._do(self.tr("Evaluating touches"), lambda *_: self.work.finish(deed), judged)
 
     def discard(self) -> None:
         """End it without a verdict."""
         if not self._busy and self.work.going_on:
             self.toucher.end()
-            self._do(self.tr("Ending the recording"), lambda *_: self.work.discard(), lambda _: None)
+            self._do(self.tr("Stopping recording"), lambda *_: self.work.discard(), lambda _: None)
 
     def _repeat(self) -> None:
         touches = self.work.touches
@@ -368,20 +370,20 @@ class VerifyPage(Page):
         start, again = self.tr("Start touching"), self.tr("Verify again")
         if self._locked:
             missing = why_locked(self.bench.desk.state, "calibration")
-            words = self.tr("Go to Gravity") if missing else self.tr("Go to Probe")
+            words = self.tr("Go to Gravity") if missing else self.tr("Open Probe")
             bar.offer(words, self._go)
             bar.offer_second()
         elif work.going_on:
-            tip = self.tr("Keep the recording, judge it, and make the report")
+            tip = self.tr("Save the recording, evaluate it and create the report")
             bar.offer(self.tr("Finish"), self.finish, enabled=not self._busy, tip=tip)
-            tip = self.tr("End without a verdict; the touches are not kept")
-            bar.offer_second(self.tr("Throw away"), self.discard, enabled=not self._busy, tip=tip)
+            tip = self.tr("Stop without a verdict; the touches are discarded")
+            bar.offer_second(self.tr("Discard"), self.discard, enabled=not self._busy, tip=tip)
         elif outcome is not None and outcome.passed and not (outcome.stale or outcome.broken):
             bar.offer(self.tr("Next: Export"), lambda: self.bench.go_to.emit(Step.EXPORT))
             bar.offer_second(again, self.start, enabled=ready and not self._busy)
         else:
             words = start if outcome is None else again
-            tip = "" if len(work.markers) else self.tr("Place markers first, on the first tab.")
+            tip = "" if len(work.markers) else self.tr("Place markers on the first tab.")
             first = self.tabs.currentIndex() == _MARKERS and not len(work.markers)
             bar.offer(words, self.start, enabled=ready and not self._busy, accented=not first, tip=tip)
             bar.offer_second()

@@ -58,7 +58,7 @@ class MarkersPanel(QWidget):
         self.table.rename_wanted.connect(self.rename)
         self._empty = sentence_label(
             self.tr(
-                "No markers yet. Spread some over the probe, click on it, or import a table of measured ones."
+                "No markers yet. Distribute some over the probe, click on it, or import measured positions."
             ),
             "muted",
         )
@@ -68,15 +68,15 @@ class MarkersPanel(QWidget):
         ).setStretchFactor(self.table, 1)  # fmt: skip
 
     def _making(self) -> tuple[FoldRow, ...]:
-        self.region = choice((), self.tr("Where markers are placed"), short=True)
+        self.region = choice((), self.tr("Area for markers"), short=True)
         self.show_regions()
         self.count = QSpinBox(minimum=1, maximum=1000, value=12)
-        named(self.count, self.tr("How many markers"))
+        named(self.count, self.tr("Number of markers"))
         self.pitch = QDoubleSpinBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
-        named(self.pitch, self.tr("Distance of the lines of the grid, mm"))
-        self.spread = push_button(self.tr("Spread evenly"), self._spread, "add")
-        self.grid = push_button(self.tr("On a grid"), self._grid, "add")
-        label = QLabel(self.tr("Place them on"))
+        named(self.pitch, self.tr("Grid spacing, mm"))
+        self.spread = push_button(self.tr("Distribute evenly"), self._spread, "add")
+        self.grid = push_button(self.tr("Create grid"), self._grid, "add")
+        label = QLabel(self.tr("Place on"))
         label.setBuddy(self.region)
         return (
             row(label, (self.region, 1)),
@@ -85,10 +85,10 @@ class MarkersPanel(QWidget):
         )
 
     def _editing(self) -> FoldRow:
-        self.pick = push_button(self.tr("Click on it"), None, "add")
+        self.pick = push_button(self.tr("Click to place"), None, "add")
         self.pick.setCheckable(True)
         self.pick.setToolTip(
-            self.tr("Every click on the probe adds a marker; with one marker selected, it moves there")
+            self.tr("Click the probe to add a marker; if a marker is selected, the click moves it")
         )
         self.pick.toggled.connect(lambda on: self._bench.scene.set_tool("pick" if on else "turn"))
         self.remove_button = push_button(
@@ -96,15 +96,15 @@ class MarkersPanel(QWidget):
         )
         self.importing = push_button(self.tr("Import…"), self._ask_import, "folder")
         self.exporting = push_button(self.tr("Save as…"), self._ask_export, "export")
-        self.snap_button = push_button(self.tr("Onto the surface"), self.snap, "down")
-        self.snap_button.setToolTip(self.tr("Move every marker to the nearest point of the probe"))
+        self.snap_button = push_button(self.tr("Snap to surface"), self.snap, "down")
+        self.snap_button.setToolTip(self.tr("Move every marker to the nearest point on the probe"))
         buttons = (self.pick, self.remove_button, self.importing, self.exporting, self.snap_button)
         return row(*((each, 1) for each in buttons))
 
     def _typing(self) -> FoldRow:
         self.coordinates = []
         for axis in ("x", "y", "z"):
-            name = self.tr("{axis} of a marker in the sensor frame S, mm").format(axis=axis)
+            name = self.tr("Marker {axis} in the sensor frame S, mm").format(axis=axis)
             field = QDoubleSpinBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
             self.coordinates.append(named(field, name))
         self.add_button = QToolButton()
@@ -122,7 +122,7 @@ class MarkersPanel(QWidget):
         wanted: list[tuple[str, int | None]] = [
             (self.tr("region {rank}").format(rank=rank), rank) for rank in ranks
         ]
-        wanted.append((self.tr("the whole probe"), None))
+        wanted.append((self.tr("whole probe"), None))
         if wanted != [(self.region.itemText(i), self.region.itemData(i)) for i in range(self.region.count())]:
             self.region.clear()
             for words, rank in wanted:
@@ -194,7 +194,7 @@ class MarkersPanel(QWidget):
 
     def add(self, point: tuple[float, float, float]) -> None:
         """Add a marker at a point, m."""
-        self._try(lambda: self._work.markers.added(point), self.tr("Add a marker"))
+        self._try(lambda: self._work.markers.added(point), self.tr("Add marker"))
 
     def _type(self) -> None:
         x, y, z = (1e-3 * field.value() for field in self.coordinates)
@@ -208,7 +208,7 @@ class MarkersPanel(QWidget):
             self._try(lambda: markers.moved(name, pick.point), text)
             self.table.clearSelection()
         else:
-            self._try(lambda: markers.added(pick.point), self.tr("Add a marker"))
+            self._try(lambda: markers.added(pick.point), self.tr("Add marker"))
 
     def remove(self, names: list[str]) -> None:
         """Remove markers."""
@@ -234,7 +234,7 @@ class MarkersPanel(QWidget):
         """Move the markers onto the probe's surface."""
         tool, markers = self._work.tool, self._work.markers
         if tool is not None and len(markers):
-            self._make(self.tr("Move markers onto the surface"), lambda: on_surface(markers, tool.probe)[0])
+            self._make(self.tr("Snap markers to surface"), lambda: on_surface(markers, tool.probe)[0])
 
     # ---- files ---------------------------------------------------------------------------------------
 
@@ -255,22 +255,22 @@ class MarkersPanel(QWidget):
                 ) from error
 
         self._bench.jobs.start(
-            self.tr("Saving the markers"),
+            self.tr("Saving markers"),
             work,
-            lambda _: self._bench.tell(Weight.GOOD, self.tr("The markers are in {file}.").format(file=file)),
+            lambda _: self._bench.tell(Weight.GOOD, self.tr("Markers saved in {file}.").format(file=file)),
             self._wrong,
         )
 
     def _ask_import(self) -> None:
         name, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Import markers"), "", self.tr("Tables of markers (*.csv)")
+            self, self.tr("Import markers"), "", self.tr("Marker tables (*.csv)")
         )
         if name:
             self.bring(Path(name))
 
     def _ask_export(self) -> None:
         name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Save markers"), "markers.csv", self.tr("Tables of markers (*.csv)")
+            self, self.tr("Save markers"), "markers.csv", self.tr("Marker tables (*.csv)")
         )
         if name:
             self.write(Path(name))

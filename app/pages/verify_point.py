@@ -33,14 +33,14 @@ class PointPanel(KnownCheckPanel):
         self._points: dict[str, list[float]] = {}
         intro = sentence_label(
             self.tr(
-                "Press one marker on the side of the probe with a finger. It shows a wrong sign or unit of the torques,"
-                " and a probe that is turned on the sensor."
+                "Press one marker on the side of the probe with a finger. This reveals wrong torque signs"
+                " or units, and a probe rotated on the sensor."
             )
         )
         self.point = choice((), self.tr("Marker"), tip="")
         label = QLabel(self.tr("Marker"))
         label.setBuddy(self.point)
-        self.start = push_button(self.tr("Record a press"), self._record, "play")
+        self.start = push_button(self.tr("Record press"), self._record, "play")
         self.lay_out(intro, row(label, (self.point, 1)), self.start)
 
     def show_markers(
@@ -83,5 +83,5 @@ class PointPanel(KnownCheckPanel):
         ready = bool(self._points) and self.model is not None
         self.start.setEnabled(ready and not self.busy)
         self.point.setEnabled(ready and not self.busy)
-        self.start.setToolTip("" if self._points else self.tr("Place a marker first, on the tab Markers."))
+        self.start.setToolTip("" if self._points else self.tr("Place a marker on the Markers tab first."))
         accent(self.start, ready and not self.busy and self.outcome is None, "play")

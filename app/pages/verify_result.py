@@ -33,7 +33,7 @@ class ResultPanel(QWidget):
         self.number, self.range = sentence_label(role="number"), sentence_label(role="muted")
         self.figures, self.why, self.diagnosis = sentence_label(), sentence_label(), sentence_label()
         self.notes, self.model_error = sentence_label(role="muted"), sentence_label()
-        self.open = push_button(self.tr("Open the report"), self._open, "folder")
+        self.open = push_button(self.tr("Open report"), self._open, "folder")
         self.worst = push_button(
             self.tr("Show the worst marker"),
             None,
@@ -59,14 +59,16 @@ class ResultPanel(QWidget):
         if outcome.broken:
             self._put(self.tr("Does not count"), "failed", "bad")
         elif outcome.stale:
-            self._put(self.tr("Stale: verify again"), "stale", "stale")
+            self._put(self.tr("Outdated: verify again"), "stale", "stale")
         elif outcome.passed:
             self._put(self.tr("Passed"), "done", "good")
         else:
             self._put(self.tr("Not passed"), "failed", "bad")
         mean = outcome.mean_mm
         number = (
-            self.tr("no touch counted") if mean is None else self.tr("{mean} mm").format(mean=f"{mean:.2f}")
+            self.tr("no accepted touches")
+            if mean is None
+            else self.tr("{mean} mm").format(mean=f"{mean:.2f}")
         )
         found = outcome.found
         self._texts(
@@ -95,12 +97,12 @@ class ResultPanel(QWidget):
         if outcome.mean_mm is None:
             return ""
         if outcome.touches == 1:
-            return self.tr("mean error of one touch")
+            return self.tr("error of a single touch")
         ci = outcome.found.ci
         if ci is None:
             return self.tr("mean error of {count} touches").format(count=outcome.touches)
         low, high = ci.mean_mm
-        return self.tr("mean error of {count} touches; surely between {low} and {high} mm (95 %)").format(
+        return self.tr("mean error of {count} touches; 95 % CI {low}–{high} mm").format(
             count=outcome.touches, low=f"{low:.2f}", high=f"{high:.2f}"
         )
 
@@ -109,14 +111,14 @@ class ResultPanel(QWidget):
         if overall is None:
             return ""
         lines = [
-            self.tr("Largest error: {size} mm; up to {limit} mm passes").format(
+            self.tr("Largest error: {size} mm (limit {limit} mm)").format(
                 size=f"{overall.max_mm:.2f}", limit=f"{1e3 * limits.max_m:g}"
             ),
-            self.tr("95 % of touches: within {size} mm").format(size=f"{overall.p95_mm:.2f}"),
-            self.tr("Mean error: up to {limit} mm passes").format(limit=f"{1e3 * limits.mean_m:g}"),
+            self.tr("95 % of touches within {size} mm").format(size=f"{overall.p95_mm:.2f}"),
+            self.tr("Limit of the mean error: {limit} mm").format(limit=f"{1e3 * limits.mean_m:g}"),
         ]
         if found.ratio is not None:
-            words = self.tr("{ratio} times what noise and calibration explain")
+            words = self.tr("{ratio} times the expected error (noise and calibration)")
             lines.append(words.format(ratio=f"{found.ratio:.1f}"))
         return "\n".join(lines)
 

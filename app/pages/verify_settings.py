@@ -21,38 +21,39 @@ class VerifySettingsPanel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._others: tuple[tuple[float, float], ...] = ()
-        self.low = self._number(0.2, 500.0, " N", self.tr("Lower end of the force window, N"))
-        self.high = self._number(0.3, 500.0, " N", self.tr("Upper end of the force window, N"))
+        self.low = self._number(0.2, 500.0, " N", self.tr("Lower force limit, N"))
+        self.high = self._number(0.3, 500.0, " N", self.tr("Upper force limit, N"))
         self.repeats = QSpinBox(minimum=1, maximum=100, suffix=" ×")
-        named(self.repeats, self.tr("Accepted touches wanted of each marker"))
+        named(self.repeats, self.tr("Accepted touches required per marker"))
         self.samples = QSpinBox(minimum=4, maximum=10_000)
-        named(self.samples, self.tr("Samples taken of each touch, once it has settled"))
+        named(self.samples, self.tr("Samples per touch after settling"))
         self.order = choice(
-            ((self.tr("any order"), False), (self.tr("as in the table"), True)),
-            self.tr("In which order markers are touched"),
+            ((self.tr("any order"), False), (self.tr("table order"), True)),
+            self.tr("Order in which to touch the markers"),
             tip=self.tr(
-                "In any order a touch is of the marker that it is near; in the table's order, of the next one."
+                "Any order: a touch counts for the nearest marker. Table order: it counts for the next"
+                " marker."
             ),
         )
-        self.mean = self._number(0.05, 50.0, " mm", self.tr("Largest mean error that passes, mm"))
-        self.most = self._number(0.05, 50.0, " mm", self.tr("Largest error that passes, mm"))
+        self.mean = self._number(0.05, 50.0, " mm", self.tr("Largest permitted mean error, mm"))
+        self.most = self._number(0.05, 50.0, " mm", self.tr("Largest permitted error, mm"))
         layout = form(self, top=8)
         layout.addRow(self.tr("Press with"), row((self.low, 1), QLabel(self.tr("to")), (self.high, 1)))
-        layout.addRow(self.tr("Each marker"), self.repeats)
+        layout.addRow(self.tr("Per marker"), self.repeats)
         layout.addRow(self.tr("Samples"), self.samples)
-        layout.addRow(self.tr("Touch in"), self.order)
+        layout.addRow(self.tr("Touch order"), self.order)
         layout.addRow(self.tr("Mean error up to"), self.mean)
-        layout.addRow(self.tr("Any error up to"), self.most)
+        layout.addRow(self.tr("Single error up to"), self.most)
         for end in (self.low, self.high):
             end.valueChanged.connect(self._set_window)
         self.order.currentIndexChanged.connect(
             lambda _: self.changed.emit({"order": self.order.currentData()}, self.tr("Order of touches"))
         )
         for field, name, words in (
-            (self.repeats, "repeats", self.tr("Touches of each marker")),
-            (self.samples, "samples", self.tr("Samples of each touch")),
-            (self.mean, "mean_limit_mm", self.tr("Limit of the mean error")),
-            (self.most, "max_limit_mm", self.tr("Limit of any error")),
+            (self.repeats, "repeats", self.tr("Touches per marker")),
+            (self.samples, "samples", self.tr("Samples per touch")),
+            (self.mean, "mean_limit_mm", self.tr("Mean error limit")),
+            (self.most, "max_limit_mm", self.tr("Single error limit")),
         ):
             field.valueChanged.connect(
                 lambda value, name=name, words=words: self.changed.emit({name: value}, words)

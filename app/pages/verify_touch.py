@@ -62,18 +62,16 @@ class TouchPanel(QWidget):
             self.tr("Touch again"),
             None,
             "redo",
-            tip=self.tr(
-                "The marker that is selected in the table, or else the last one; all its touches count"
-            ),
+            tip=self.tr("Repeat the marker selected in the table, or the last one; all its touches count"),
         )
         self.skip = push_button(
-            self.tr("Leave it out"),
+            self.tr("Skip marker"),
             self._ask_why,
             "remove",
-            tip=self.tr("Go on with the marker after the next one; you say why, and the report repeats it"),
+            tip=self.tr("Skip the next marker and enter the reason, which appears in the report"),
         )
         self.touch = push_button(
-            self.tr("Touch it for me"),
+            self.tr("Touch virtually"),
             None,
             "play",
             tip=self.tr("The virtual bench presses the next marker with a tip"),
@@ -82,22 +80,22 @@ class TouchPanel(QWidget):
             self.tr("Touch all"),
             None,
             "play",
-            tip=self.tr("The virtual bench presses one marker after the other"),
+            tip=self.tr("The virtual bench presses all markers in turn"),
         )
         self.touch_all.setCheckable(True)
-        tip = self.tr("Colour the probe by where it was touched, in contacts per mm²")
-        self.heat = check_box(self.tr("Heat map of contacts"), tip=tip)
+        tip = self.tr("Colour the probe by contact density, in contacts per mm²")
+        self.heat = check_box(self.tr("Contact heatmap"), tip=tip)
         self.mute = QToolButton()
         self.mute.setCheckable(True)
         self.mute.setIcon(icon("sound"))
         self.mute.setMinimumSize(HIGH, HIGH)
-        self.mute.setAccessibleName(self.tr("Mute the tones"))
-        self.mute.setToolTip(self.tr("A tone for each state; press to mute them"))
+        self.mute.setAccessibleName(self.tr("Mute tones"))
+        self.mute.setToolTip(self.tr("Each state has its own tone; press to mute"))
         self.mute.toggled.connect(self._mute)
 
     def _mute(self, muted: bool) -> None:
         self.mute.setIcon(icon("mute" if muted else "sound"))
-        self.mute.setAccessibleName(self.tr("Tones are muted") if muted else self.tr("Mute the tones"))
+        self.mute.setAccessibleName(self.tr("Tones muted") if muted else self.tr("Mute tones"))
         self.sounds.muted = muted
 
     # ---- what is shown -------------------------------------------------------------------------------
@@ -163,18 +161,18 @@ class TouchPanel(QWidget):
             return
         name = view.rows[view.next_one].name
         dialog = QInputDialog(self.window())
-        dialog.setWindowTitle(self.tr("Leave {name} out").format(name=name))
-        dialog.setLabelText(self.tr("Why is {name} not touched? The report says so.").format(name=name))
+        dialog.setWindowTitle(self.tr("Skip {name}").format(name=name))
+        dialog.setLabelText(self.tr("Reason for skipping {name} (appears in the report)").format(name=name))
         dialog.setComboBoxEditable(True)
         dialog.setComboBoxItems(
             [
-                self.tr("nothing reaches it"),
-                self.tr("the mark cannot be seen any more"),
-                self.tr("the housing gives way there"),
-                self.tr("a touch there would do damage"),
+                self.tr("not reachable"),
+                self.tr("mark no longer visible"),
+                self.tr("housing is too soft there"),
+                self.tr("a touch could cause damage"),
             ]
         )
-        dialog.setOkButtonText(self.tr("Leave it out"))
+        dialog.setOkButtonText(self.tr("Skip marker"))
         dialog.textValueSelected.connect(lambda why: self.leave_out(name, why))
         dialog.finished.connect(dialog.deleteLater)
         dialog.open()
@@ -186,11 +184,14 @@ class TouchPanel(QWidget):
             return
         weight = Weight.WARNING
         if not why:
-            words = self.tr("{name} is not left out: that needs a reason.")
+            words = self.tr("{name} was not skipped: enter a reason.")
         elif touches.skip(why, name) is None:
-            weight, words = Weight.INFO, self.tr("{name} is not left out: it was touched meanwhile.")
+            weight, words = (
+                Weight.INFO,
+                self.tr("{name} was not skipped because it has been touched in the meantime."),
+            )
         else:
-            words = self.tr("{name} is left out: {why}. The verdict and the report say so.")
+            words = self.tr("{name} skipped: {why}. The verdict and the report state the reason.")
         self._bench.tell(weight, words.format(name=name, why=why))
 
     # ---- words ---------------------------------------------------------------------------------------
@@ -201,35 +202,38 @@ class TouchPanel(QWidget):
             return "", ""
         if contact.reason is Reason.TWO_TOUCHES:
             return self.tr("second touch"), self.tr("second touch, behind")
-        return self.tr("could also be here"), self.tr("could also be here, behind")
+        return self.tr("possible alternative"), self.tr("possible alternative, behind")
 
     def _what_first(self) -> str:
         if self._bench.live.pair is None:
-            return self.tr("No sensor is open: connect one in step 1, Devices.")
+            return self.tr("No sensor is open. Connect one in step 1, Devices.")
         if not len(self._work.markers):
-            return self.tr("Place markers first, on the first tab.")
+            return self.tr("Place markers on the first tab.")
         return self.tr(
-            "Take everything off the probe, then start. From then on, only touch: no mouse is needed."
+            "Remove everything from the probe, then start. After that, just touch the markers; no mouse"
+            " is needed."
         )
 
     def _wish(self, view: TouchView) -> str:
         low, high = view.window
         words = {
-            ProtocolState.ARMED: self.tr("Press with {low} to {high} N, and hold still."),
-            ProtocolState.TOUCHING: self.tr("Bring the force to {low} to {high} N, and hold still."),
-            ProtocolState.SETTLED: self.tr("Do not move: the samples are taken."),
-            ProtocolState.ACCEPTED: self.tr("Let go."),
-            ProtocolState.REJECTED: self.tr("Let go."),
+            ProtocolState.ARMED: self.tr("Press with {low} to {high} N and hold still."),
+            ProtocolState.TOUCHING: self.tr("Adjust the force to {low}–{high} N and hold still."),
+            ProtocolState.SETTLED: self.tr("Keep still: measuring."),
+            ProtocolState.ACCEPTED: self.tr("Release."),
+            ProtocolState.REJECTED: self.tr("Release."),
         }[view.state]
         return words.format(low=f"{low:g}", high=f"{high:g}")
 
     def _said(self, touch: TouchOf, free: bool) -> str:
         if touch.why:
             why = said(touch.why)
-            return self.tr("{why} ({force} N). Let go, and touch again.").format(
+            return self.tr("{why} ({force} N). Release, then touch again.").format(
                 why=f"{why[0].upper()}{why[1:]}", force=f"{touch.force:.1f}"
             )
-        words = self.tr("{marker}: {size} mm off.") if free else self.tr("{marker}: {size} mm off. Let go.")
+        words = (
+            self.tr("{marker}: error {size} mm.") if free else self.tr("{marker}: error {size} mm. Release.")
+        )
         return words.format(
             marker=touch.marker, size="–" if touch.size_mm is None else f"{touch.size_mm:.2f}"
         )
@@ -244,50 +248,48 @@ class TouchPanel(QWidget):
                 return sure
             case Reason.BY_REGION:
                 return self.tr(
-                    "{sure}, because of the declared regions: the wrench fits another place, too."
+                    "{sure} thanks to the defined regions; the wrench also fits another place."
                 ).format(sure=sure)
             case Reason.AMBIGUOUS:
                 return self.tr(
-                    "{sure}: the wrench fits another place, too. Press in another direction."
+                    "{sure}: the wrench also fits another place. Press in a different direction."
                 ).format(sure=sure)
             case Reason.TWO_TOUCHES:
-                return self.tr("A second touch joined: both are shown.")
+                return self.tr("Two touches detected; both are shown.")
             case Reason.IMPLAUSIBLE:
                 return self.tr(
-                    "No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm."
-                    " Two touches at once, or wrong units, mount or compensation?"
+                    "No single touch explains this wrench (residual {sigmas} sigma, moment arm {arm} mm)."
+                    " Check for two simultaneous touches, and check units, mount and compensation."
                 ).format(sigmas=f"{math.sqrt(contact.misfit):.1f}", arm=f"{1e3 * abs(contact.arm):.0f}")
             case Reason.TANGENTIAL:
-                return self.tr("The force is almost parallel to the surface: press more steeply.")
+                return self.tr("The force is almost parallel to the surface. Press more directly into it.")
             case Reason.OUTSIDE_REGION:
-                return self.tr("The contact is outside every region.")
+                return self.tr("The contact is outside all regions.")
             case Reason.SATURATED:
-                return self.tr("The sensor is at the end of its range: press less hard.")
-        return self.tr(
-            "No part of the probe faces this force: check that it is the force on the probe, and the mount."
-        )
+                return self.tr("The sensor is at the limit of its range. Press less hard.")
+        return self.tr("No part of the probe faces this force. Check the force sign and the mount.")
 
     def _mark(self, on: str | None) -> str:
         """Say where a contact is no better than a guess, or should not be; empty: it lies on the mesh as it was."""
         if on == MARKS[INVENTED]:
-            return self.tr("On a facet that the mesh file did not have: its place is a guess.")
+            return self.tr("On a facet added during repair: its position is an estimate.")
         if on == MARKS[UNTOUCHABLE]:
-            return self.tr("On a region marked untouchable: check the region and the mount.")
+            return self.tr("On an untouchable region: check the region and the mount.")
         return ""
 
     def _next(self, view: TouchView) -> str:
         if view.next_one is None:
-            return self.tr(
-                "All markers are touched; touches: {done}. Finish, or touch some once more."
-            ).format(done=view.accepted)
+            return self.tr("All markers touched ({done} touches). Finish, or repeat any marker.").format(
+                done=view.accepted
+            )
         return self.tr("Next: {name} · {done} of {wanted} touches").format(
             name=view.rows[view.next_one].name, done=view.accepted, wanted=view.wanted
         )
 
     def _against(self, view: TouchView) -> str:
         if view.last is None or view.last.ratio is None or view.max_mm is None:
-            return self.tr("of the touches that count")
-        return self.tr("largest {largest} mm; the last was {ratio} times what noise explains").format(
+            return self.tr("of accepted touches")
+        return self.tr("largest {largest} mm; last: {ratio} times the expected noise").format(
             largest=f"{view.max_mm:.2f}", ratio=f"{view.last.ratio:.1f}"
         )
 

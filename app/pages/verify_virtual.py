@@ -81,9 +81,9 @@ class Toucher(QObject):
             why = "" if view.last is None else view.last.why
             self._stop(
                 self.tr(
-                    "{name} was pressed {count} times and never counted ({why}). Press Leave it out and then Touch"
-                    " all again, or throw the touches away and move the marker."
-                ).format(name=name, count=self._tries - 1, why=why or self.tr("no touch came of it"))
+                    "{name} was pressed {count} times without an accepted touch ({why}). Press Skip"
+                    " marker, then Touch all again. Or discard the touches and move the marker."
+                ).format(name=name, count=self._tries - 1, why=why or self.tr("no touch was detected"))
             )
             return
         self.press_next(touches, view)

@@ -4,8 +4,8 @@
 <context>
     <name>AboutDialog</name>
     <message>
-        <source>see its own files</source>
-        <translation>siehe eigene Dateien</translation>
+        <source>see the package&apos;s own files</source>
+        <translation>siehe Dateien des Pakets</translation>
     </message>
     <message>
         <source>About contactbench</source>
@@ -16,107 +16,118 @@
         <translation>contactbench {}</translation>
     </message>
     <message>
-        <source>Finds where a probe is touched, from one force/torque sensor, and how sure that is. Licensed under the Apache License 2.0. A tool for the bench and for research: no medical device.</source>
-        <translation>Findet mit einem einzigen Kraft-Momenten-Sensor, wo eine Sonde berührt wird, und wie sicher das ist. Lizenziert unter der Apache License 2.0. Ein Werkzeug für Labor und Forschung: kein Medizinprodukt.</translation>
+        <source>Locates contacts on a probe from a single force/torque sensor and states how certain each one is. Licensed under the Apache License 2.0. For bench work and research only: not a medical device.</source>
+        <translation>Findet mit einem einzigen Kraft-Momenten-Sensor, wo eine Sonde berührt wird, und gibt an, wie sicher das ist. Lizenziert unter der Apache License 2.0. Nur für Labor und Forschung: kein Medizinprodukt.</translation>
     </message>
     <message>
-        <source>Licences of the parts</source>
+        <source>Component licences</source>
         <translation>Lizenzen der Bestandteile</translation>
     </message>
     <message>
-        <source>Its parts and their licences:</source>
-        <translation>Die Bestandteile und ihre Lizenzen:</translation>
+        <source>Components and their licences:</source>
+        <translation>Bestandteile und ihre Lizenzen:</translation>
+    </message>
+</context>
+<context>
+    <name>ActionBar</name>
+    <message>
+        <source>What to do next</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Message</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
     <name>AlignmentPanel</name>
     <message>
-        <source>By numbers</source>
-        <translation>Durch Zahlen</translation>
+        <source>Enter numbers</source>
+        <translation>Zahlen eingeben</translation>
     </message>
     <message>
-        <source>By matching points</source>
-        <translation>Durch Punktpaare</translation>
+        <source>Match points</source>
+        <translation>Punktpaare zuordnen</translation>
     </message>
     <message>
-        <source>By the face on the sensor</source>
-        <translation>Durch die Fläche auf dem Sensor</translation>
+        <source>Mounting face</source>
+        <translation>Montagefläche</translation>
     </message>
     <message>
-        <source>By touches of marked points</source>
-        <translation>Durch Berühren markierter Punkte</translation>
+        <source>Touch marked points</source>
+        <translation>Markierte Punkte berühren</translation>
     </message>
     <message>
-        <source>By its shape</source>
-        <translation>Nach der Form</translation>
+        <source>Estimate from shape</source>
+        <translation>Aus der Form schätzen</translation>
     </message>
     <message>
-        <source>From a file</source>
-        <translation>Aus einer Datei</translation>
+        <source>Load from file</source>
+        <translation>Aus Datei laden</translation>
     </message>
     <message>
-        <source>How the place of the mesh is given</source>
-        <translation>Wie die Lage des Netzes angegeben wird</translation>
+        <source>Alignment method</source>
+        <translation>Ausrichtungsmethode</translation>
     </message>
     <message>
-        <source>Where the mesh&apos;s origin lies, and how the mesh is turned:</source>
-        <translation>Wo der Ursprung des Netzes liegt und wie das Netz gedreht ist:</translation>
+        <source>Position and rotation of the mesh in the sensor frame:</source>
+        <translation>Lage und Drehung des Netzes im Sensorsystem:</translation>
     </message>
     <message>
-        <source>Turned about the fixed axis {} of the sensor, in degrees; x first, then y, then z</source>
-        <translation>Drehung um die feste {}-Achse des Sensors in Grad; zuerst x, dann y, dann z</translation>
+        <source>Rotation about the sensor&apos;s fixed {} axis, degrees; applied in the order x, y, z</source>
+        <translation>Drehung um die feste {}-Achse des Sensors, Grad; in der Reihenfolge x, y, z</translation>
     </message>
     <message>
-        <source>The mesh&apos;s origin along {} of the sensor, in mm</source>
-        <translation>Ursprung des Netzes entlang {} des Sensors, in mm</translation>
+        <source>Mesh origin along sensor {}, mm</source>
+        <translation>Ursprung des Netzes entlang {} des Sensors, mm</translation>
     </message>
     <message>
         <source>about {}</source>
         <translation>um {}</translation>
     </message>
     <message>
-        <source>Place it so</source>
-        <translation>So platzieren</translation>
+        <source>Apply placement</source>
+        <translation>Lage anwenden</translation>
     </message>
     <message>
-        <source>Click a place on the mesh, then type where it lies in the sensor frame. Three places, far from one another; a fourth shows a wrong one.</source>
-        <translation>Klicken Sie eine Stelle auf dem Netz an und geben Sie ein, wo sie im Sensorsystem liegt. Drei Stellen, weit voneinander entfernt; eine vierte zeigt, ob eine falsch ist.</translation>
+        <source>Click a point on the mesh, then enter its position in the sensor frame. Use three widely spaced points; a fourth reveals errors.</source>
+        <translation>Klicken Sie einen Punkt auf dem Netz an und geben Sie seine Lage im Sensorsystem ein. Nehmen Sie drei weit auseinanderliegende Punkte; ein vierter deckt Fehler auf.</translation>
     </message>
     <message>
-        <source>Place it by these points</source>
-        <translation>Mit diesen Punkten platzieren</translation>
+        <source>Align to these points</source>
+        <translation>An diesen Punkten ausrichten</translation>
     </message>
     <message>
-        <source>Angle of the second place from +x of the sensor about +z, degrees</source>
-        <translation>Winkel der zweiten Stelle von +x des Sensors aus um +z, in Grad</translation>
+        <source>Angle of the second point about +z, from the sensor&apos;s +x, degrees</source>
+        <translation>Winkel des zweiten Punkts um +z, von +x des Sensors aus, Grad</translation>
     </message>
     <message>
-        <source>Second place at</source>
-        <translation>Zweite Stelle bei</translation>
+        <source>Second point at</source>
+        <translation>Zweiter Punkt bei</translation>
     </message>
     <message>
-        <source>Height of the mounting plane above the sensor&apos;s origin, mm</source>
-        <translation>Höhe der Montagefläche über dem Ursprung des Sensors, mm</translation>
+        <source>Height of the mounting plane above the sensor origin, mm</source>
+        <translation>Höhe der Montagefläche über dem Sensorursprung, mm</translation>
     </message>
     <message>
-        <source>Height of the face</source>
+        <source>Face height</source>
         <translation>Höhe der Fläche</translation>
     </message>
     <message>
-        <source>Put this face on the sensor</source>
-        <translation>Diese Fläche auf den Sensor setzen</translation>
+        <source>Align this face</source>
+        <translation>Diese Fläche ausrichten</translation>
     </message>
     <message>
         <source>Pick again</source>
         <translation>Neu wählen</translation>
     </message>
     <message>
-        <source>Touch marked points of the probe, and choose the table of them: px, py, pz in the mesh, mm, and fx to mz in the sensor frame. The place above is where the search begins.</source>
-        <translation>Berühren Sie markierte Punkte der Sonde und wählen Sie die Tabelle dazu: px, py, pz im Netz in mm und fx bis mz im Sensorsystem. Die Suche beginnt bei der Lage, die oben angegeben ist.</translation>
+        <source>Touch marked points on the probe, then choose the table: px, py, pz in the mesh frame in mm, and fx to mz in the sensor frame. The search starts from the placement above.</source>
+        <translation>Berühren Sie markierte Punkte der Sonde und wählen Sie dann die Tabelle: px, py, pz im Netzsystem in mm und fx bis mz im Sensorsystem. Die Suche beginnt bei der oben angegebenen Lage.</translation>
     </message>
     <message>
-        <source>Choose the touches...</source>
-        <translation>Berührungen wählen...</translation>
+        <source>Choose touches…</source>
+        <translation>Berührungen wählen…</translation>
     </message>
     <message>
         <source>Touches</source>
@@ -127,28 +138,28 @@
         <translation>Tabellen (*.csv)</translation>
     </message>
     <message>
-        <source>The longest axis along z, the middle one along x. A guess that is good to begin with: look at it, and correct it by numbers or touches.</source>
-        <translation>Die längste Achse entlang z, die mittlere entlang x. Für den Anfang eine gute Schätzung: Sehen Sie sie an und berichtigen Sie sie durch Zahlen oder Berührungen.</translation>
+        <source>Puts the longest axis along z and the middle one along x. This is only a first guess: check it, then correct it by numbers or touches.</source>
+        <translation>Legt die längste Achse entlang z und die mittlere entlang x. Das ist nur eine erste Schätzung: Prüfen Sie sie und berichtigen Sie sie durch Zahlen oder Berührungen.</translation>
     </message>
     <message>
-        <source>Height of the probe&apos;s lowest point above the sensor&apos;s origin, mm</source>
-        <translation>Höhe des tiefsten Punkts der Sonde über dem Ursprung des Sensors, mm</translation>
+        <source>Height of the probe&apos;s lowest point above the sensor origin, mm</source>
+        <translation>Höhe des tiefsten Punkts der Sonde über dem Sensorursprung, mm</translation>
     </message>
     <message>
         <source>Lowest point at</source>
         <translation>Tiefster Punkt bei</translation>
     </message>
     <message>
-        <source>Place it by its shape</source>
-        <translation>Nach der Form platzieren</translation>
+        <source>Align by shape</source>
+        <translation>Nach der Form ausrichten</translation>
     </message>
     <message>
-        <source>An alignment that contactbench wrote before.</source>
-        <translation>Eine Ausrichtung, die contactbench früher geschrieben hat.</translation>
+        <source>An alignment saved by contactbench.</source>
+        <translation>Eine von contactbench gespeicherte Ausrichtung.</translation>
     </message>
     <message>
-        <source>Choose the alignment...</source>
-        <translation>Ausrichtung wählen...</translation>
+        <source>Choose alignment…</source>
+        <translation>Ausrichtung wählen…</translation>
     </message>
     <message>
         <source>Alignment</source>
@@ -159,16 +170,16 @@
         <translation>Ausrichtungen (*.json)</translation>
     </message>
     <message>
-        <source>Click the plane face of the mesh that sits on the sensor.</source>
+        <source>Click the flat face of the mesh that sits on the sensor.</source>
         <translation>Klicken Sie die ebene Fläche des Netzes an, die auf dem Sensor sitzt.</translation>
     </message>
     <message>
-        <source>The face is chosen. Click a second place that shows how the probe is turned about z, if you can.</source>
-        <translation>Die Fläche ist gewählt. Klicken Sie, wenn möglich, eine zweite Stelle an, die zeigt, wie die Sonde um z gedreht ist.</translation>
+        <source>Face selected. If you can, click a second point that shows the rotation about z.</source>
+        <translation>Fläche gewählt. Klicken Sie, wenn möglich, einen zweiten Punkt an, der die Drehung um z zeigt.</translation>
     </message>
     <message>
-        <source>The face and the second place are chosen.</source>
-        <translation>Die Fläche und die zweite Stelle sind gewählt.</translation>
+        <source>Face and second point selected.</source>
+        <translation>Fläche und zweiter Punkt gewählt.</translation>
     </message>
 </context>
 <context>
@@ -186,11 +197,11 @@
         <translation>Drehen Sie das Werkzeug in die nächste Pose.</translation>
     </message>
     <message>
-        <source>still: SPACE</source>
-        <translation>ruhig: LEERTASTE</translation>
+        <source>still: press SPACE</source>
+        <translation>ruhig: LEERTASTE drücken</translation>
     </message>
     <message>
-        <source>Press SPACE to take this pose.</source>
+        <source>Press SPACE to capture this pose.</source>
         <translation>Drücken Sie die LEERTASTE, um diese Pose aufzunehmen.</translation>
     </message>
     <message>
@@ -214,7 +225,7 @@
         <translation>ruhig</translation>
     </message>
     <message>
-        <source>Keep still: it is being averaged.</source>
+        <source>Keep still: averaging.</source>
         <translation>Still halten: Es wird gemittelt.</translation>
     </message>
     <message>
@@ -222,24 +233,24 @@
         <translation>angestoßen</translation>
     </message>
     <message>
-        <source>Keep still: it begins anew by itself.</source>
-        <translation>Still halten: Es beginnt von selbst neu.</translation>
+        <source>Keep still: capture restarts automatically.</source>
+        <translation>Still halten: Die Aufnahme beginnt automatisch neu.</translation>
     </message>
     <message>
         <source>touched</source>
         <translation>berührt</translation>
     </message>
     <message>
-        <source>Take away what touches the tool.</source>
-        <translation>Entfernen Sie, was das Werkzeug berührt.</translation>
+        <source>Remove whatever is touching the tool.</source>
+        <translation>Entfernen Sie alles, was das Werkzeug berührt.</translation>
     </message>
     <message>
         <source>no samples</source>
         <translation>keine Messwerte</translation>
     </message>
     <message>
-        <source>Nothing comes from the devices.</source>
-        <translation>Von den Geräten kommt nichts.</translation>
+        <source>The devices are not sending data.</source>
+        <translation>Die Geräte senden keine Daten.</translation>
     </message>
     <message>
         <source>settling {seconds:.1f} s</source>
@@ -257,8 +268,8 @@
         <translation>Taste</translation>
     </message>
     <message>
-        <source>What it does</source>
-        <translation>Was sie tut</translation>
+        <source>Action</source>
+        <translation>Aktion</translation>
     </message>
     <message>
         <source>Delete</source>
@@ -273,31 +284,31 @@
         <translation>Return</translation>
     </message>
     <message>
-        <source>Take the selected poses back</source>
-        <translation>Gewählte Posen zurücknehmen</translation>
+        <source>Restore the selected poses</source>
+        <translation>Gewählte Posen wieder einbeziehen</translation>
     </message>
     <message>
         <source>Arrow keys</source>
         <translation>Pfeiltasten</translation>
     </message>
     <message>
-        <source>Choose a point of the chart of facets; move a handle of a range</source>
-        <translation>Punkt im Diagramm der Facetten wählen; Griff eines Bereichs verschieben</translation>
+        <source>Choose a point in the facets chart; move a range handle</source>
+        <translation>Punkt im Facettendiagramm wählen; Griff eines Bereichs verschieben</translation>
     </message>
     <message>
-        <source>Left or right button, dragged</source>
-        <translation>Linke oder rechte Taste, gezogen</translation>
+        <source>Drag with the left or right button</source>
+        <translation>Mit linker oder rechter Taste ziehen</translation>
     </message>
     <message>
-        <source>Turn the view</source>
+        <source>Rotate the view</source>
         <translation>Ansicht drehen</translation>
     </message>
     <message>
-        <source>Middle button, dragged</source>
-        <translation>Mittlere Taste, gezogen</translation>
+        <source>Drag with the middle button</source>
+        <translation>Mit mittlerer Taste ziehen</translation>
     </message>
     <message>
-        <source>Move the view</source>
+        <source>Pan the view</source>
         <translation>Ansicht verschieben</translation>
     </message>
     <message>
@@ -305,24 +316,32 @@
         <translation>Mausrad</translation>
     </message>
     <message>
-        <source>Nearer or farther</source>
-        <translation>Näher oder weiter weg</translation>
+        <source>Zoom in or out</source>
+        <translation>Hinein- oder herauszoomen</translation>
     </message>
     <message>
-        <source>Ctrl and wheel</source>
-        <translation>Strg und Mausrad</translation>
+        <source>Ctrl + wheel</source>
+        <translation>Strg + Mausrad</translation>
     </message>
     <message>
         <source>Larger or smaller brush</source>
         <translation>Größerer oder kleinerer Pinsel</translation>
     </message>
     <message>
-        <source>Shift, held</source>
-        <translation>Umschalt, gehalten</translation>
+        <source>Hold Shift</source>
+        <translation>Umschalt halten</translation>
     </message>
     <message>
-        <source>The brush erases, the eraser paints</source>
-        <translation>Der Pinsel radiert, der Radierer malt</translation>
+        <source>Swap brush and eraser</source>
+        <translation>Pinsel und Radierer vertauschen</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Have the probe go back (motion control)</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>P</source>
@@ -344,12 +363,12 @@
 <context>
     <name>Checklist</name>
     <message>
-        <source>Go there</source>
-        <translation>Dorthin</translation>
+        <source>Open step</source>
+        <translation>Schritt öffnen</translation>
     </message>
     <message>
-        <source>Go to {name}</source>
-        <translation>Zu {name} gehen</translation>
+        <source>Open {name}</source>
+        <translation>{name} öffnen</translation>
     </message>
     <message>
         <source>Sensor</source>
@@ -407,6 +426,10 @@
 <context>
     <name>ColourBar</name>
     <message>
+        <source>darkest: up to {largest:.3g}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>{title}: from {low:.3g} to {high:.3g}</source>
         <translation>{title}: von {low:.3g} bis {high:.3g}</translation>
     </message>
@@ -418,8 +441,8 @@
         <translation>{0} (in Gebrauch)</translation>
     </message>
     <message>
-        <source>Another colour...</source>
-        <translation>Andere Farbe...</translation>
+        <source>Other colour…</source>
+        <translation>Andere Farbe…</translation>
     </message>
     <message>
         <source>Orange</source>
@@ -450,53 +473,69 @@
         <translation>Rosa</translation>
     </message>
     <message>
-        <source>Colour of the region</source>
+        <source>Region colour</source>
         <translation>Farbe der Region</translation>
     </message>
 </context>
 <context>
     <name>Coverage</name>
     <message>
-        <source>Coverage of the directions of gravity</source>
-        <translation>Abdeckung der Richtungen der Schwerkraft</translation>
+        <source>Coverage of gravity directions</source>
+        <translation>Abdeckung der Schwerkraftrichtungen</translation>
     </message>
     <message>
-        <source>Poses: {taken} taken, {left} left out, {rejected} rejected</source>
+        <source>Poses: {taken} captured, {left} left out, {rejected} rejected</source>
         <translation>Posen: {taken} aufgenommen, {left} ausgelassen, {rejected} abgelehnt</translation>
     </message>
     <message>
-        <source>gravity to the tool (+z)</source>
+        <source>gravity towards the tool (+z)</source>
         <translation>zum Werkzeug hin (+z)</translation>
     </message>
     <message>
-        <source>away from it (-z)</source>
+        <source>away from the tool (-z)</source>
         <translation>vom Werkzeug weg (-z)</translation>
     </message>
     <message>
-        <source>Where gravity pulled, seen from the sensor. Filled: taken; hollow: left out; cross: rejected; ring: the next pose; dark dot: now. Poses that are spread out tell most.</source>
-        <translation>Wohin die Schwerkraft zog, vom Sensor aus gesehen. Gefüllt: aufgenommen; hohl: ausgelassen; Kreuz: abgelehnt; Ring: nächste Pose; dunkler Punkt: jetzt. Weit verteilte Posen sagen am meisten.</translation>
+        <source>Gravity directions in the sensor frame. Filled: captured; hollow: left out; cross: rejected; ring: next pose; dark dot: now. Well-spread poses give the best calibration.</source>
+        <translation>Schwerkraftrichtungen im Sensorsystem. Gefüllt: aufgenommen; hohl: ausgelassen; Kreuz: abgelehnt; Ring: nächste Pose; dunkler Punkt: jetzt. Weit verteilte Posen ergeben die beste Kalibrierung.</translation>
     </message>
 </context>
 <context>
-    <name>DamageCheck</name>
+    <name>Departure</name>
     <message>
-        <source>Checking the session&apos;s files</source>
-        <translation>Die Dateien der Sitzung werden geprüft</translation>
+        <source>Work is going on</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>A file of this session is not as it was written, so nothing that rests on it counts.</source>
-        <translation>Eine Datei dieser Sitzung ist nicht mehr so, wie sie geschrieben wurde; was darauf beruht, zählt deshalb nicht.</translation>
+        <source>Stopped, nothing that was chosen or recorded until now is lost. What is being computed is computed again when the session is opened the next time.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>{} files of this session are not as they were written, so nothing that rests on them counts. `contactbench session verify` lists them all.</source>
-        <translation>{} Dateien dieser Sitzung sind nicht mehr so, wie sie geschrieben wurden; was darauf beruht, zählt deshalb nicht. `contactbench session verify` listet sie alle auf.</translation>
+        <source>Stopped, what was recorded until now is kept, and can be gone on from the next time.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Wait until it is done</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stop, and keep what is done</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Do not close</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>It is closed as soon as the work is done; until then it can be used.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
     <name>DeviceChannels</name>
     <message>
-        <source>Noise and margin of each channel</source>
-        <translation>Rauschen und Reserve jedes Kanals</translation>
+        <source>Noise and headroom per channel</source>
+        <translation>Rauschen und Reserve je Kanal</translation>
     </message>
     <message>
         <source>channel</source>
@@ -507,24 +546,24 @@
         <translation>Rauschen</translation>
     </message>
     <message>
-        <source>Standard deviation of one reading while nothing moves, N or N·m</source>
-        <translation>Standardabweichung eines Messwerts, während sich nichts bewegt, N oder N·m</translation>
+        <source>Standard deviation of one reading at rest, N or N·m</source>
+        <translation>Standardabweichung eines Messwerts in Ruhe, N oder N·m</translation>
     </message>
     <message>
         <source>largest</source>
         <translation>größter</translation>
     </message>
     <message>
-        <source>Largest reading of either sign in the last 5 s, N or N·m</source>
-        <translation>Größter Messwert beider Vorzeichen in den letzten 5 s, N oder N·m</translation>
+        <source>Largest absolute reading in the last 5 s, N or N·m</source>
+        <translation>Größter Betrag eines Messwerts in den letzten 5 s, N oder N·m</translation>
     </message>
     <message>
         <source>of range</source>
         <translation>v. Bereich</translation>
     </message>
     <message>
-        <source>Share of the sensor&apos;s range; beyond 100 % it is cut off</source>
-        <translation>Anteil am Messbereich des Sensors; über 100 % wird abgeschnitten</translation>
+        <source>Share of the sensor&apos;s range; readings above 100 % are clipped</source>
+        <translation>Anteil am Messbereich des Sensors; Werte über 100 % werden abgeschnitten</translation>
     </message>
     <message>
         <source>unknown</source>
@@ -538,8 +577,8 @@
         <translation>Verbindung</translation>
     </message>
     <message>
-        <source>Readings a second, measured</source>
-        <translation>Messwerte pro Sekunde, gemessen</translation>
+        <source>Measured readings per second</source>
+        <translation>Gemessene Messwerte pro Sekunde</translation>
     </message>
     <message>
         <source>– Hz</source>
@@ -578,8 +617,8 @@
         <translation>keine Lücken</translation>
     </message>
     <message>
-        <source>gaps in 5 s: {count}, the longest {longest:.0f} ms</source>
-        <translation>Lücken in 5 s: {count}, die längste {longest:.0f} ms</translation>
+        <source>{count} gaps in 5 s, longest {longest:.0f} ms</source>
+        <translation>{count} Lücken in 5 s, längste {longest:.0f} ms</translation>
     </message>
     <message>
         <source>no poses</source>
@@ -597,11 +636,11 @@
 <context>
     <name>DevicesPage</name>
     <message>
-        <source>on the sensor&apos;s label</source>
-        <translation>auf dem Schild des Sensors</translation>
+        <source>see the sensor&apos;s label</source>
+        <translation>siehe Typenschild</translation>
     </message>
     <message>
-        <source>Serial number of the sensor</source>
+        <source>Sensor serial number</source>
         <translation>Seriennummer des Sensors</translation>
     </message>
     <message>
@@ -609,8 +648,8 @@
         <translation>Montagewinkel um {axis}</translation>
     </message>
     <message>
-        <source>How the sensor is turned on the flange, about the flange&apos;s fixed axes x, then y, then z</source>
-        <translation>Wie der Sensor auf dem Flansch gedreht ist, um die festen Flanschachsen x, dann y, dann z</translation>
+        <source>Rotation of the sensor on the flange about the flange&apos;s fixed axes, in the order x, y, z</source>
+        <translation>Drehung des Sensors auf dem Flansch um die festen Flanschachsen, in der Reihenfolge x, y, z</translation>
     </message>
     <message>
         <source>Test connection</source>
@@ -641,15 +680,19 @@
         <translation>Gemessen</translation>
     </message>
     <message>
-        <source>A recording is being made with the devices: finish it before you change them.</source>
-        <translation>Mit den Geräten läuft eine Aufzeichnung: Beenden Sie sie, bevor Sie die Geräte wechseln.</translation>
+        <source>Next: Gravity</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Opening the devices…</source>
+        <source>These devices are recording. Stop the recording before you change them.</source>
+        <translation>Mit diesen Geräten läuft eine Aufzeichnung. Beenden Sie sie, bevor Sie die Geräte wechseln.</translation>
+    </message>
+    <message>
+        <source>Opening devices…</source>
         <translation>Geräte werden geöffnet…</translation>
     </message>
     <message>
-        <source>Testing the connection</source>
+        <source>Testing connection</source>
         <translation>Die Verbindung wird getestet</translation>
     </message>
     <message>
@@ -657,35 +700,20 @@
         <translation>Geräte wählen</translation>
     </message>
     <message>
-        <source>Opening the devices</source>
+        <source>Opening devices</source>
         <translation>Die Geräte werden geöffnet</translation>
     </message>
     <message>
-        <source>The devices could not be opened: {why}</source>
+        <source>Could not open the devices: {why}</source>
         <translation>Die Geräte konnten nicht geöffnet werden: {why}</translation>
     </message>
     <message>
-        <source>The devices could not be noted: {why}</source>
-        <translation>Die Geräte konnten nicht vermerkt werden: {why}</translation>
+        <source>Could not save the device settings: {why}</source>
+        <translation>Die Geräteeinstellungen konnten nicht gespeichert werden: {why}</translation>
     </message>
     <message>
-        <source>Closing the devices</source>
+        <source>Closing devices</source>
         <translation>Die Geräte werden geschlossen</translation>
-    </message>
-    <message>
-        <source>The sensor is back: readings come again.</source>
-        <translation>Der Sensor ist wieder da: Es kommen wieder Messwerte.</translation>
-    </message>
-</context>
-<context>
-    <name>DiskWatch</name>
-    <message>
-        <source>Nothing is written into this session at the moment, because the last write failed. Free some space, or check the disk: the session goes on by itself then, and says so.</source>
-        <translation>In diese Sitzung wird gerade nichts geschrieben, denn das letzte Schreiben ist fehlgeschlagen. Schaffen Sie Platz oder prüfen Sie den Datenträger: Die Sitzung geht dann von selbst weiter und sagt es.</translation>
-    </message>
-    <message>
-        <source>The disk can be written again, and the session goes on. Do again what was refused; what was recorded before is there.</source>
-        <translation>Der Datenträger kann wieder beschrieben werden, und die Sitzung geht weiter. Wiederholen Sie, was abgelehnt wurde; was vorher aufgezeichnet wurde, ist da.</translation>
     </message>
 </context>
 <context>
@@ -729,72 +757,72 @@
         <translation>Export</translation>
     </message>
     <message>
-        <source>What will be in it</source>
-        <translation>Was darin sein wird</translation>
+        <source>Contents</source>
+        <translation>Inhalt</translation>
     </message>
     <message>
         <source>Settings</source>
         <translation>Einstellungen</translation>
     </message>
     <message>
-        <source>Write it although it is not verified</source>
-        <translation>Auch ungeprüft schreiben</translation>
+        <source>Export without verification</source>
+        <translation>Ohne Überprüfung exportieren</translation>
     </message>
     <message>
-        <source>For trials only: the bundle says that nobody has shown that it is right</source>
-        <translation>Nur für Versuche: Das Paket sagt, dass niemand gezeigt hat, dass es stimmt</translation>
+        <source>For trials only: the bundle is marked as not verified</source>
+        <translation>Nur für Versuche: Das Paket wird als nicht überprüft gekennzeichnet</translation>
     </message>
     <message>
-        <source>Export a file…</source>
+        <source>Export file…</source>
         <translation>Als Datei…</translation>
     </message>
     <message>
-        <source>One zip file, which a robot&apos;s runtime loads as it is</source>
-        <translation>Eine Zip-Datei, die der Robotercomputer so lädt, wie sie ist</translation>
+        <source>One zip file that a robot&apos;s runtime loads directly</source>
+        <translation>Eine Zip-Datei, die der Robotercomputer direkt lädt</translation>
     </message>
     <message>
-        <source>Export a folder…</source>
+        <source>Export folder…</source>
         <translation>Als Ordner…</translation>
     </message>
     <message>
-        <source>Open the report</source>
+        <source>Open report</source>
         <translation>Bericht öffnen</translation>
     </message>
     <message>
-        <source>Show where it is</source>
-        <translation>Zeigen, wo es liegt</translation>
+        <source>Show in folder</source>
+        <translation>Im Ordner zeigen</translation>
     </message>
     <message>
-        <source>Looking at the bundle</source>
-        <translation>Das Paket wird angesehen</translation>
+        <source>Checking the bundle</source>
+        <translation>Das Paket wird geprüft</translation>
     </message>
     <message>
-        <source>How many readings a second the robot will get is not known: a verification would have told. Verify in step 5, or fill in Readings under Settings, as the sensor is set.</source>
-        <translation>Wie viele Messwerte pro Sekunde der Roboter bekommen wird, ist nicht bekannt: Eine Überprüfung hätte es gesagt. Überprüfen Sie in Schritt 5, oder füllen Sie unter „Einstellungen“ das Feld „Messwerte“ aus, so wie der Sensor eingestellt ist.</translation>
+        <source>The sensor rate is unknown because nothing has been verified. Verify in step 5, or enter Readings under Settings to match the sensor.</source>
+        <translation>Die Rate des Sensors ist unbekannt, weil noch nichts überprüft wurde. Überprüfen Sie in Schritt 5, oder geben Sie unter „Einstellungen“ bei „Messwerte“ die Rate des Sensors ein.</translation>
     </message>
     <message>
-        <source>together {size}, SHA-256 {sha256}…</source>
-        <translation>zusammen {size}, SHA-256 {sha256}…</translation>
+        <source>total {size}, SHA-256 {sha256}…</source>
+        <translation>gesamt {size}, SHA-256 {sha256}…</translation>
     </message>
     <message>
-        <source>Nothing was exported from this session before.</source>
+        <source>Nothing has been exported from this session yet.</source>
         <translation>Aus dieser Sitzung wurde noch nichts exportiert.</translation>
     </message>
     <message>
-        <source>Against the last export:</source>
-        <translation>Gegenüber dem letzten Export:</translation>
+        <source>Changes since the last export:</source>
+        <translation>Änderungen seit dem letzten Export:</translation>
     </message>
     <message>
         <source>Not verified: {why}</source>
-        <translation>Nicht geprüft: {why}</translation>
+        <translation>Nicht überprüft: {why}</translation>
     </message>
     <message>
-        <source>Verified, and exported as it is.</source>
-        <translation>Geprüft und genau so exportiert.</translation>
+        <source>Verified and exported.</source>
+        <translation>Überprüft und exportiert.</translation>
     </message>
     <message>
-        <source>Verified: ready to be exported.</source>
-        <translation>Geprüft: bereit zum Export.</translation>
+        <source>Verified and ready to export.</source>
+        <translation>Überprüft und bereit zum Export.</translation>
     </message>
     <message>
         <source>Sensor</source>
@@ -829,7 +857,7 @@
         <translation>Sonde</translation>
     </message>
     <message>
-        <source>Export a file</source>
+        <source>Export file</source>
         <translation>Als Datei exportieren</translation>
     </message>
     <message>
@@ -837,18 +865,18 @@
         <translation>Pakete (*.zip)</translation>
     </message>
     <message>
-        <source>Export a folder: give it a name</source>
-        <translation>Als Ordner exportieren: Geben Sie ihm einen Namen</translation>
+        <source>Export folder: enter a name</source>
+        <translation>Als Ordner exportieren: Namen eingeben</translation>
     </message>
     <message>
         <source>Exporting</source>
-        <translation>Wird exportiert</translation>
+        <translation>Export läuft</translation>
     </message>
 </context>
 <context>
     <name>ExportSettingsPanel</name>
     <message>
-        <source>Model of the sensor</source>
+        <source>Sensor model</source>
         <translation>Modell des Sensors</translation>
     </message>
     <message>
@@ -860,36 +888,36 @@
         <translation>Sensor</translation>
     </message>
     <message>
-        <source>Serial number of the sensor</source>
+        <source>Sensor serial number</source>
         <translation>Seriennummer des Sensors</translation>
     </message>
     <message>
-        <source>as the session knows it</source>
-        <translation>wie die Sitzung es weiß</translation>
+        <source>from the session</source>
+        <translation>aus der Sitzung</translation>
     </message>
     <message>
         <source>Serial number</source>
         <translation>Seriennummer</translation>
     </message>
     <message>
-        <source>Name of the sensor in the robot description, for ros2.yaml</source>
+        <source>Sensor name in the robot description, for ros2.yaml</source>
         <translation>Name des Sensors in der Roboterbeschreibung, für ros2.yaml</translation>
     </message>
     <message>
-        <source>to be filled in later</source>
-        <translation>wird später eingetragen</translation>
+        <source>enter later</source>
+        <translation>später eintragen</translation>
     </message>
     <message>
-        <source>Name in ROS</source>
-        <translation>Name in ROS</translation>
+        <source>ROS name</source>
+        <translation>ROS-Name</translation>
     </message>
     <message>
-        <source>Who is answerable</source>
-        <translation>Wer dafür verantwortlich ist</translation>
+        <source>Person responsible</source>
+        <translation>Verantwortliche Person</translation>
     </message>
     <message>
-        <source>who made the newest result</source>
-        <translation>wer das neueste Ergebnis erstellt hat</translation>
+        <source>author of the latest result</source>
+        <translation>Person hinter dem neuesten Ergebnis</translation>
     </message>
     <message>
         <source>Operator</source>
@@ -900,7 +928,7 @@
         <translation>wie geprüft</translation>
     </message>
     <message>
-        <source>Readings a second, Hz</source>
+        <source>Readings per second, Hz</source>
         <translation>Messwerte pro Sekunde, Hz</translation>
     </message>
     <message>
@@ -908,60 +936,60 @@
         <translation>Messwerte</translation>
     </message>
     <message>
-        <source>Filter the wrench</source>
+        <source>Filter wrench</source>
         <translation>Kraft/Moment filtern</translation>
     </message>
     <message>
-        <source>A Kalman filter: less noise, a little lag</source>
-        <translation>Ein Kalman-Filter: weniger Rauschen, etwas Verzögerung</translation>
+        <source>Kalman filter: less noise, slight lag</source>
+        <translation>Kalman-Filter: weniger Rauschen, etwas Verzögerung</translation>
     </message>
     <message>
         <source>none</source>
         <translation>keiner</translation>
     </message>
     <message>
-        <source>Low-pass of the contact point, Hz</source>
-        <translation>Tiefpass des Kontaktpunkts, Hz</translation>
+        <source>Low-pass cutoff of the contact point, Hz</source>
+        <translation>Grenzfrequenz des Tiefpasses für den Kontaktpunkt, Hz</translation>
     </message>
     <message>
         <source>Low-pass</source>
         <translation>Tiefpass</translation>
     </message>
     <message>
-        <source>Only contacts on a region</source>
-        <translation>Nur Kontakte auf einer Region</translation>
+        <source>Accept contacts on regions only</source>
+        <translation>Nur Kontakte auf Regionen annehmen</translation>
     </message>
     <message>
-        <source>The runtime refuses contacts outside every painted region</source>
+        <source>The runtime rejects contacts outside all painted regions</source>
         <translation>Der Robotercomputer verwirft Kontakte außerhalb aller gemalten Regionen</translation>
     </message>
     <message>
-        <source>What a controller must never exceed, N</source>
-        <translation>Was eine Regelung nie überschreiten darf, N</translation>
+        <source>Force limit for the controller, N</source>
+        <translation>Kraftgrenze für die Regelung, N</translation>
     </message>
     <message>
-        <source>Largest force</source>
-        <translation>Größte Kraft</translation>
+        <source>Maximum force</source>
+        <translation>Maximale Kraft</translation>
     </message>
     <message>
-        <source>What a controller must never exceed, N·m</source>
-        <translation>Was eine Regelung nie überschreiten darf, N·m</translation>
+        <source>Torque limit for the controller, N·m</source>
+        <translation>Momentgrenze für die Regelung, N·m</translation>
     </message>
     <message>
-        <source>Largest torque</source>
-        <translation>Größtes Moment</translation>
+        <source>Maximum torque</source>
+        <translation>Maximales Moment</translation>
     </message>
     <message>
-        <source>Gains of the controller</source>
-        <translation>Verstärkungen der Regelung</translation>
+        <source>Controller gains</source>
+        <translation>Reglerverstärkungen</translation>
     </message>
     <message>
-        <source>How a robot presses and follows: gains.json of contactbench bench control tune</source>
-        <translation>Wie ein Roboter drückt und folgt: gains.json von contactbench bench control tune</translation>
+        <source>Controller gains for pressing and following: gains.json from contactbench bench control tune</source>
+        <translation>Reglerverstärkungen für Drücken und Folgen: gains.json von contactbench bench control tune</translation>
     </message>
     <message>
-        <source>Leave the gains out</source>
-        <translation>Die Verstärkungen weglassen</translation>
+        <source>Remove gains</source>
+        <translation>Verstärkungen entfernen</translation>
     </message>
     <message>
         <source>Gains</source>
@@ -976,6 +1004,10 @@
         <translation>Verstärkungen (*.json)</translation>
     </message>
     <message>
+        <source>{name}; left empty: {otherwise}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>left out</source>
         <translation>weggelassen</translation>
     </message>
@@ -984,11 +1016,11 @@
         <translation>{force:g} N, {variant}</translation>
     </message>
     <message>
-        <source>aware</source>
+        <source>predictive</source>
         <translation>vorausschauend</translation>
     </message>
     <message>
-        <source>plain</source>
+        <source>basic</source>
         <translation>einfach</translation>
     </message>
 </context>
@@ -999,51 +1031,51 @@
         <translation>4  Facetten</translation>
     </message>
     <message>
-        <source>Show the original over it</source>
-        <translation>Original darüberlegen</translation>
+        <source>Overlay the original</source>
+        <translation>Original überlagern</translation>
     </message>
     <message>
-        <source>Show the deviation as colours</source>
-        <translation>Abweichung als Farben zeigen</translation>
+        <source>Colour by deviation</source>
+        <translation>Nach Abweichung färben</translation>
     </message>
     <message>
-        <source>How far the outer surface is from the simplified one, in mm</source>
-        <translation>Wie weit die Außenfläche von der vereinfachten entfernt ist, in mm</translation>
+        <source>Distance from the outer surface to the simplified surface, mm</source>
+        <translation>Abstand der Außenfläche zur vereinfachten Fläche, mm</translation>
     </message>
     <message>
-        <source>a number of facets</source>
-        <translation>eine Anzahl Facetten</translation>
+        <source>number of facets</source>
+        <translation>Anzahl Facetten</translation>
     </message>
     <message>
-        <source>a largest deviation</source>
-        <translation>eine größte Abweichung</translation>
+        <source>largest deviation</source>
+        <translation>größte Abweichung</translation>
     </message>
     <message>
-        <source>a largest contact error</source>
-        <translation>einen größten Kontaktfehler</translation>
+        <source>largest contact error</source>
+        <translation>größter Kontaktfehler</translation>
     </message>
     <message>
         <source>Number of facets, or mm</source>
         <translation>Anzahl der Facetten, oder mm</translation>
     </message>
     <message>
-        <source>Keep to</source>
-        <translation>Halten an</translation>
+        <source>Limit by</source>
+        <translation>Begrenzen nach</translation>
     </message>
     <message>
-        <source>Up to</source>
-        <translation>Bis zu</translation>
+        <source>Limit</source>
+        <translation>Grenze</translation>
     </message>
     <message>
-        <source>Facets per area inside the regions over that outside</source>
-        <translation>Facetten pro Fläche in den Regionen im Verhältnis zu außerhalb</translation>
+        <source>Facet density inside regions relative to outside</source>
+        <translation>Facettendichte in Regionen im Verhältnis zu außerhalb</translation>
     </message>
     <message>
         <source>Finer in regions</source>
         <translation>Feiner in Regionen</translation>
     </message>
     <message>
-        <source>Put the painted regions on it</source>
+        <source>Copy painted regions</source>
         <translation>Gemalte Regionen übernehmen</translation>
     </message>
     <message>
@@ -1051,12 +1083,12 @@
         <translation>Anzahl der Facetten</translation>
     </message>
     <message>
-        <source>Largest distance, mm</source>
+        <source>Maximum distance, mm</source>
         <translation>Größter Abstand, mm</translation>
     </message>
     <message>
-        <source>Of 95 % of contacts, mm</source>
-        <translation>Von 95 % der Kontakte, mm</translation>
+        <source>95 % of contacts within, mm</source>
+        <translation>95 % der Kontakte innerhalb, mm</translation>
     </message>
     <message>
         <source>{:,} facets</source>
@@ -1066,12 +1098,12 @@
 <context>
     <name>Faults</name>
     <message>
-        <source>The disk is full ({}). What was recorded before is safe: free some space, then do it again.</source>
-        <translation>Der Datenträger ist voll ({}). Was vorher aufgezeichnet wurde, ist sicher: Schaffen Sie Platz und versuchen Sie es noch einmal.</translation>
+        <source>The disk is full ({}). Earlier recordings are safe. Free some space, then try again.</source>
+        <translation>Der Datenträger ist voll ({}). Frühere Aufzeichnungen sind sicher. Schaffen Sie Platz und versuchen Sie es noch einmal.</translation>
     </message>
     <message>
-        <source>There is not enough memory for this: close other programs, or use a smaller file, then do it again.</source>
-        <translation>Der Arbeitsspeicher reicht dafür nicht: Schließen Sie andere Programme, oder nehmen Sie eine kleinere Datei, und versuchen Sie es noch einmal.</translation>
+        <source>Not enough memory. Close other programs or use a smaller file, then try again.</source>
+        <translation>Der Arbeitsspeicher reicht nicht. Schließen Sie andere Programme oder nehmen Sie eine kleinere Datei, und versuchen Sie es noch einmal.</translation>
     </message>
 </context>
 <context>
@@ -1084,31 +1116,31 @@
 <context>
     <name>FindingCards</name>
     <message>
-        <source>Found</source>
-        <translation>Gefunden</translation>
+        <source>Findings</source>
+        <translation>Befunde</translation>
     </message>
     <message>
-        <source>Do that</source>
-        <translation>Das tun</translation>
+        <source>Apply fix</source>
+        <translation>Korrigieren</translation>
     </message>
 </context>
 <context>
     <name>GravityFigures</name>
     <message>
-        <source>contact error from the calibration (1 sigma)</source>
+        <source>contact error from calibration (1 sigma)</source>
         <translation>Kontaktfehler durch die Kalibrierung (1 Sigma)</translation>
     </message>
     <message>
-        <source>How far a contact point may be off because of the calibration alone, in mm: the worst case over the touches that it is for. 0.5 mm is good.</source>
-        <translation>Wie weit ein Kontaktpunkt allein wegen der Kalibrierung danebenliegen kann, in mm: der schlechteste Fall der Berührungen, für die sie gedacht ist. 0.5 mm ist gut.</translation>
+        <source>Contact error caused by the calibration alone, mm: worst case over the intended touches. 0.5 mm is good.</source>
+        <translation>Kontaktfehler allein durch die Kalibrierung, mm: schlechtester Fall der vorgesehenen Berührungen. 0.5 mm ist gut.</translation>
     </message>
     <message>
-        <source>With each pose, on a logarithmic scale; dashed: 0.5 mm, the limit for good</source>
-        <translation>Mit jeder Pose, auf logarithmischer Skala; gestrichelt: 0.5 mm, die Grenze für gut</translation>
+        <source>Error after each pose, logarithmic scale; dashed: 0.5 mm, the limit for good</source>
+        <translation>Fehler nach jeder Pose, logarithmische Skala; gestrichelt: 0.5 mm, die Grenze für gut</translation>
     </message>
     <message>
-        <source>pose {count} of ~{expected}</source>
-        <translation>Pose {count} von ~{expected}</translation>
+        <source>pose {count} of about {expected}</source>
+        <translation>Pose {count} von etwa {expected}</translation>
     </message>
     <message>
         <source>{count} poses: enough</source>
@@ -1122,16 +1154,16 @@
 <context>
     <name>GravityPage</name>
     <message>
-        <source>Take this pose (gravity)</source>
+        <source>Capture this pose (gravity)</source>
         <translation>Diese Pose aufnehmen (Schwerkraft)</translation>
     </message>
     <message>
-        <source>This did not work</source>
-        <translation>Das hat nicht geklappt</translation>
+        <source>Action failed</source>
+        <translation>Aktion fehlgeschlagen</translation>
     </message>
     <message>
-        <source>Checked in a pose it had not seen</source>
-        <translation>Geprüft in einer Pose, die neu für sie war</translation>
+        <source>Checked with a new pose</source>
+        <translation>Mit einer neuen Pose geprüft</translation>
     </message>
     <message>
         <source>So far: {level}</source>
@@ -1146,44 +1178,44 @@
         <translation>brauchbar</translation>
     </message>
     <message>
-        <source>not enough to be used</source>
-        <translation>nicht genug, um benutzt zu werden</translation>
+        <source>not good enough to use</source>
+        <translation>nicht gut genug</translation>
     </message>
     <message>
-        <source>A calibration needs three poses or more.</source>
+        <source>A calibration needs at least three poses.</source>
         <translation>Eine Kalibrierung braucht mindestens drei Posen.</translation>
     </message>
     <message>
-        <source>Go to Devices</source>
-        <translation>Zu den Geräten</translation>
+        <source>Open Devices</source>
+        <translation>Geräte öffnen</translation>
     </message>
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
     </message>
     <message>
-        <source>Beginning...</source>
-        <translation>Beginnt...</translation>
+        <source>Starting…</source>
+        <translation>Wird gestartet…</translation>
     </message>
     <message>
         <source>Finish</source>
         <translation>Beenden</translation>
     </message>
     <message>
-        <source>Computing...</source>
-        <translation>Wird berechnet...</translation>
+        <source>Computing…</source>
+        <translation>Wird berechnet…</translation>
     </message>
     <message>
-        <source>Waiting for a still pose...</source>
-        <translation>Wartet auf eine ruhige Pose...</translation>
+        <source>Waiting for a still pose…</source>
+        <translation>Wartet auf eine ruhige Pose…</translation>
     </message>
     <message>
-        <source>Start anew</source>
+        <source>Start over</source>
         <translation>Neu beginnen</translation>
     </message>
     <message>
-        <source>Go on with {recording}</source>
-        <translation>Weiter mit {recording}</translation>
+        <source>Continue {recording}</source>
+        <translation>{recording} fortsetzen</translation>
     </message>
     <message>
         <source>Start</source>
@@ -1194,24 +1226,24 @@
         <translation>Posen hinzufügen</translation>
     </message>
     <message>
-        <source>Check one more pose</source>
-        <translation>Pose nachprüfen</translation>
+        <source>Check with another pose</source>
+        <translation>Mit weiterer Pose prüfen</translation>
     </message>
     <message>
-        <source>Go on: Probe</source>
+        <source>Next: Probe</source>
         <translation>Weiter: Sonde</translation>
     </message>
     <message>
-        <source>set the largest tilt to {degrees}°</source>
-        <translation>größte Neigung auf {degrees}° setzen</translation>
+        <source>set the tilt limit to {degrees}°</source>
+        <translation>Neigungsgrenze auf {degrees}° setzen</translation>
     </message>
     <message>
-        <source>say where down is</source>
-        <translation>angeben, wo unten ist</translation>
+        <source>set the down direction</source>
+        <translation>Abwärtsrichtung angeben</translation>
     </message>
     <message>
-        <source>say how well orientations are known</source>
-        <translation>angeben, wie gut die Orientierungen bekannt sind</translation>
+        <source>set the orientation accuracy</source>
+        <translation>Genauigkeit der Orientierung angeben</translation>
     </message>
 </context>
 <context>
@@ -1221,116 +1253,116 @@
         <translation>Schwerkraft</translation>
     </message>
     <message>
-        <source>Hold the tool still in about six different tilts, touching nothing. From them follow its weight and the sensor&apos;s zero, which are then taken off every reading.</source>
-        <translation>Halten Sie das Werkzeug in etwa sechs verschiedenen Neigungen still, ohne dass es etwas berührt. Daraus folgen sein Gewicht und der Nullpunkt des Sensors, die dann von jedem Messwert abgezogen werden.</translation>
+        <source>Hold the tool still in about six different tilts, touching nothing. These poses determine the tool&apos;s weight and the sensor offset, which are then subtracted from every reading.</source>
+        <translation>Halten Sie das Werkzeug in etwa sechs verschiedenen Neigungen still, ohne etwas zu berühren. Aus diesen Posen werden das Gewicht des Werkzeugs und der Nullpunkt des Sensors bestimmt und dann von jedem Messwert abgezogen.</translation>
     </message>
     <message>
-        <source>Take each still pose by itself</source>
-        <translation>Jede ruhige Pose von selbst aufnehmen</translation>
+        <source>Capture automatically when still</source>
+        <translation>Automatisch aufnehmen, wenn ruhig</translation>
     </message>
     <message>
-        <source>Off: press SPACE, or the foot switch, in each pose that shall count.</source>
-        <translation>Aus: In jeder Pose, die zählen soll, die LEERTASTE oder den Fußschalter drücken.</translation>
+        <source>Off: press SPACE or the foot switch to capture each pose.</source>
+        <translation>Aus: Jede Pose mit der LEERTASTE oder dem Fußschalter aufnehmen.</translation>
     </message>
     <message>
-        <source>Turn it there for me</source>
-        <translation>Für mich dorthin drehen</translation>
+        <source>Move virtual tool there</source>
+        <translation>Virtuelles Werkzeug bewegen</translation>
     </message>
     <message>
-        <source>Bump it</source>
-        <translation>Anstoßen</translation>
+        <source>Bump virtual tool</source>
+        <translation>Virtuelles Werkzeug anstoßen</translation>
     </message>
     <message>
-        <source>Push the virtual tool for a moment, to see what that does</source>
-        <translation>Das virtuelle Werkzeug kurz anstoßen, um zu sehen, was geschieht</translation>
+        <source>Push the virtual tool briefly to see the effect</source>
+        <translation>Das virtuelle Werkzeug kurz anstoßen, um die Wirkung zu sehen</translation>
     </message>
     <message>
         <source>Leave out</source>
         <translation>Auslassen</translation>
     </message>
     <message>
-        <source>Take back</source>
-        <translation>Zurücknehmen</translation>
+        <source>Restore</source>
+        <translation>Wieder einbeziehen</translation>
     </message>
     <message>
-        <source>The selected poses do not count (Delete)</source>
-        <translation>Die gewählten Posen zählen nicht (Entf)</translation>
+        <source>Leave out the selected poses (Delete)</source>
+        <translation>Die gewählten Posen auslassen (Entf)</translation>
     </message>
     <message>
-        <source>The selected poses count again (Return)</source>
-        <translation>Die gewählten Posen zählen wieder (Return)</translation>
+        <source>Restore the selected poses (Return)</source>
+        <translation>Die gewählten Posen wieder einbeziehen (Return)</translation>
     </message>
     <message>
-        <source>The tool can tilt by up to</source>
+        <source>Tilt limit of the tool</source>
         <translation>Größte Neigung des Werkzeugs</translation>
     </message>
     <message>
-        <source>Largest angle between the sensor&apos;s z axis and straight down, degrees; poses beyond are not proposed.</source>
+        <source>Largest angle between the sensor&apos;s z axis and straight down, degrees. Poses beyond it are not proposed.</source>
         <translation>Größter Winkel zwischen der z-Achse des Sensors und senkrecht nach unten, in Grad; Posen darüber hinaus werden nicht vorgeschlagen.</translation>
     </message>
     <message>
-        <source>The robot</source>
-        <translation>Der Roboter</translation>
+        <source>Robot base</source>
+        <translation>Roboterbasis</translation>
     </message>
     <message>
-        <source>stands upright</source>
-        <translation>steht aufrecht</translation>
+        <source>upright</source>
+        <translation>aufrecht</translation>
     </message>
     <message>
-        <source>hangs from the ceiling</source>
-        <translation>hängt an der Decke</translation>
+        <source>on the ceiling</source>
+        <translation>an der Decke</translation>
     </message>
     <message>
-        <source>is on a wall, its +x points down</source>
+        <source>on a wall, +x down</source>
         <translation>an der Wand, +x nach unten</translation>
     </message>
     <message>
-        <source>is on a wall, its -x points down</source>
+        <source>on a wall, -x down</source>
         <translation>an der Wand, -x nach unten</translation>
     </message>
     <message>
-        <source>is on a wall, its +y points down</source>
+        <source>on a wall, +y down</source>
         <translation>an der Wand, +y nach unten</translation>
     </message>
     <message>
-        <source>is on a wall, its -y points down</source>
+        <source>on a wall, -y down</source>
         <translation>an der Wand, -y nach unten</translation>
     </message>
     <message>
-        <source>Where gravity points in the frame of the orientations. Others: session set calibration.down</source>
-        <translation>Wohin die Schwerkraft im Koordinatensystem der Orientierungen zeigt. Andere Richtungen: session set calibration.down</translation>
+        <source>Direction of gravity in the frame of the orientations. For other directions: session set calibration.down</source>
+        <translation>Richtung der Schwerkraft im Koordinatensystem der Orientierungen. Andere Richtungen: session set calibration.down</translation>
     </message>
     <message>
-        <source>by a robot ({degrees}°)</source>
-        <translation>durch einen Roboter ({degrees}°)</translation>
+        <source>from a robot ({degrees}°)</source>
+        <translation>vom Roboter ({degrees}°)</translation>
     </message>
     <message>
-        <source>by a tracker ({degrees}°)</source>
-        <translation>durch einen Tracker ({degrees}°)</translation>
+        <source>from a tracker ({degrees}°)</source>
+        <translation>vom Tracker ({degrees}°)</translation>
     </message>
     <message>
         <source>by hand ({degrees}°)</source>
         <translation>von Hand ({degrees}°)</translation>
     </message>
     <message>
-        <source>Orientations are known</source>
-        <translation>Orientierungen bekannt</translation>
+        <source>Orientation accuracy</source>
+        <translation>Genauigkeit der Orientierung</translation>
     </message>
     <message>
-        <source>as the poses show</source>
-        <translation>wie die Posen zeigen</translation>
+        <source>estimate from poses</source>
+        <translation>aus den Posen schätzen</translation>
     </message>
     <message>
-        <source>How well, 1 sigma about each axis: errors of the orientations move the weight in the readings.</source>
-        <translation>Wie gut, 1 Sigma um jede Achse: Fehler der Orientierungen verschieben das Gewicht in den Messwerten.</translation>
+        <source>1 sigma about each axis. Orientation errors shift the weight in the readings.</source>
+        <translation>1 Sigma um jede Achse. Fehler der Orientierung verschieben das Gewicht in den Messwerten.</translation>
     </message>
     <message>
-        <source>Next: {words}</source>
-        <translation>Als Nächstes: {words}</translation>
+        <source>Tilt the tool to match the ghost: {words}</source>
+        <translation>Werkzeug wie den Umriss neigen: {words}</translation>
     </message>
     <message>
-        <source>You are there: keep still.</source>
-        <translation>Sie sind da: still halten.</translation>
+        <source>In position: keep still.</source>
+        <translation>In Position: still halten.</translation>
     </message>
     <message>
         <source>{angle:.0f}° to go.</source>
@@ -1340,80 +1372,84 @@
 <context>
     <name>GravityRun</name>
     <message>
-        <source>Reading the calibration</source>
-        <translation>Die Kalibrierung wird gelesen</translation>
+        <source>Loading calibration</source>
+        <translation>Die Kalibrierung wird geladen</translation>
     </message>
     <message>
-        <source>Compensating</source>
-        <translation>Wird kompensiert</translation>
+        <source>Compensating readings</source>
+        <translation>Messwerte werden kompensiert</translation>
     </message>
     <message>
-        <source>Beginning to record</source>
+        <source>Starting recording</source>
         <translation>Die Aufzeichnung beginnt</translation>
     </message>
     <message>
-        <source>The devices are being opened; the first pose is waited for after that.</source>
-        <translation>Die Geräte werden geöffnet; danach wird auf die erste Pose gewartet.</translation>
+        <source>Opening devices. The first pose can be captured afterwards.</source>
+        <translation>Die Geräte werden geöffnet. Danach kann die erste Pose aufgenommen werden.</translation>
     </message>
     <message>
-        <source>No device is open: choose and open a sensor under Devices first.</source>
-        <translation>Kein Gerät ist geöffnet: Wählen und öffnen Sie zuerst unter Geräte einen Sensor.</translation>
+        <source>No device is open. Choose and open a sensor under Devices first.</source>
+        <translation>Kein Gerät ist geöffnet. Wählen und öffnen Sie zuerst unter Geräte einen Sensor.</translation>
     </message>
     <message>
-        <source>There is no source of poses. A weight can only be told from the sensor&apos;s zero if it is known how the sensor stands: choose a robot, a file of poses or the virtual bench under Devices.</source>
-        <translation>Es gibt keine Quelle für Posen. Ein Gewicht lässt sich vom Nullpunkt des Sensors nur unterscheiden, wenn bekannt ist, wie der Sensor steht: Wählen Sie unter Geräte einen Roboter, eine Datei mit Posen oder den virtuellen Messplatz.</translation>
+        <source>No pose source. The sensor&apos;s orientation is needed to separate the weight from the sensor offset. Choose a robot, a pose file or the virtual bench under Devices.</source>
+        <translation>Keine Quelle für Posen. Um das Gewicht vom Nullpunkt des Sensors zu trennen, muss seine Orientierung bekannt sein. Wählen Sie unter Geräte einen Roboter, eine Datei mit Posen oder den virtuellen Messplatz.</translation>
+    </message>
+    <message>
+        <source>calibrate gravity</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Gravity: {why}</source>
         <translation>Schwerkraft: {why}</translation>
     </message>
     <message>
-        <source>Computing the calibration</source>
+        <source>Computing calibration</source>
         <translation>Die Kalibrierung wird berechnet</translation>
     </message>
     <message>
-        <source>Keeping the recording</source>
+        <source>Saving recording</source>
         <translation>Die Aufzeichnung wird behalten</translation>
     </message>
     <message>
-        <source>All devices give samples again; the recording goes on.</source>
-        <translation>Alle Geräte liefern wieder Messwerte; die Aufzeichnung geht weiter.</translation>
+        <source>All devices are sending samples again. Recording continues.</source>
+        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
-        <source>In a pose that it had not seen, the calibration proved good.</source>
-        <translation>In einer Pose, die neu für sie war, erwies sich die Kalibrierung als gut.</translation>
+        <source>The calibration was checked with a new pose and is good.</source>
+        <translation>Die Kalibrierung wurde mit einer neuen Pose geprüft und ist gut.</translation>
     </message>
     <message>
-        <source>In a pose that it had not seen, the calibration proved usable.</source>
-        <translation>In einer Pose, die neu für sie war, erwies sich die Kalibrierung als brauchbar.</translation>
+        <source>The calibration was checked with a new pose and is usable.</source>
+        <translation>Die Kalibrierung wurde mit einer neuen Pose geprüft und ist brauchbar.</translation>
     </message>
     <message>
-        <source>In a pose that it had not seen, the calibration proved wrong: do not use it.</source>
-        <translation>In einer Pose, die neu für sie war, erwies sich die Kalibrierung als falsch: Benutzen Sie sie nicht.</translation>
+        <source>The calibration failed the check with a new pose. Do not use it.</source>
+        <translation>Die Kalibrierung hat die Prüfung mit einer neuen Pose nicht bestanden. Benutzen Sie sie nicht.</translation>
     </message>
     <message>
-        <source>Keeping the check</source>
-        <translation>Die Prüfung wird behalten</translation>
+        <source>Saving check</source>
+        <translation>Die Prüfung wird gespeichert</translation>
     </message>
     <message>
         <source>leave out {poses}</source>
         <translation>{poses} auslassen</translation>
     </message>
     <message>
-        <source>take back {poses}</source>
-        <translation>{poses} zurücknehmen</translation>
+        <source>restore {poses}</source>
+        <translation>{poses} wieder einbeziehen</translation>
     </message>
     <message>
-        <source>The calibration is being computed, so no pose was changed. Do it again in a moment.</source>
-        <translation>Die Kalibrierung wird gerade berechnet, deshalb wurde keine Pose geändert. Versuchen Sie es gleich noch einmal.</translation>
+        <source>No pose was changed because the calibration is still being computed. Try again in a moment.</source>
+        <translation>Es wurde keine Pose geändert, weil die Kalibrierung noch berechnet wird. Versuchen Sie es gleich noch einmal.</translation>
     </message>
     <message>
-        <source>Setting the parameters</source>
-        <translation>Die Parameter werden gesetzt</translation>
+        <source>Saving settings</source>
+        <translation>Die Einstellungen werden gespeichert</translation>
     </message>
     <message>
-        <source>Opening the devices with the new mount</source>
-        <translation>Die Geräte werden mit der neuen Montage geöffnet</translation>
+        <source>Reopening devices with the new mount</source>
+        <translation>Die Geräte werden mit der neuen Montage neu geöffnet</translation>
     </message>
 </context>
 <context>
@@ -1474,60 +1510,84 @@
         <translation>Größe</translation>
     </message>
     <message>
-        <source>What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm.</source>
-        <translation>Was die Farben bedeuten. Dichte: pro mm2; Kräfte: N; Fehler und Unsicherheit: mm.</translation>
+        <source>Meaning of the colours. Density: per mm2; forces: N; error and uncertainty: mm.</source>
+        <translation>Bedeutung der Farben. Dichte: pro mm2; Kräfte: N; Fehler und Unsicherheit: mm.</translation>
     </message>
     <message>
-        <source>number of contacts</source>
+        <source>contact count</source>
         <translation>Anzahl der Kontakte</translation>
     </message>
     <message>
-        <source>seconds of contact</source>
-        <translation>Sekunden mit Kontakt</translation>
+        <source>contact time in s</source>
+        <translation>Kontaktzeit in s</translation>
     </message>
     <message>
         <source>contacts per second</source>
         <translation>Kontakte pro Sekunde</translation>
     </message>
     <message>
-        <source>What a density adds up to</source>
-        <translation>Was eine Dichte insgesamt ergibt</translation>
+        <source>Density normalisation</source>
+        <translation>Normierung der Dichte</translation>
     </message>
     <message>
-        <source>What the density adds up to over the whole surface.</source>
-        <translation>Was die Dichte über die ganze Oberfläche ergibt.</translation>
+        <source>The integral of the density over the whole surface.</source>
+        <translation>Das Integral der Dichte über die ganze Oberfläche.</translation>
     </message>
     <message>
         <source>Bandwidth in mm</source>
         <translation>Bandbreite in mm</translation>
     </message>
     <message>
-        <source>Standard deviation of the Gaussian by which each contact is spread along the surface, mm.</source>
-        <translation>Standardabweichung der Gauß-Glocke, mit der jeder Kontakt entlang der Oberfläche verteilt wird, mm.</translation>
+        <source>Standard deviation of the Gaussian that spreads each contact along the surface, mm.</source>
+        <translation>Standardabweichung der Gauß-Glocke, die jeden Kontakt entlang der Oberfläche verteilt, mm.</translation>
     </message>
     <message>
-        <source>Range of force in N</source>
+        <source>Force range in N</source>
         <translation>Kraftbereich in N</translation>
     </message>
     <message>
-        <source>Only contacts with a force in this range count, N.</source>
-        <translation>Nur Kontakte mit einer Kraft in diesem Bereich zählen, N.</translation>
+        <source>Use only contacts with a force in this range, N.</source>
+        <translation>Nur Kontakte mit einer Kraft in diesem Bereich verwenden, N.</translation>
     </message>
     <message>
-        <source>Weigh by confidence</source>
+        <source>Weight by confidence</source>
         <translation>Nach Sicherheit gewichten</translation>
     </message>
     <message>
-        <source>Let each contact count as much as its place is sure.</source>
-        <translation>Jeder Kontakt zählt so viel, wie seine Stelle sicher ist.</translation>
+        <source>Give uncertain contacts less weight.</source>
+        <translation>Unsichere Kontakte zählen weniger.</translation>
     </message>
     <message>
-        <source>Compare two side by side</source>
-        <translation>Zwei nebeneinander vergleichen</translation>
+        <source>Compare side by side</source>
+        <translation>Nebeneinander vergleichen</translation>
     </message>
     <message>
-        <source>A second heatmap with the same view and the same colours.</source>
-        <translation>Eine zweite Heatmap mit derselben Ansicht und denselben Farben.</translation>
+        <source>Show a second heatmap with the same view and colour scale.</source>
+        <translation>Eine zweite Heatmap mit derselben Ansicht und Farbskala zeigen.</translation>
+    </message>
+    <message>
+        <source>from the first contact</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>from each one&apos;s beginning</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Time of two that are compared</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Whether both times count from where the probe was touched first, or from where each file begins.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How much later the second one is shown, s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Moves the second one against the first in time.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -1538,15 +1598,15 @@
         <translation>Dateien öffnen</translation>
     </message>
     <message>
-        <source>Recordings with their calibration and probe, contacts, verifications.</source>
-        <translation>Aufzeichnungen mit Kalibrierung und Sonde, Kontakte, Überprüfungen.</translation>
+        <source>Recordings with their calibration and probe, contacts, or verifications.</source>
+        <translation>Aufzeichnungen mit Kalibrierung und Sonde, Kontakte oder Überprüfungen.</translation>
     </message>
     <message>
         <source>Open session</source>
         <translation>Sitzung öffnen</translation>
     </message>
     <message>
-        <source>The newest recording and verification of a session.</source>
+        <source>Latest recording and verification of a session.</source>
         <translation>Die neueste Aufzeichnung und Überprüfung einer Sitzung.</translation>
     </message>
     <message>
@@ -1554,28 +1614,28 @@
         <translation>Bild</translation>
     </message>
     <message>
-        <source>What is shown, from two sides, as .png.</source>
-        <translation>Was gezeigt wird, von zwei Seiten, als .png.</translation>
+        <source>Save the current view from two sides as .png.</source>
+        <translation>Die aktuelle Ansicht von zwei Seiten als .png speichern.</translation>
     </message>
     <message>
         <source>Film</source>
         <translation>Film</translation>
     </message>
     <message>
-        <source>The time window, played at the chosen speed, as .mp4 or .gif.</source>
-        <translation>Das Zeitfenster, im gewählten Tempo abgespielt, als .mp4 oder .gif.</translation>
+        <source>Save the time window at the chosen speed as .mp4 or .gif.</source>
+        <translation>Das Zeitfenster im gewählten Tempo als .mp4 oder .gif speichern.</translation>
     </message>
     <message>
         <source>Mesh</source>
         <translation>Netz</translation>
     </message>
     <message>
-        <source>The values at the vertices, as .ply or .glb (glTF).</source>
-        <translation>Die Werte an den Eckpunkten, als .ply oder .glb (glTF).</translation>
+        <source>Save the vertex values as .ply or .glb (glTF).</source>
+        <translation>Die Werte an den Eckpunkten als .ply oder .glb (glTF) speichern.</translation>
     </message>
     <message>
-        <source>Adds up to</source>
-        <translation>Ergibt</translation>
+        <source>Normalise to</source>
+        <translation>Normieren auf</translation>
     </message>
     <message>
         <source>Bandwidth</source>
@@ -1586,6 +1646,14 @@
         <translation>Kraft</translation>
     </message>
     <message>
+        <source>Time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Second one later by</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Heatmap</source>
         <translation>Heatmap</translation>
     </message>
@@ -1594,12 +1662,24 @@
         <translation>Speichern</translation>
     </message>
     <message>
-        <source>The forces are unknown.</source>
-        <translation>Die Kräfte sind unbekannt.</translation>
+        <source>A peak is the largest force: nothing is weighed in it.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is shown does not say how sure its contacts are: locate them again.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Forces unknown.</source>
+        <translation>Kräfte unbekannt.</translation>
     </message>
     <message>
         <source>{low:.1f} to {high:.1f} N</source>
         <translation>{low:.1f} bis {high:.1f} N</translation>
+    </message>
+    <message>
+        <source>Nothing is shown yet: open files or a session first.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>{title}: {percent}</source>
@@ -1613,16 +1693,20 @@
         <translation>Bild (*.png)</translation>
     </message>
     <message>
-        <source>MP4 film (*.mp4);;Animated GIF (*.gif)</source>
-        <translation>MP4-Film (*.mp4);;Animiertes GIF (*.gif)</translation>
-    </message>
-    <message>
         <source>PLY mesh (*.ply);;Binary glTF (*.glb)</source>
         <translation>PLY-Netz (*.ply);;Binäres glTF (*.glb)</translation>
     </message>
     <message>
         <source>Save</source>
         <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>MP4 film (*.mp4)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Animated GIF (*.gif)</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Saving {name}</source>
@@ -1640,44 +1724,52 @@
 <context>
     <name>HeatmapViewer</name>
     <message>
-        <source>Drop files here: a recording (.mcap) with its calibration (.json) and the probe (.ply),
+        <source>Drop files here: a recording (.mcap) with its calibration (.json) and probe (.ply),
 contacts (.csv) with the probe, a verification (.json) with the probe,
-or the folder of a session, which has them all.</source>
-        <translation>Dateien hier ablegen: eine Aufzeichnung (.mcap) mit ihrer Kalibrierung (.json) und der Sonde (.ply),
+or a session folder, which contains all of them.</source>
+        <translation>Dateien hier ablegen: eine Aufzeichnung (.mcap) mit Kalibrierung (.json) und Sonde (.ply),
 Kontakte (.csv) mit der Sonde, eine Überprüfung (.json) mit der Sonde,
-oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
+oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Play or pause the time window (P).</source>
         <translation>Das Zeitfenster abspielen oder anhalten (P).</translation>
     </message>
     <message>
+        <source>Nothing is shown yet: open files or a session first.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The picture is in the clipboard.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Opening</source>
         <translation>Wird geöffnet</translation>
     </message>
     <message>
-        <source>Now give what touched it: a recording, contacts, or a verification.</source>
-        <translation>Geben Sie jetzt an, was sie berührt hat: eine Aufzeichnung, Kontakte oder eine Überprüfung.</translation>
+        <source>Now add contact data: a recording, contacts or a verification.</source>
+        <translation>Fügen Sie jetzt Kontaktdaten hinzu: eine Aufzeichnung, Kontakte oder eine Überprüfung.</translation>
     </message>
     <message>
-        <source>Reading again</source>
-        <translation>Neu lesen</translation>
+        <source>Reloading</source>
+        <translation>Wird neu geladen</translation>
     </message>
     <message>
-        <source>Open the folder of a session</source>
-        <translation>Ordner einer Sitzung öffnen</translation>
+        <source>Open session folder</source>
+        <translation>Sitzungsordner öffnen</translation>
     </message>
     <message>
-        <source>Open recordings, contacts or verifications, with probe and calibration</source>
+        <source>Open recordings, contacts or verifications with probe and calibration</source>
         <translation>Aufzeichnungen, Kontakte oder Überprüfungen mit Sonde und Kalibrierung öffnen</translation>
     </message>
     <message>
-        <source>What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;All files (*)</source>
-        <translation>Was gezeigt werden kann (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;Alle Dateien (*)</translation>
+        <source>Supported files (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;All files (*)</source>
+        <translation>Unterstützte Dateien (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>Spreading contacts</source>
-        <translation>Kontakte werden verteilt</translation>
+        <source>Computing heatmap</source>
+        <translation>Die Heatmap wird berechnet</translation>
     </message>
     <message>
         <source>Heatmaps - contactbench</source>
@@ -1685,10 +1777,26 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
-    <name>Help</name>
+    <name>HelpBook</name>
     <message>
-        <source>There is no help on this page yet.</source>
-        <translation>Zu dieser Seite gibt es noch keine Hilfe.</translation>
+        <source>Help</source>
+        <translation type="unfinished">Hilfe</translation>
+    </message>
+    <message>
+        <source>Search</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Search the help</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pages</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No page has these words.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -1698,23 +1806,23 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Reading the check</source>
+        <source>Loading check</source>
         <translation>Prüfung lesen</translation>
     </message>
     <message>
-        <source>Ending the recording</source>
+        <source>Stopping recording</source>
         <translation>Aufnahme beenden</translation>
     </message>
     <message>
-        <source>Beginning to record</source>
+        <source>Starting recording</source>
         <translation>Aufnahme beginnen</translation>
     </message>
     <message>
-        <source>Keeping the recording</source>
+        <source>Saving recording</source>
         <translation>Aufnahme sichern</translation>
     </message>
     <message>
-        <source>Computing the check</source>
+        <source>Computing check</source>
         <translation>Prüfung berechnen</translation>
     </message>
     <message>
@@ -1722,7 +1830,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Bestanden</translation>
     </message>
     <message>
-        <source>Cannot tell</source>
+        <source>Inconclusive</source>
         <translation>Nicht zu entscheiden</translation>
     </message>
     <message>
@@ -1730,23 +1838,23 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Nicht bestanden</translation>
     </message>
     <message>
-        <source>Stale: check again</source>
+        <source>Outdated: check again</source>
         <translation>Veraltet: bitte neu prüfen</translation>
     </message>
 </context>
 <context>
     <name>LiveView</name>
     <message>
-        <source>The devices of this session could not be opened: {} Choose them anew in step 1.</source>
+        <source>Could not open this session&apos;s devices: {} Choose them again in step 1.</source>
         <translation>Die Geräte dieser Sitzung konnten nicht geöffnet werden: {} Wählen Sie sie in Schritt 1 neu.</translation>
     </message>
     <message>
-        <source>Opening the devices</source>
+        <source>Opening devices</source>
         <translation>Die Geräte werden geöffnet</translation>
     </message>
     <message>
         <source>no live samples</source>
-        <translation>keine laufenden Messwerte</translation>
+        <translation>keine Messwerte</translation>
     </message>
     <message>
         <source>sensor {}</source>
@@ -1768,7 +1876,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>MainWindow</name>
     <message>
-        <source>Closing the session</source>
+        <source>Closing session</source>
         <translation>Die Sitzung wird geschlossen</translation>
     </message>
     <message>
@@ -1776,16 +1884,16 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>erledigt: {}</translation>
     </message>
     <message>
-        <source>begun</source>
+        <source>started</source>
         <translation>begonnen</translation>
     </message>
     <message>
-        <source>Remembering the page</source>
-        <translation>Die Seite wird gemerkt</translation>
+        <source>Saving the current page</source>
+        <translation>Die aktuelle Seite wird gespeichert</translation>
     </message>
     <message>
-        <source>Step {} of {}</source>
-        <translation>Schritt {} von {}</translation>
+        <source>Step {} of {}: {}</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -1815,8 +1923,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Lage im Sensorsystem S, mm</translation>
     </message>
     <message>
-        <source>Accepted touches, of those that are wanted</source>
-        <translation>Gezählte Berührungen, von denen, die gewünscht sind</translation>
+        <source>Accepted and required touches</source>
+        <translation>Gezählte und nötige Berührungen</translation>
     </message>
     <message>
         <source>Mean error and largest error, mm</source>
@@ -1854,44 +1962,40 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>MarkersPanel</name>
     <message>
-        <source>No markers yet. Spread some over the probe, click on it, or import a table of measured ones.</source>
-        <translation>Noch keine Marker. Verteilen Sie welche auf der Sonde, klicken Sie darauf, oder importieren Sie eine Tabelle mit gemessenen.</translation>
+        <source>No markers yet. Distribute some over the probe, click on it, or import measured positions.</source>
+        <translation>Noch keine Marker. Verteilen Sie welche auf der Sonde, klicken Sie darauf, oder importieren Sie gemessene Positionen.</translation>
     </message>
     <message>
-        <source>Go on: touch them</source>
-        <translation>Weiter: berühren</translation>
+        <source>Area for markers</source>
+        <translation>Bereich für Marker</translation>
     </message>
     <message>
-        <source>Where markers are placed</source>
-        <translation>Wo Marker gesetzt werden</translation>
-    </message>
-    <message>
-        <source>Place them on</source>
+        <source>Place on</source>
         <translation>Setzen auf</translation>
     </message>
     <message>
-        <source>How many markers</source>
-        <translation>Wie viele Marker</translation>
+        <source>Number of markers</source>
+        <translation>Anzahl der Marker</translation>
     </message>
     <message>
-        <source>Spread evenly</source>
+        <source>Distribute evenly</source>
         <translation>Gleichmäßig verteilen</translation>
     </message>
     <message>
-        <source>Distance of the lines of the grid, mm</source>
+        <source>Grid spacing, mm</source>
         <translation>Abstand der Gitterlinien, mm</translation>
     </message>
     <message>
-        <source>On a grid</source>
-        <translation>Als Gitter</translation>
+        <source>Create grid</source>
+        <translation>Gitter anlegen</translation>
     </message>
     <message>
-        <source>Click on it</source>
-        <translation>Anklicken</translation>
+        <source>Click to place</source>
+        <translation>Durch Klicken setzen</translation>
     </message>
     <message>
-        <source>Every click on the probe adds a marker; with one marker selected, it moves there</source>
-        <translation>Jeder Klick auf die Sonde setzt einen Marker; ist ein Marker gewählt, rückt er dorthin</translation>
+        <source>Click the probe to add a marker; if a marker is selected, the click moves it</source>
+        <translation>Klick auf die Sonde setzt einen Marker; ein gewählter Marker wird stattdessen verschoben</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -1903,19 +2007,19 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
     <message>
         <source>Save as…</source>
-        <translation>Speichern als…</translation>
+        <translation>Speichern unter…</translation>
     </message>
     <message>
-        <source>Onto the surface</source>
-        <translation>Auf die Oberfläche</translation>
+        <source>Snap to surface</source>
+        <translation>Auf die Oberfläche setzen</translation>
     </message>
     <message>
-        <source>Move every marker to the nearest point of the probe</source>
-        <translation>Jeden Marker an die nächste Stelle der Sonde setzen</translation>
+        <source>Move every marker to the nearest point on the probe</source>
+        <translation>Jeden Marker auf den nächsten Punkt der Sonde setzen</translation>
     </message>
     <message>
-        <source>{axis} of a marker in the sensor frame S, mm</source>
-        <translation>{axis} eines Markers im Sensorsystem S, mm</translation>
+        <source>Marker {axis} in the sensor frame S, mm</source>
+        <translation>{axis} des Markers im Sensorsystem S, mm</translation>
     </message>
     <message>
         <source>Add a marker at these coordinates</source>
@@ -1926,11 +2030,11 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Region {rank}</translation>
     </message>
     <message>
-        <source>the whole probe</source>
-        <translation>die ganze Sonde</translation>
+        <source>whole probe</source>
+        <translation>ganze Sonde</translation>
     </message>
     <message>
-        <source>Add a marker</source>
+        <source>Add marker</source>
         <translation>Marker hinzufügen</translation>
     </message>
     <message>
@@ -1950,7 +2054,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Marker setzen</translation>
     </message>
     <message>
-        <source>Move markers onto the surface</source>
+        <source>Snap markers to surface</source>
         <translation>Marker auf die Oberfläche setzen</translation>
     </message>
     <message>
@@ -1958,15 +2062,15 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Marker importieren</translation>
     </message>
     <message>
-        <source>Saving the markers</source>
+        <source>Saving markers</source>
         <translation>Die Marker werden gespeichert</translation>
     </message>
     <message>
-        <source>The markers are in {file}.</source>
-        <translation>Die Marker sind in {file}.</translation>
+        <source>Markers saved in {file}.</source>
+        <translation>Marker in {file} gespeichert.</translation>
     </message>
     <message>
-        <source>Tables of markers (*.csv)</source>
+        <source>Marker tables (*.csv)</source>
         <translation>Tabellen mit Markern (*.csv)</translation>
     </message>
     <message>
@@ -1997,8 +2101,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Zuletzt benutzte Sitzungen</translation>
     </message>
     <message>
-        <source>Open this session a&amp;gain</source>
-        <translation>Diese Sitzung &amp;erneut öffnen</translation>
+        <source>&amp;Reload session</source>
+        <translation>Sitzung &amp;neu laden</translation>
     </message>
     <message>
         <source>&amp;Close session</source>
@@ -2025,6 +2129,10 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Wiederholen</translation>
     </message>
     <message>
+        <source>&amp;Copy the picture of the 3D view</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>&amp;View</source>
         <translation>&amp;Ansicht</translation>
     </message>
@@ -2033,8 +2141,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Anordnung zurücksetzen</translation>
     </message>
     <message>
-        <source>As the &amp;system</source>
-        <translation>Wie das &amp;System</translation>
+        <source>Follow &amp;system</source>
+        <translation>Wie &amp;System</translation>
     </message>
     <message>
         <source>&amp;Light</source>
@@ -2049,8 +2157,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Farbschema</translation>
     </message>
     <message>
-        <source>As the &amp;computer</source>
-        <translation>Wie der &amp;Computer</translation>
+        <source>Follow s&amp;ystem</source>
+        <translation>Wie S&amp;ystem</translation>
     </message>
     <message>
         <source>Lan&amp;guage</source>
@@ -2085,6 +2193,10 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Diese Seite</translation>
     </message>
     <message>
+        <source>&amp;Tutorial</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>&amp;Shortcuts</source>
         <translation>&amp;Tastenkürzel</translation>
     </message>
@@ -2097,15 +2209,15 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Über contactbench</translation>
     </message>
     <message>
-        <source>Help</source>
-        <translation>Hilfe</translation>
+        <source>The picture of the 3D view is in the clipboard.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>The window stood still for at most {:.0f} ms; 99 of 100 times for at most {:.0f} ms.</source>
-        <translation>Das Fenster stand höchstens {:.0f} ms still; in 99 von 100 Fällen höchstens {:.0f} ms.</translation>
+        <source>Longest UI stall {:.0f} ms; 99th percentile {:.0f} ms.</source>
+        <translation>Längste Unterbrechung der Oberfläche {:.0f} ms; 99. Perzentil {:.0f} ms.</translation>
     </message>
     <message>
-        <source>No log is kept.</source>
+        <source>Logging is off.</source>
         <translation>Es wird kein Protokoll geführt.</translation>
     </message>
     <message>
@@ -2133,31 +2245,31 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Die Diagnose wird gespeichert</translation>
     </message>
     <message>
-        <source>Diagnostics are saved as {}. They hold no recordings, no meshes and no names.</source>
-        <translation>Die Diagnose ist als {} gespeichert. Sie enthält keine Aufzeichnungen, keine Netze und keine Namen.</translation>
+        <source>Diagnostics saved as {}. They contain no recordings, meshes or names.</source>
+        <translation>Diagnose als {} gespeichert. Sie enthält keine Aufzeichnungen, Netze oder Namen.</translation>
     </message>
     <message>
         <source>None yet</source>
         <translation>Noch keine</translation>
     </message>
     <message>
-        <source>The language changes when contactbench is started again.</source>
-        <translation>Die Sprache wechselt, wenn contactbench neu gestartet wird.</translation>
+        <source>The language changes after a restart of contactbench.</source>
+        <translation>Die Sprache wechselt nach einem Neustart von contactbench.</translation>
     </message>
 </context>
 <context>
     <name>MeshReport</name>
     <message>
-        <source>Nothing was found that spoils contacts.</source>
-        <translation>Es wurde nichts gefunden, was Kontakte verdirbt.</translation>
+        <source>No problems found that affect contacts.</source>
+        <translation>Keine Probleme gefunden, die Kontakte beeinträchtigen.</translation>
     </message>
     <message>
         <source>Fault</source>
         <translation>Fehler</translation>
     </message>
     <message>
-        <source>Look at this</source>
-        <translation>Ansehen</translation>
+        <source>Check</source>
+        <translation>Prüfen</translation>
     </message>
     <message>
         <source>Note</source>
@@ -2183,24 +2295,24 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>1  Netz</translation>
     </message>
     <message>
-        <source>Choose a mesh...</source>
-        <translation>Netz wählen...</translation>
+        <source>Choose mesh…</source>
+        <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>STL, PLY, OBJ, OFF or 3MF; a file can also be dropped on the window</source>
-        <translation>STL, PLY, OBJ, OFF oder 3MF; eine Datei kann auch auf das Fenster gezogen werden</translation>
+        <source>STL, PLY, OBJ, OFF or 3MF; you can also drop a file on the window</source>
+        <translation>STL, PLY, OBJ, OFF oder 3MF; Sie können eine Datei auch auf das Fenster ziehen</translation>
     </message>
     <message>
-        <source>Use the virtual bench&apos;s housing</source>
+        <source>Use virtual bench housing</source>
         <translation>Gehäuse des virtuellen Messplatzes nutzen</translation>
     </message>
     <message>
-        <source>Drop the mesh of the probe here, as it came from CAD or from a scanner, or choose it.</source>
-        <translation>Ziehen Sie das Netz der Sonde hierher, so wie es aus CAD oder vom Scanner kam, oder wählen Sie es.</translation>
+        <source>Drop the probe mesh from CAD or a scanner here, or choose a file.</source>
+        <translation>Ziehen Sie das Netz der Sonde aus CAD oder vom Scanner hierher, oder wählen Sie eine Datei.</translation>
     </message>
     <message>
-        <source>How long is the probe? The file does not say in which unit it is.</source>
-        <translation>Wie lang ist die Sonde? Die Datei sagt nicht, in welcher Einheit sie ist.</translation>
+        <source>How long is the probe? The file does not state its unit.</source>
+        <translation>Wie lang ist die Sonde? Die Datei gibt keine Einheit an.</translation>
     </message>
     <message>
         <source>{:.4g} mm long ({})</source>
@@ -2214,7 +2326,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Meldungen</translation>
     </message>
     <message>
-        <source>Details of the message</source>
+        <source>Message details</source>
         <translation>Einzelheiten der Meldung</translation>
     </message>
     <message>
@@ -2230,31 +2342,31 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Fehler</translation>
     </message>
     <message>
-        <source>Which messages are shown: all, warnings and errors, or errors only</source>
-        <translation>Welche Meldungen gezeigt werden: alle, Warnungen und Fehler, oder nur Fehler</translation>
+        <source>Filter: all messages, warnings and errors, or errors only</source>
+        <translation>Filter: alle Meldungen, Warnungen und Fehler, oder nur Fehler</translation>
     </message>
     <message>
-        <source>All is well: nothing to report.</source>
-        <translation>Alles in Ordnung: nichts zu melden.</translation>
+        <source>No messages.</source>
+        <translation>Keine Meldungen.</translation>
     </message>
     <message>
-        <source>Copy the selected messages</source>
+        <source>Copy selected messages</source>
         <translation>Gewählte Meldungen kopieren</translation>
     </message>
     <message>
-        <source>Which messages are shown</source>
-        <translation>Welche Meldungen gezeigt werden</translation>
+        <source>Message filter</source>
+        <translation>Meldungsfilter</translation>
     </message>
     <message>
         <source>Details</source>
         <translation>Einzelheiten</translation>
     </message>
     <message>
-        <source>Show what is behind the selected message</source>
-        <translation>Zeigen, was hinter der gewählten Meldung steht</translation>
+        <source>Show details of the selected message</source>
+        <translation>Einzelheiten der gewählten Meldung zeigen</translation>
     </message>
     <message>
-        <source>Copy the selected messages with their details</source>
+        <source>Copy selected messages with details</source>
         <translation>Die gewählten Meldungen mit ihren Einzelheiten kopieren</translation>
     </message>
     <message>
@@ -2282,19 +2394,19 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation> ({}-mal)</translation>
     </message>
     <message>
-        <source>There is nothing more to this message.</source>
-        <translation>Mehr gibt es zu dieser Meldung nicht.</translation>
+        <source>No further details.</source>
+        <translation>Keine weiteren Einzelheiten.</translation>
     </message>
     <message>
-        <source>Choose a message.</source>
+        <source>Select a message.</source>
         <translation>Wählen Sie eine Meldung.</translation>
     </message>
 </context>
 <context>
     <name>MessageRouter</name>
     <message>
-        <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
-        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
+        <source>Unexpected error: {}. Your session is safe. Try again. If the error persists, save diagnostics (File menu) and send them to your support contact.</source>
+        <translation>Unerwarteter Fehler: {}. Ihre Sitzung ist sicher. Versuchen Sie es noch einmal. Tritt der Fehler wieder auf, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an Ihre Ansprechperson.</translation>
     </message>
     <message>
         <source>{}: {}</source>
@@ -2316,55 +2428,55 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Roboter</translation>
     </message>
     <message>
-        <source>Both are simulated: nothing real moves.</source>
-        <translation>Beide sind simuliert: Nichts Wirkliches bewegt sich.</translation>
+        <source>Both are simulated; no real hardware moves.</source>
+        <translation>Beide sind simuliert; keine echte Hardware bewegt sich.</translation>
     </message>
     <message>
-        <source>tilts along the face</source>
+        <source>rocks along the face</source>
         <translation>kippt längs der Fläche</translation>
     </message>
     <message>
-        <source>tilts across the face</source>
+        <source>rocks across the face</source>
         <translation>kippt quer zur Fläche</translation>
     </message>
     <message>
-        <source>goes up and down</source>
-        <translation>geht auf und ab</translation>
+        <source>moves up and down</source>
+        <translation>bewegt sich auf und ab</translation>
     </message>
     <message>
-        <source>rests</source>
+        <source>at rest</source>
         <translation>ruht</translation>
     </message>
     <message>
-        <source>The phantom</source>
-        <translation>Das Phantom</translation>
+        <source>Phantom</source>
+        <translation>Phantom</translation>
     </message>
     <message>
-        <source>How the soft phantom moves under the probe.</source>
-        <translation>Wie sich das weiche Phantom unter der Sonde bewegt.</translation>
+        <source>Motion of the soft phantom under the probe.</source>
+        <translation>Bewegung des weichen Phantoms unter der Sonde.</translation>
     </message>
     <message>
         <source>{seconds:g} s</source>
         <translation>{seconds:g} s</translation>
     </message>
     <message>
-        <source>There and back in</source>
-        <translation>Hin und zurück in</translation>
+        <source>Period</source>
+        <translation>Periode</translation>
     </message>
     <message>
         <source>Period T of the phantom&apos;s motion.</source>
         <translation>Periode T der Bewegung des Phantoms.</translation>
     </message>
     <message>
-        <source>as in the bundle</source>
-        <translation>wie im Paket</translation>
+        <source>from the bundle</source>
+        <translation>aus dem Paket</translation>
     </message>
     <message>
-        <source>aware</source>
+        <source>predictive</source>
         <translation>vorausschauend</translation>
     </message>
     <message>
-        <source>plain</source>
+        <source>basic</source>
         <translation>einfach</translation>
     </message>
     <message>
@@ -2372,20 +2484,20 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Regelung</translation>
     </message>
     <message>
-        <source>Aware: how the phantom moves is estimated and led. Plain: force and place alone.</source>
-        <translation>Vorausschauend: Die Bewegung des Phantoms wird geschätzt und vorweggenommen. Einfach: nur Kraft und Ort.</translation>
+        <source>Predictive: estimates the phantom&apos;s motion and leads it. Basic: force and position only.</source>
+        <translation>Vorausschauend: schätzt die Bewegung des Phantoms und nimmt sie vorweg. Einfach: nur Kraft und Position.</translation>
     </message>
     <message>
-        <source>Amplitude of the phantom&apos;s motion, to either side.</source>
+        <source>Amplitude of the phantom&apos;s motion to each side.</source>
         <translation>Ausschlag des Phantoms, nach jeder Seite.</translation>
     </message>
     <message>
-        <source>How far</source>
-        <translation>Wie weit</translation>
+        <source>Amplitude</source>
+        <translation>Amplitude</translation>
     </message>
     <message>
-        <source>What the controller does</source>
-        <translation>Was die Regelung tut</translation>
+        <source>Controller state</source>
+        <translation>Zustand der Regelung</translation>
     </message>
     <message>
         <source>Force</source>
@@ -2396,16 +2508,20 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Winkel zum Phantom</translation>
     </message>
     <message>
-        <source>What would be exported of the open session now.</source>
-        <translation>Was aus der offenen Sitzung jetzt exportiert würde.</translation>
+        <source>How fast its time goes, against the clock: 1.00 is real time. Measured over the last frames.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>This session</source>
-        <translation>Diese Sitzung</translation>
+        <source>Use a bundle of the open session in its current state.</source>
+        <translation>Ein Paket aus dem jetzigen Stand der offenen Sitzung nutzen.</translation>
     </message>
     <message>
-        <source>A folder or zip file that was exported.</source>
-        <translation>Ein Ordner oder eine Zip-Datei, die exportiert wurde.</translation>
+        <source>Use session</source>
+        <translation>Sitzung nutzen</translation>
+    </message>
+    <message>
+        <source>An exported folder or zip file.</source>
+        <translation>Ein exportierter Ordner oder eine exportierte Zip-Datei.</translation>
     </message>
     <message>
         <source>Open bundle</source>
@@ -2416,12 +2532,68 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Starten</translation>
     </message>
     <message>
-        <source>The probe goes back and stands still (Esc).</source>
-        <translation>Die Sonde geht zurück und steht still (Esc).</translation>
+        <source>Retract the probe and stop (Esc).</source>
+        <translation>Die Sonde zurückziehen und anhalten (Esc).</translation>
     </message>
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Nothing moves any more; it is about to end.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>No bundle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Choose the bundle that is to be run.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Opening the bundle</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ready</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Nothing moves until you press Start.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Starting</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The virtual robot is being made.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Stopping</source>
+        <translation type="unfinished">Wird angehalten</translation>
+    </message>
+    <message>
+        <source>The probe leaves the phantom, then stands still.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Ended</source>
+        <translation type="unfinished">Beendet</translation>
+    </message>
+    <message>
+        <source>The probe stands still; nothing moves any more.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation type="unfinished">Nicht bestanden</translation>
+    </message>
+    <message>
+        <source>Nothing moves any more; the message says why.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Motion control</source>
@@ -2444,16 +2616,24 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>°</translation>
     </message>
     <message>
-        <source>Not running</source>
-        <translation>Läuft nicht</translation>
-    </message>
-    <message>
         <source>{:z.1f} N</source>
         <translation>{:z.1f} N</translation>
     </message>
     <message>
         <source>{:.1f}°</source>
         <translation>{:.1f}°</translation>
+    </message>
+    <message>
+        <source>Pace: –</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pace: {pace:.2f} of real time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Pace: {pace:.2f} of real time: this computer is too slow</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>{time:.1f} s  {state}: {why}</source>
@@ -2464,74 +2644,70 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Nähert sich</translation>
     </message>
     <message>
-        <source>The probe goes slowly towards the phantom.</source>
-        <translation>Die Sonde geht langsam auf das Phantom zu.</translation>
+        <source>The probe is slowly approaching the phantom.</source>
+        <translation>Die Sonde nähert sich langsam dem Phantom.</translation>
     </message>
     <message>
         <source>In contact</source>
         <translation>In Kontakt</translation>
     </message>
     <message>
-        <source>The force grows; then the stiffness is felt.</source>
-        <translation>Die Kraft wächst; dann wird die Steifigkeit ertastet.</translation>
+        <source>The force rises, then the stiffness is estimated.</source>
+        <translation>Die Kraft steigt, dann wird die Steifigkeit geschätzt.</translation>
     </message>
     <message>
         <source>Tracking</source>
         <translation>Folgt</translation>
     </message>
     <message>
-        <source>It keeps its force and stands upright.</source>
-        <translation>Sie hält ihre Kraft und steht senkrecht.</translation>
+        <source>Keeps its force and stays perpendicular.</source>
+        <translation>Hält die Kraft und bleibt senkrecht.</translation>
     </message>
     <message>
         <source>Holding</source>
         <translation>Hält an</translation>
     </message>
     <message>
-        <source>Nothing moves until it is sure again.</source>
-        <translation>Nichts bewegt sich, bis alles wieder sicher ist.</translation>
+        <source>Waiting until the readings are reliable again.</source>
+        <translation>Wartet, bis die Messwerte wieder verlässlich sind.</translation>
     </message>
     <message>
-        <source>Going back</source>
-        <translation>Geht zurück</translation>
+        <source>Retracting</source>
+        <translation>Zieht sich zurück</translation>
     </message>
     <message>
-        <source>The probe leaves the phantom.</source>
-        <translation>Die Sonde verlässt das Phantom.</translation>
+        <source>The probe is leaving the phantom.</source>
+        <translation>Die Sonde löst sich vom Phantom.</translation>
     </message>
     <message>
-        <source>Standing still</source>
-        <translation>Steht still</translation>
-    </message>
-    <message>
-        <source>It has ended; nothing moves any more.</source>
-        <translation>Es ist zu Ende; nichts bewegt sich mehr.</translation>
+        <source>Stopped</source>
+        <translation>Angehalten</translation>
     </message>
 </context>
 <context>
     <name>MotionWindow</name>
     <message>
-        <source>Choose a bundle; then press Start. All is simulated: nothing real moves.</source>
-        <translation>Wählen Sie ein Paket und drücken Sie Starten. Alles ist simuliert: Nichts Wirkliches bewegt sich.</translation>
+        <source>Choose a bundle, then press Start. Everything is simulated; no real hardware moves.</source>
+        <translation>Wählen Sie ein Paket und drücken Sie Starten. Alles ist simuliert; keine echte Hardware bewegt sich.</translation>
     </message>
     <message>
-        <source>No session is open: open one, or choose a bundle.</source>
-        <translation>Keine Sitzung ist offen: Öffnen Sie eine, oder wählen Sie ein Paket.</translation>
+        <source>Stop</source>
+        <translation type="unfinished">Stopp</translation>
     </message>
     <message>
-        <source>Making the session&apos;s bundle…</source>
-        <translation>Das Paket der Sitzung wird gemacht…</translation>
+        <source>This page</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Making a bundle</source>
-        <translation>Ein Paket wird gemacht</translation>
+        <source>No session is open. Open one or choose a bundle.</source>
+        <translation>Keine Sitzung ist offen. Öffnen Sie eine, oder wählen Sie ein Paket.</translation>
     </message>
     <message>
-        <source>Opening the bundle…</source>
-        <translation>Das Paket wird geöffnet…</translation>
+        <source>Creating bundle</source>
+        <translation>Ein Paket wird erstellt</translation>
     </message>
     <message>
-        <source>Opening a bundle</source>
+        <source>Opening bundle</source>
         <translation>Ein Paket wird geöffnet</translation>
     </message>
     <message>
@@ -2539,23 +2715,23 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>{name}: {facets:,} Facetten.</translation>
     </message>
     <message>
-        <source>It is not verified: for trials only.</source>
-        <translation>Es ist nicht überprüft: nur für Versuche.</translation>
+        <source>Not verified: for trials only.</source>
+        <translation>Nicht überprüft: nur für Versuche.</translation>
     </message>
     <message>
-        <source>How the sensor is mounted is not said: it is taken as not turned.</source>
-        <translation>Wie der Sensor sitzt, ist nicht gesagt: Er gilt als nicht gedreht.</translation>
+        <source>The bundle does not state the sensor&apos;s mounting; no rotation is assumed.</source>
+        <translation>Das Paket gibt die Montage des Sensors nicht an; es wird keine Drehung angenommen.</translation>
     </message>
     <message>
-        <source>It has no gains: the usual ones for its probe are taken.</source>
-        <translation>Es hat keine Verstärkungen: Die üblichen für seine Sonde werden genommen.</translation>
+        <source>The bundle has no gains; the defaults for its probe are used.</source>
+        <translation>Das Paket hat keine Verstärkungen; die Standardwerte für seine Sonde werden verwendet.</translation>
     </message>
     <message>
-        <source>It presses with {force:g} N.</source>
-        <translation>Es drückt mit {force:g} N.</translation>
+        <source>Contact force {force:g} N.</source>
+        <translation>Kontaktkraft {force:g} N.</translation>
     </message>
     <message>
-        <source>Open a bundle</source>
+        <source>Open bundle</source>
         <translation>Ein Paket öffnen</translation>
     </message>
     <message>
@@ -2563,34 +2739,22 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Pakete (*.zip contactbench.json);;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>The virtual robot is being made…</source>
-        <translation>Der virtuelle Roboter wird gemacht…</translation>
-    </message>
-    <message>
-        <source>This computer is too slow for real time: what is seen goes {pace:.1f} times as fast.</source>
-        <translation>Dieser Rechner ist zu langsam für Echtzeit: Was zu sehen ist, geht {pace:.1f}-mal so schnell.</translation>
-    </message>
-    <message>
-        <source>It tracked for {seconds:.0f} s with {low:.1f} to {high:.1f} N, on average {within:.1f}° off along the face and {out:.1f}° across it.</source>
-        <translation>Sie folgte {seconds:.0f} s lang mit {low:.1f} bis {high:.1f} N, im Mittel {within:.1f}° daneben längs der Fläche und {out:.1f}° quer dazu.</translation>
+        <source>Tracked for {seconds:.0f} s at {low:.1f} to {high:.1f} N; mean angle error {within:.1f}° along the face and {out:.1f}° across it.</source>
+        <translation>{seconds:.0f} s lang gefolgt mit {low:.1f} bis {high:.1f} N; mittlerer Winkelfehler {within:.1f}° längs der Fläche und {out:.1f}° quer dazu.</translation>
     </message>
 </context>
 <context>
-    <name>NextBar</name>
+    <name>NewestMessage</name>
     <message>
-        <source>How far the work is</source>
-        <translation>Wie weit die Arbeit ist</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
+        <source>Newest message</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
     <name>Pages</name>
     <message>
-        <source>Looking at the session</source>
-        <translation>Die Sitzung wird angesehen</translation>
+        <source>Checking session</source>
+        <translation>Die Sitzung wird geprüft</translation>
     </message>
 </context>
 <context>
@@ -2604,16 +2768,16 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Kraft</translation>
     </message>
     <message>
-        <source>wanted</source>
-        <translation>gewollt</translation>
+        <source>target</source>
+        <translation>Sollwert</translation>
     </message>
     <message>
         <source>angle along the face</source>
         <translation>Winkel längs der Fläche</translation>
     </message>
     <message>
-        <source>across it</source>
-        <translation>quer dazu</translation>
+        <source>across the face</source>
+        <translation>quer zur Fläche</translation>
     </message>
     <message>
         <source>Angle to the phantom</source>
@@ -2623,12 +2787,12 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>PlaceSection</name>
     <message>
-        <source>3  Place on the sensor</source>
-        <translation>3  Lage auf dem Sensor</translation>
+        <source>3  Alignment with sensor</source>
+        <translation>3  Ausrichtung am Sensor</translation>
     </message>
     <message>
-        <source>Placing the mesh</source>
-        <translation>Das Netz wird platziert</translation>
+        <source>Aligning mesh</source>
+        <translation>Das Netz wird ausgerichtet</translation>
     </message>
 </context>
 <context>
@@ -2638,20 +2802,20 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Bekannter Punkt</translation>
     </message>
     <message>
-        <source>Press one marker on the side of the probe with a finger. It shows a wrong sign or unit of the torques, and a probe that is turned on the sensor.</source>
-        <translation>Mit dem Finger auf einen Marker an der Seite der Sonde drücken. Das zeigt ein falsches Vorzeichen oder eine falsche Einheit der Drehmomente und eine Sonde, die auf dem Sensor verdreht ist.</translation>
+        <source>Press one marker on the side of the probe with a finger. This reveals wrong torque signs or units, and a probe rotated on the sensor.</source>
+        <translation>Drücken Sie mit dem Finger auf einen Marker an der Seite der Sonde. So zeigen sich falsche Vorzeichen oder Einheiten der Drehmomente und eine auf dem Sensor verdrehte Sonde.</translation>
     </message>
     <message>
         <source>Marker</source>
         <translation>Marker</translation>
     </message>
     <message>
-        <source>Record a press</source>
+        <source>Record press</source>
         <translation>Druck aufnehmen</translation>
     </message>
     <message>
-        <source>Place a marker first, on the tab Markers.</source>
-        <translation>Zuerst unter Marker einen Marker setzen.</translation>
+        <source>Place a marker on the Markers tab first.</source>
+        <translation>Setzen Sie zuerst unter Marker einen Marker.</translation>
     </message>
 </context>
 <context>
@@ -2661,16 +2825,16 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>auf dem Netz</translation>
     </message>
     <message>
-        <source>Matching points: on the mesh, and in the sensor frame, in mm</source>
+        <source>Matching points: on the mesh and in the sensor frame, mm</source>
         <translation>Punktpaare: auf dem Netz und im Sensorsystem, in mm</translation>
     </message>
     <message>
-        <source>Type where each place lies in the sensor frame, in mm</source>
-        <translation>Geben Sie ein, wo jede Stelle im Sensorsystem liegt, in mm</translation>
+        <source>Enter each point&apos;s position in the sensor frame, mm</source>
+        <translation>Geben Sie die Lage jedes Punkts im Sensorsystem ein, mm</translation>
     </message>
     <message>
-        <source>Remove this place</source>
-        <translation>Diese Stelle entfernen</translation>
+        <source>Remove this point</source>
+        <translation>Diesen Punkt entfernen</translation>
     </message>
 </context>
 <context>
@@ -2688,8 +2852,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Abw. (σ)</translation>
     </message>
     <message>
-        <source>state</source>
-        <translation>Zustand</translation>
+        <source>Deviation of the reading from the fit to all poses, in standard deviations. About 1 is normal; check poses above 3.</source>
+        <translation>Restabweichung: Abstand des Messwerts von der Anpassung an alle Posen, in Standardabweichungen. Etwa 1 ist normal; über 3 lohnt ein Blick.</translation>
     </message>
     <message>
         <source>How far the reading is from what all poses together predict, in standard deviations: 1 is usual, above 3 is worth a look.</source>
@@ -2708,7 +2872,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Aus der unterbrochenen Aufzeichnung.</translation>
     </message>
     <message>
-        <source>taken</source>
+        <source>captured</source>
         <translation>aufgenommen</translation>
     </message>
     <message>
@@ -2727,11 +2891,11 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Orientierung</translation>
     </message>
     <message>
-        <source>Address of the robot</source>
+        <source>Robot address</source>
         <translation>Adresse des Roboters</translation>
     </message>
     <message>
-        <source>File of poses</source>
+        <source>Pose file</source>
         <translation>Datei mit Posen</translation>
     </message>
     <message>
@@ -2739,46 +2903,46 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Posen (*.csv);;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>Turn of the flange about {axis}</source>
+        <source>Flange rotation about {axis}</source>
         <translation>Drehung des Flanschs um {axis}</translation>
     </message>
     <message>
-        <source>From the sensor&apos;s own source</source>
-        <translation>Aus der Quelle des Sensors selbst</translation>
+        <source>From the sensor source</source>
+        <translation>Aus der Sensorquelle</translation>
     </message>
     <message>
         <source>Robot</source>
         <translation>Roboter</translation>
     </message>
     <message>
-        <source>Does not move</source>
-        <translation>Bewegt sich nicht</translation>
+        <source>Stationary</source>
+        <translation>Feststehend</translation>
     </message>
     <message>
-        <source>Nothing tells it</source>
-        <translation>Nichts gibt sie an</translation>
+        <source>None</source>
+        <translation>Keine</translation>
     </message>
     <message>
-        <source>A virtual bench and most recordings also give the orientation.</source>
+        <source>A virtual bench and most recordings include the orientation.</source>
         <translation>Ein virtueller Messplatz und die meisten Aufzeichnungen liefern auch die Orientierung.</translation>
     </message>
     <message>
-        <source>Without it gravity cannot be calibrated: only raw readings can be seen.</source>
-        <translation>Ohne sie kann die Schwerkraft nicht kalibriert werden: Nur rohe Messwerte sind zu sehen.</translation>
+        <source>Gravity cannot be calibrated without an orientation. Only raw readings are shown.</source>
+        <translation>Ohne Orientierung kann die Schwerkraft nicht kalibriert werden. Nur rohe Messwerte werden gezeigt.</translation>
     </message>
     <message>
-        <source>This sensor does not tell its orientation: choose the robot that moves it.</source>
-        <translation>Dieser Sensor gibt seine Orientierung nicht an: Wählen Sie den Roboter, der ihn bewegt.</translation>
+        <source>This sensor does not report its orientation. Choose the robot that moves it.</source>
+        <translation>Dieser Sensor gibt seine Orientierung nicht an. Wählen Sie den Roboter, der ihn bewegt.</translation>
     </message>
     <message>
-        <source>Choose a file of poses.</source>
+        <source>Choose a pose file.</source>
         <translation>Wählen Sie eine Datei mit Posen.</translation>
     </message>
 </context>
 <context>
     <name>ProbePage</name>
     <message>
-        <source>Mesh of the probe</source>
+        <source>Probe mesh</source>
         <translation>Netz der Sonde</translation>
     </message>
     <message>
@@ -2790,31 +2954,31 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Sonde</translation>
     </message>
     <message>
-        <source>Keeping the probe</source>
+        <source>Saving probe</source>
         <translation>Die Sonde wird behalten</translation>
     </message>
     <message>
-        <source>In use. Go on: Regions</source>
-        <translation>In Gebrauch. Weiter: Regionen</translation>
+        <source>Next: Regions</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Choose a mesh...</source>
-        <translation>Netz wählen...</translation>
+        <source>Choose mesh…</source>
+        <translation>Netz wählen…</translation>
     </message>
     <message>
-        <source>Say how long the probe is (1)</source>
+        <source>Enter probe length (1)</source>
         <translation>Länge der Sonde angeben (1)</translation>
     </message>
     <message>
-        <source>Make the outer surface</source>
+        <source>Create outer surface</source>
         <translation>Außenfläche machen</translation>
     </message>
     <message>
-        <source>Say where it lies (3)</source>
-        <translation>Angeben, wo sie liegt (3)</translation>
+        <source>Align with sensor (3)</source>
+        <translation>Am Sensor ausrichten (3)</translation>
     </message>
     <message>
-        <source>Prepare the probe</source>
+        <source>Prepare probe</source>
         <translation>Sonde vorbereiten</translation>
     </message>
     <message>
@@ -2826,7 +2990,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>{} von der Außenfläche.</translation>
     </message>
     <message>
-        <source>The session&apos;s probe.</source>
+        <source>Probe of this session.</source>
         <translation>Die Sonde der Sitzung.</translation>
     </message>
 </context>
@@ -2837,74 +3001,94 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Abweichung, mm</translation>
     </message>
     <message>
+        <source>keep the probe&apos;s draft</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Reading {}</source>
         <translation>{} wird gelesen</translation>
     </message>
     <message>
-        <source>Making the housing of the virtual bench</source>
-        <translation>Das Gehäuse des virtuellen Messplatzes wird gemacht</translation>
+        <source>Creating the virtual bench housing</source>
+        <translation>Das Gehäuse des virtuellen Messplatzes wird erstellt</translation>
     </message>
     <message>
-        <source>Looking at the mesh in its unit</source>
-        <translation>Das Netz wird in seiner Einheit angesehen</translation>
+        <source>take the mesh {}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Making the outer surface</source>
-        <translation>Die Außenfläche wird gemacht</translation>
+        <source>Checking the mesh in its unit</source>
+        <translation>Das Netz wird in seiner Einheit geprüft</translation>
     </message>
     <message>
-        <source>Placing the mesh</source>
-        <translation>Das Netz wird platziert</translation>
+        <source>say the mesh&apos;s unit</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Comparing numbers of facets</source>
+        <source>choose how the outer surface is made</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Creating outer surface</source>
+        <translation>Die Außenfläche wird erstellt</translation>
+    </message>
+    <message>
+        <source>place the mesh</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Aligning mesh</source>
+        <translation>Das Netz wird ausgerichtet</translation>
+    </message>
+    <message>
+        <source>Comparing facet counts</source>
         <translation>Anzahlen von Facetten werden verglichen</translation>
     </message>
     <message>
-        <source>Preparing the probe</source>
+        <source>choose the number of facets</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Preparing probe</source>
         <translation>Die Sonde wird vorbereitet</translation>
     </message>
     <message>
-        <source>use the probe</source>
+        <source>use probe</source>
         <translation>die Sonde nutzen</translation>
     </message>
     <message>
-        <source>The probe of {:,} facets is in use. Next: regions, or verify.</source>
-        <translation>Die Sonde mit {:,} Facetten ist in Gebrauch. Als Nächstes: Regionen oder Prüfen.</translation>
+        <source>The probe with {:,} facets is in use. Next: regions or verification.</source>
+        <translation>Die Sonde mit {:,} Facetten ist in Gebrauch. Als Nächstes: Regionen oder Überprüfung.</translation>
     </message>
     <message>
-        <source>Opening the probe</source>
+        <source>Opening probe</source>
         <translation>Die Sonde wird geöffnet</translation>
     </message>
 </context>
 <context>
     <name>ProbeWorker</name>
     <message>
-        <source>Stopping...</source>
-        <translation>Wird angehalten...</translation>
-    </message>
-    <message>
         <source>Stopped. Nothing was changed.</source>
         <translation>Angehalten. Nichts wurde geändert.</translation>
     </message>
     <message>
-        <source>Something unexpected went wrong ({}). What there was is as it was; try again.</source>
-        <translation>Unerwartet ist etwas schiefgegangen ({}). Alles ist, wie es war; versuchen Sie es noch einmal.</translation>
+        <source>Unexpected error ({}). Nothing was changed. Try again.</source>
+        <translation>Unerwarteter Fehler ({}). Nichts wurde geändert. Versuchen Sie es noch einmal.</translation>
     </message>
 </context>
 <context>
     <name>ProgressStrip</name>
     <message>
-        <source>How far the work is</source>
-        <translation>Wie weit die Arbeit ist</translation>
+        <source>Progress</source>
+        <translation>Fortschritt</translation>
     </message>
     <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>Stop this work; nothing that is done is lost</source>
-        <translation>Diese Arbeit anhalten; nichts Fertiges geht verloren</translation>
+        <source>Stop this task; finished results are kept</source>
+        <translation>Diese Arbeit anhalten; fertige Ergebnisse bleiben erhalten</translation>
     </message>
     <message>
         <source> (and {} more)</source>
@@ -2922,15 +3106,15 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Schreibgeschützt</translation>
     </message>
     <message>
-        <source>Read-only: this session is damaged. To go on working, close it, open it again and salvage a copy.</source>
+        <source>Read-only: this session is damaged. To continue working, close it, open it again and salvage a copy.</source>
         <translation>Schreibgeschützt: Diese Sitzung ist beschädigt. Um weiterzuarbeiten, schließen Sie sie, öffnen Sie sie erneut und retten Sie eine Kopie.</translation>
     </message>
     <message>
-        <source>Read-only: another program is writing this session. It is shown as it was when it was opened.</source>
-        <translation>Schreibgeschützt: Ein anderes Programm schreibt in diese Sitzung. Sie wird so gezeigt, wie sie beim Öffnen war.</translation>
+        <source>Read-only: another program is using this session. It is shown as it was when opened.</source>
+        <translation>Schreibgeschützt: Ein anderes Programm benutzt diese Sitzung. Sie wird so gezeigt, wie sie beim Öffnen war.</translation>
     </message>
     <message>
-        <source>Read-only: the folder of this session cannot be written. To go on working, make it writable or copy it.</source>
+        <source>Read-only: the session folder is not writable. To continue working, make it writable or copy it.</source>
         <translation>Schreibgeschützt: Der Ordner dieser Sitzung ist nicht beschreibbar. Um weiterzuarbeiten, machen Sie ihn beschreibbar oder kopieren Sie ihn.</translation>
     </message>
 </context>
@@ -2941,52 +3125,52 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Aufzeichnungen lesen</translation>
     </message>
     <message>
-        <source>Mount of the sensor, degrees</source>
+        <source>Sensor mount, degrees</source>
         <translation>Montage des Sensors, Grad</translation>
     </message>
     <message>
-        <source>Off: as the session says, or not turned. On: about the flange&apos;s fixed axes x, y, z.</source>
-        <translation>Aus: wie die Sitzung sagt, sonst nicht gedreht. Ein: um die festen Achsen x, y, z des Flansches.</translation>
+        <source>Off: mounting from the session, or no rotation. On: rotation about the flange&apos;s fixed axes x, y, z.</source>
+        <translation>Aus: Montage aus der Sitzung, sonst keine Drehung. Ein: Drehung um die festen Achsen x, y, z des Flansches.</translation>
     </message>
     <message>
         <source>Mount about {axis}, degrees</source>
         <translation>Montage um {axis}, Grad</translation>
     </message>
     <message>
-        <source>How much later a wrench is heard than its pose, ms</source>
-        <translation>Um wie viel später ein Messwert ankommt als seine Pose, ms</translation>
+        <source>Delay of the wrench relative to its pose, ms</source>
+        <translation>Verzögerung des Messwerts gegenüber seiner Pose, ms</translation>
     </message>
     <message>
-        <source>A touch is above this force, N</source>
-        <translation>Eine Berührung liegt über dieser Kraft, N</translation>
+        <source>Force above which a touch is counted, N</source>
+        <translation>Kraft, ab der eine Berührung zählt, N</translation>
     </message>
     <message>
         <source>Delay</source>
         <translation>Verzug</translation>
     </message>
     <message>
-        <source>Touched above</source>
-        <translation>Berührt ab</translation>
+        <source>Touch threshold</source>
+        <translation>Berührschwelle</translation>
     </message>
 </context>
 <context>
     <name>RegionAutosave</name>
     <message>
-        <source>Keeping the regions</source>
+        <source>Saving regions</source>
         <translation>Die Regionen werden behalten</translation>
     </message>
 </context>
 <context>
     <name>RegionBrush</name>
     <message>
-        <source>No region is chosen: add one, or choose one in the list, then paint.</source>
-        <translation>Keine Region ist gewählt: Fügen Sie eine hinzu, oder wählen Sie eine in der Liste, dann malen Sie.</translation>
+        <source>No region selected. Add one or select one in the list, then paint.</source>
+        <translation>Keine Region gewählt. Fügen Sie eine hinzu oder wählen Sie eine in der Liste, dann malen Sie.</translation>
     </message>
 </context>
 <context>
     <name>RegionListWidget</name>
     <message>
-        <source>Regions, the first priority first</source>
+        <source>Regions, highest priority first</source>
         <translation>Regionen, die wichtigste zuerst</translation>
     </message>
     <message>
@@ -2994,15 +3178,15 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Hinzufügen</translation>
     </message>
     <message>
-        <source>Add a region with the last priority</source>
-        <translation>Eine Region mit der letzten Priorität hinzufügen</translation>
+        <source>Add a region with the lowest priority</source>
+        <translation>Eine Region mit der niedrigsten Priorität hinzufügen</translation>
     </message>
     <message>
         <source>Colour</source>
         <translation>Farbe</translation>
     </message>
     <message>
-        <source>Choose the colour</source>
+        <source>Choose colour</source>
         <translation>Farbe wählen</translation>
     </message>
     <message>
@@ -3014,15 +3198,15 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Priorität senken (Alt+Herunter)</translation>
     </message>
     <message>
-        <source>Remove the region; its facets belong to none then</source>
+        <source>Remove the region; its facets become unassigned</source>
         <translation>Die Region entfernen; ihre Facetten gehören dann zu keiner</translation>
     </message>
     <message>
-        <source>Raise the region&apos;s priority</source>
+        <source>Raise region priority</source>
         <translation>Priorität der Region erhöhen</translation>
     </message>
     <message>
-        <source>Lower the region&apos;s priority</source>
+        <source>Lower region priority</source>
         <translation>Priorität der Region senken</translation>
     </message>
     <message>
@@ -3030,8 +3214,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Nicht berührbar</translation>
     </message>
     <message>
-        <source>Nothing can touch these facets: a clamp or a drape hides them. Contacts there count as 1000 times less likely.</source>
-        <translation>Nichts kann diese Facetten berühren: Eine Klemme oder ein Tuch verdeckt sie. Kontakte dort gelten als 1000-mal weniger wahrscheinlich.</translation>
+        <source>These facets cannot be touched, for example under a clamp or drape. Contacts there are treated as 1000 times less likely.</source>
+        <translation>Diese Facetten sind nicht berührbar, etwa unter einer Klemme oder einem Tuch. Kontakte dort gelten als 1000-mal weniger wahrscheinlich.</translation>
     </message>
 </context>
 <context>
@@ -3069,8 +3253,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Priorität {0}, Farbe {1}. Klicken Sie, um eine andere Farbe zu wählen.</translation>
     </message>
     <message>
-        <source>Double-click to rename; drag, or Alt+Up and Alt+Down, to change the priority.</source>
-        <translation>Doppelklick zum Umbenennen; Ziehen, oder Alt+Hoch und Alt+Herunter, ändert die Priorität.</translation>
+        <source>Double-click to rename. Drag or press Alt+Up or Alt+Down to change the priority.</source>
+        <translation>Doppelklick zum Umbenennen. Ziehen oder Alt+Hoch und Alt+Herunter ändert die Priorität.</translation>
     </message>
     <message>
         <source>Area: {0:.1f} mm²; facets: {1:,}.</source>
@@ -3088,44 +3272,44 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Größerer Pinsel</translation>
     </message>
     <message>
-        <source>Take the stroke back, or look only</source>
-        <translation>Strich zurücknehmen, oder nur ansehen</translation>
+        <source>Cancel the stroke, or navigate</source>
+        <translation>Strich abbrechen, oder navigieren</translation>
     </message>
     <message>
-        <source>There is no probe yet. Regions are painted on it: prepare it first.</source>
-        <translation>Es gibt noch keine Sonde. Regionen werden auf ihr gemalt: Bereiten Sie sie zuerst vor.</translation>
+        <source>No probe yet. Prepare it first, then paint regions on it.</source>
+        <translation>Noch keine Sonde. Bereiten Sie sie zuerst vor, dann malen Sie Regionen darauf.</translation>
     </message>
     <message>
-        <source>It was cancelled.</source>
-        <translation>Es wurde abgebrochen.</translation>
+        <source>Cancelled.</source>
+        <translation>Abgebrochen.</translation>
     </message>
     <message>
-        <source>Making the surface to paint on</source>
-        <translation>Die Fläche zum Bemalen wird gemacht</translation>
+        <source>Preparing the surface for painting</source>
+        <translation>Die Fläche zum Bemalen wird vorbereitet</translation>
     </message>
     <message>
         <source>Facets: {0:,}; area: {1:.2f} cm²</source>
         <translation>Facetten: {0:,}; Fläche: {1:.2f} cm²</translation>
     </message>
     <message>
-        <source>Finding the facets</source>
+        <source>Finding facets</source>
         <translation>Die Facetten werden gesucht</translation>
     </message>
     <message>
-        <source>Nothing changed: the region is like that already.</source>
-        <translation>Nichts geändert: Die Region ist schon so.</translation>
+        <source>No change: the region already has this shape.</source>
+        <translation>Keine Änderung: Die Region hat schon diese Form.</translation>
     </message>
     <message>
-        <source>give the probe its regions</source>
-        <translation>der Sonde ihre Regionen geben</translation>
+        <source>apply regions to probe</source>
+        <translation>Regionen auf die Sonde anwenden</translation>
     </message>
     <message>
-        <source>The probe has its regions now.</source>
-        <translation>Die Sonde hat jetzt ihre Regionen.</translation>
+        <source>Regions applied to the probe.</source>
+        <translation>Die Regionen sind auf die Sonde angewendet.</translation>
     </message>
     <message>
-        <source>Giving the probe its regions</source>
-        <translation>Die Sonde bekommt ihre Regionen</translation>
+        <source>Applying regions</source>
+        <translation>Regionen werden angewendet</translation>
     </message>
     <message>
         <source>Import regions</source>
@@ -3144,8 +3328,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Regionen werden gelesen</translation>
     </message>
     <message>
-        <source>The regions are written to {0}.</source>
-        <translation>Die Regionen sind in {0} geschrieben.</translation>
+        <source>Regions saved to {0}.</source>
+        <translation>Regionen in {0} gespeichert.</translation>
     </message>
     <message>
         <source>Writing regions</source>
@@ -3159,92 +3343,84 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Regionen</translation>
     </message>
     <message>
-        <source>Mark the parts that are meant to be touched, the most important first: where a reading fits several places, the contact is looked for there. Regions are optional.</source>
-        <translation>Markieren Sie die Teile, die berührt werden sollen, die wichtigsten zuerst: Passt ein Messwert zu mehreren Stellen, wird der Kontakt dort gesucht. Regionen sind freiwillig.</translation>
+        <source>Mark the areas meant to be touched, most important first. If a reading fits several places, these areas are preferred. Regions are optional.</source>
+        <translation>Markieren Sie die Flächen, die berührt werden sollen, die wichtigsten zuerst. Passt ein Messwert zu mehreren Stellen, werden diese Flächen bevorzugt. Regionen sind freiwillig.</translation>
     </message>
     <message>
-        <source>How far it is</source>
-        <translation>Wie weit es ist</translation>
+        <source>Open Probe</source>
+        <translation>Sonde öffnen</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation>Abbrechen</translation>
+        <source>Apply regions</source>
+        <translation>Regionen anwenden</translation>
     </message>
     <message>
-        <source>Go to Probe</source>
-        <translation>Zur Sonde</translation>
+        <source>Recompute the probe with more facets in the regions</source>
+        <translation>Die Sonde mit mehr Facetten in den Regionen neu berechnen</translation>
     </message>
     <message>
-        <source>Give them to the probe</source>
-        <translation>Der Sonde geben</translation>
+        <source>Import…</source>
+        <translation>Importieren…</translation>
     </message>
     <message>
-        <source>Computes the probe again, with more facets in the regions</source>
-        <translation>Berechnet die Sonde neu, mit mehr Facetten in den Regionen</translation>
-    </message>
-    <message>
-        <source>Import...</source>
-        <translation>Importieren...</translation>
-    </message>
-    <message>
-        <source>Replace all regions by those of a JSON or CSV file</source>
+        <source>Replace all regions with those in a JSON or CSV file</source>
         <translation>Alle Regionen durch die einer JSON- oder CSV-Datei ersetzen</translation>
     </message>
     <message>
-        <source>Export...</source>
-        <translation>Exportieren...</translation>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
     </message>
     <message>
-        <source>Write the regions to a JSON or CSV file</source>
-        <translation>Die Regionen in eine JSON- oder CSV-Datei schreiben</translation>
+        <source>Save the regions to a JSON or CSV file</source>
+        <translation>Die Regionen in einer JSON- oder CSV-Datei speichern</translation>
     </message>
     <message>
-        <source>Go on to Verify</source>
+        <source>Next: Verify</source>
         <translation>Weiter zu Prüfen</translation>
     </message>
     <message>
-        <source>Go on without regions</source>
-        <translation>Weiter ohne Regionen</translation>
+        <source>Next: Verify, without regions</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>The surface to paint on is being made.</source>
-        <translation>Die Fläche zum Bemalen wird gemacht.</translation>
+        <source>Preparing the surface for painting…</source>
+        <translation>Die Fläche zum Bemalen wird vorbereitet…</translation>
     </message>
     <message>
-        <source>Computing.</source>
+        <source>Computing…</source>
         <translation>Wird berechnet.</translation>
     </message>
     <message>
-        <source>The regions are not kept in the session: {0} The next change tries again.</source>
-        <translation>Die Regionen sind nicht in der Sitzung behalten: {0} Die nächste Änderung versucht es wieder.</translation>
+        <source>The regions were not saved: {0} The next change tries again.</source>
+        <translation>Die Regionen wurden nicht gespeichert: {0} Die nächste Änderung versucht es wieder.</translation>
     </message>
     <message>
-        <source>There are no regions yet: add one, then paint it on the probe.</source>
-        <translation>Es gibt noch keine Regionen: Fügen Sie eine hinzu und malen Sie sie auf die Sonde.</translation>
+        <source>No regions yet. Add one, then paint it on the probe.</source>
+        <translation>Noch keine Regionen. Fügen Sie eine hinzu und malen Sie sie auf die Sonde.</translation>
     </message>
     <message>
-        <source>Choose a region in the list, then paint it on the probe.</source>
+        <source>Select a region in the list, then paint it on the probe.</source>
         <translation>Wählen Sie eine Region in der Liste und malen Sie sie auf die Sonde.</translation>
     </message>
     <message>
-        <source>Nothing is painted yet: take the brush and drag over the probe.</source>
-        <translation>Noch ist nichts gemalt: Nehmen Sie den Pinsel und ziehen Sie über die Sonde.</translation>
+        <source>Nothing painted yet. Choose the brush and drag over the probe.</source>
+        <translation>Noch nichts gemalt. Wählen Sie den Pinsel und ziehen Sie über die Sonde.</translation>
     </message>
     <message>
-        <source>Painted; it is kept in the session in a moment.</source>
-        <translation>Gemalt; gleich ist es in der Sitzung behalten.</translation>
+        <source>Saving…</source>
+        <translation>Wird gespeichert…</translation>
     </message>
     <message>
         <source>The probe has these regions.</source>
         <translation>Die Sonde hat diese Regionen.</translation>
     </message>
     <message>
-        <source>Kept in the session. The probe takes them along when it is made.</source>
-        <translation>In der Sitzung behalten. Die Sonde nimmt sie mit, wenn sie gemacht wird.</translation>
+        <source>Saved. The regions are applied when the probe is prepared.</source>
+        <translation>Gespeichert. Die Regionen werden beim Vorbereiten der Sonde angewendet.</translation>
     </message>
     <message>
-        <source>Kept in the session, but the probe does not have them yet.</source>
-        <translation>In der Sitzung behalten, aber die Sonde hat sie noch nicht.</translation>
+        <source>Saved, but not yet applied to the probe.</source>
+        <translation>Gespeichert, aber noch nicht auf die Sonde angewendet.</translation>
     </message>
 </context>
 <context>
@@ -3258,31 +3434,27 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Auslassen</translation>
     </message>
     <message>
-        <source>Take back</source>
-        <translation>Zurücknehmen</translation>
+        <source>Restore</source>
+        <translation>Wieder einbeziehen</translation>
     </message>
 </context>
 <context>
     <name>ResultPanel</name>
     <message>
-        <source>Open the report</source>
+        <source>Open report</source>
         <translation>Bericht öffnen</translation>
     </message>
     <message>
-        <source>Verify again</source>
-        <translation>Erneut prüfen</translation>
-    </message>
-    <message>
-        <source>Go on: Export</source>
-        <translation>Weiter: Export</translation>
-    </message>
-    <message>
         <source>Not verified yet</source>
-        <translation>Noch nicht geprüft</translation>
+        <translation>Noch nicht überprüft</translation>
     </message>
     <message>
-        <source>Stale: verify again</source>
-        <translation>Veraltet: erneut prüfen</translation>
+        <source>Does not count</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Outdated: verify again</source>
+        <translation>Veraltet: erneut überprüfen</translation>
     </message>
     <message>
         <source>Passed</source>
@@ -3293,7 +3465,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Nicht bestanden</translation>
     </message>
     <message>
-        <source>no touch counted</source>
+        <source>no accepted touches</source>
         <translation>keine Berührung zählte</translation>
     </message>
     <message>
@@ -3301,7 +3473,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>{mean} mm</translation>
     </message>
     <message>
-        <source>mean error of one touch</source>
+        <source>error of a single touch</source>
         <translation>Fehler einer einzigen Berührung</translation>
     </message>
     <message>
@@ -3309,24 +3481,32 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>mittlerer Fehler von {count} Berührungen</translation>
     </message>
     <message>
-        <source>mean error of {count} touches; surely between {low} and {high} mm (95 %)</source>
-        <translation>mittlerer Fehler von {count} Berührungen; sicher zwischen {low} und {high} mm (95 %)</translation>
+        <source>mean error of {count} touches; 95 % CI {low}–{high} mm</source>
+        <translation>mittlerer Fehler von {count} Berührungen; 95-%-Konfidenzintervall {low}–{high} mm</translation>
     </message>
     <message>
-        <source>Largest error: {size} mm; up to {limit} mm passes</source>
-        <translation>Größter Fehler: {size} mm; bis {limit} mm ist bestanden</translation>
+        <source>Largest error: {size} mm (limit {limit} mm)</source>
+        <translation>Größter Fehler: {size} mm (Grenze {limit} mm)</translation>
     </message>
     <message>
-        <source>Mean error: up to {limit} mm passes</source>
-        <translation>Mittlerer Fehler: bis {limit} mm ist bestanden</translation>
+        <source>Limit of the mean error: {limit} mm</source>
+        <translation>Grenze des mittleren Fehlers: {limit} mm</translation>
     </message>
     <message>
-        <source>95 % of touches: within {size} mm</source>
-        <translation>95 % der Berührungen: innerhalb von {size} mm</translation>
+        <source>95 % of touches within {size} mm</source>
+        <translation>95 % der Berührungen innerhalb von {size} mm</translation>
     </message>
     <message>
-        <source>{ratio} times what noise and calibration explain</source>
-        <translation>das {ratio}-Fache dessen, was Rauschen und Kalibrierung erklären</translation>
+        <source>Show the worst marker</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Turn the 3D view to the marker with the largest error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{ratio} times the expected error (noise and calibration)</source>
+        <translation>das {ratio}-Fache des erwarteten Fehlers (Rauschen und Kalibrierung)</translation>
     </message>
     <message>
         <source>Not counted: {listed}.</source>
@@ -3336,8 +3516,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>ScaleBar</name>
     <message>
-        <source>Scale: the bar is {length} long</source>
-        <translation>Maßstab: Der Balken ist {length} lang</translation>
+        <source>Scale bar: {length}</source>
+        <translation>Maßstab: {length}</translation>
     </message>
     <message>
         <source>{length:g} mm</source>
@@ -3354,6 +3534,34 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <source>down</source>
         <translation>unten</translation>
     </message>
+    <message>
+        <source>error, mm</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>made up: hatched</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>made up: a narrow seam</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>untouchable: crossed</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>error, {times} times</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>95 % of noise, {times} times</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>possible alternative</source>
+        <translation type="unfinished">mögliche Alternative</translation>
+    </message>
 </context>
 <context>
     <name>SensorSource</name>
@@ -3362,8 +3570,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Kraft-Momenten-Sensor</translation>
     </message>
     <message>
-        <source>It is a sensor of {maker}</source>
-        <translation>Es ist ein Sensor von {maker}</translation>
+        <source>Sensor made by {maker}</source>
+        <translation>Sensor von {maker}</translation>
     </message>
     <message>
         <source>with the {name} probe</source>
@@ -3378,20 +3586,20 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Aufzeichnungen (*.mcap);;Alle Dateien (*)</translation>
     </message>
     <message>
-        <source>Maker of the sensor</source>
+        <source>Sensor manufacturer</source>
         <translation>Hersteller des Sensors</translation>
     </message>
     <message>
-        <source>Probe of the virtual bench</source>
+        <source>Virtual bench probe</source>
         <translation>Sonde des virtuellen Messplatzes</translation>
     </message>
     <message>
-        <source>Address of the sensor</source>
+        <source>Sensor address</source>
         <translation>Adresse des Sensors</translation>
     </message>
     <message>
-        <source>sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, ://, and where it is</source>
-        <translation>sri+serial, sri+tcp, bota+serial, robotiq+serial oder rdt+udp, ://, und wo er ist</translation>
+        <source>sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and the device address</source>
+        <translation>sri+serial, sri+tcp, bota+serial, robotiq+serial oder rdt+udp, dann :// und die Geräteadresse</translation>
     </message>
     <message>
         <source> (not plugged in)</source>
@@ -3406,8 +3614,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Aufzeichnung wiedergeben</translation>
     </message>
     <message>
-        <source>Address typed in</source>
-        <translation>Eingegebene Adresse</translation>
+        <source>Enter address</source>
+        <translation>Adresse eingeben</translation>
     </message>
     <message>
         <source>{guess} sensor at {path}</source>
@@ -3417,18 +3625,18 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>SessionProbe</name>
     <message>
-        <source>Reading the probe</source>
-        <translation>Die Sonde wird gelesen</translation>
+        <source>Loading probe</source>
+        <translation>Die Sonde wird geladen</translation>
     </message>
 </context>
 <context>
     <name>Sessions</name>
     <message>
-        <source>Looking for recent sessions</source>
+        <source>Finding recent sessions</source>
         <translation>Zuletzt benutzte Sitzungen werden gesucht</translation>
     </message>
     <message>
-        <source>Preparing the virtual bench</source>
+        <source>Preparing virtual bench</source>
         <translation>Der virtuelle Messplatz wird vorbereitet</translation>
     </message>
     <message>
@@ -3436,36 +3644,40 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>{} wird geöffnet</translation>
     </message>
     <message>
-        <source>Making {}</source>
+        <source>Opening {} up to the damage</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Creating {}</source>
         <translation>{} wird angelegt</translation>
     </message>
     <message>
-        <source>Make a session in a new or empty folder</source>
+        <source>Create a session in a new or empty folder</source>
         <translation>Sitzung in einem neuen oder leeren Ordner anlegen</translation>
     </message>
     <message>
-        <source>Make session</source>
+        <source>Create session</source>
         <translation>Sitzung anlegen</translation>
     </message>
     <message>
-        <source>Open the folder of a session</source>
-        <translation>Ordner einer Sitzung öffnen</translation>
+        <source>Open session folder</source>
+        <translation>Sitzungsordner öffnen</translation>
     </message>
     <message>
-        <source>The last work on {} ended abruptly, while a recording was being made. Everything up to half a second before the end is there. Take the recording into the session?</source>
-        <translation>Die letzte Arbeit an {} endete plötzlich, während eine Aufzeichnung lief. Alles bis eine halbe Sekunde vor dem Ende ist da. Die Aufzeichnung in die Sitzung übernehmen?</translation>
+        <source>The last run on {} ended unexpectedly during a recording. Everything up to half a second before that is intact. Add the recording to the session?</source>
+        <translation>Die letzte Arbeit an {} endete unerwartet während einer Aufzeichnung. Alles bis eine halbe Sekunde davor ist erhalten. Die Aufzeichnung in die Sitzung übernehmen?</translation>
     </message>
     <message>
-        <source>The last work on {} ended abruptly, while {} recordings were being made. Everything up to half a second before the end is there. Take the recordings into the session?</source>
-        <translation>Die letzte Arbeit an {} endete plötzlich, während {} Aufzeichnungen liefen. Alles bis eine halbe Sekunde vor dem Ende ist da. Die Aufzeichnungen in die Sitzung übernehmen?</translation>
+        <source>The last run on {} ended unexpectedly during {} recordings. Everything up to half a second before that is intact. Add the recordings to the session?</source>
+        <translation>Die letzte Arbeit an {} endete unerwartet während {} Aufzeichnungen. Alles bis eine halbe Sekunde davor ist erhalten. Die Aufzeichnungen in die Sitzung übernehmen?</translation>
     </message>
     <message>
-        <source>Take them in</source>
-        <translation>Übernehmen</translation>
+        <source>Add recordings</source>
+        <translation>Aufzeichnungen übernehmen</translation>
     </message>
     <message>
-        <source>Take it in</source>
-        <translation>Übernehmen</translation>
+        <source>Add recording</source>
+        <translation>Aufzeichnung übernehmen</translation>
     </message>
     <message>
         <source>Leave them for later</source>
@@ -3480,16 +3692,56 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Andere Sitzung wählen</translation>
     </message>
     <message>
-        <source>Taking the recordings in</source>
+        <source>Adding recordings</source>
         <translation>Die Aufzeichnungen werden übernommen</translation>
     </message>
     <message>
-        <source>The session could not be opened: {}</source>
+        <source>Could not open the session: {}</source>
         <translation>Die Sitzung konnte nicht geöffnet werden: {}</translation>
+    </message>
+    <message>
+        <source>Nothing is lost, and nothing can be added. All {} whole records are shown.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open up to the damage</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>All {} whole records go into a new session; this one stays as it is. What is lost: at least {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>To be done again: {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Files: {}</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The first {} records go on as this session; {} after them are set aside, and the journal as it was is kept beside.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>What is lost: {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>1 record</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{} records</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Salvaging a copy of {}</source>
         <translation>Eine Kopie von {} wird gerettet</translation>
+    </message>
+    <message>
+        <source>Looking at the damage of {}</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Salvage a copy</source>
@@ -3501,17 +3753,17 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
     <message>
         <source>Try again</source>
-        <translation>Noch einmal versuchen</translation>
+        <translation>Erneut versuchen</translation>
     </message>
 </context>
 <context>
     <name>ShapePanel</name>
     <message>
-        <source>The chosen region</source>
+        <source>Selected region</source>
         <translation>Die gewählte Region</translation>
     </message>
     <message>
-        <source>Mirror the chosen region</source>
+        <source>Mirror the selected region</source>
         <translation>Gewählte Region spiegeln</translation>
     </message>
     <message>
@@ -3519,48 +3771,48 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Spiegeln</translation>
     </message>
     <message>
-        <source>Also take what lies on the other side of the plane (M)</source>
-        <translation>Auch nehmen, was auf der anderen Seite der Ebene liegt (M)</translation>
+        <source>Add the mirror image across the plane (M)</source>
+        <translation>Das Spiegelbild an der Ebene hinzufügen (M)</translation>
     </message>
     <message>
-        <source>Plane to mirror at</source>
-        <translation>Ebene, an der gespiegelt wird</translation>
+        <source>Mirror plane</source>
+        <translation>Spiegelebene</translation>
     </message>
     <message>
         <source>at {0} =</source>
         <translation>bei {0} =</translation>
     </message>
     <message>
-        <source>Where the mirror plane is, mm in the sensor frame S</source>
-        <translation>Wo die Spiegelebene liegt, mm im Sensorsystem S</translation>
+        <source>Position of the mirror plane, mm in the sensor frame S</source>
+        <translation>Lage der Spiegelebene, mm im Sensorsystem S</translation>
     </message>
     <message>
-        <source>How far to grow or shrink, mm along the surface</source>
-        <translation>Wie weit vergrößert oder verkleinert wird, mm entlang der Oberfläche</translation>
+        <source>Distance to grow or shrink along the surface, mm</source>
+        <translation>Strecke zum Vergrößern oder Verkleinern entlang der Oberfläche, mm</translation>
     </message>
     <message>
         <source>Rings: </source>
         <translation>Ringe: </translation>
     </message>
     <message>
-        <source>How many rings of facets to smooth over</source>
-        <translation>Über wie viele Ringe von Facetten geglättet wird</translation>
+        <source>Smoothing width in rings of facets</source>
+        <translation>Breite der Glättung in Facettenringen</translation>
     </message>
     <message>
-        <source>What is narrower than about this many facets goes</source>
-        <translation>Was schmaler als etwa so viele Facetten ist, verschwindet</translation>
+        <source>Removes details narrower than about this many facets</source>
+        <translation>Entfernt Einzelheiten, die schmaler als etwa so viele Facetten sind</translation>
     </message>
     <message>
         <source>Grow</source>
-        <translation>Größer</translation>
+        <translation>Vergrößern</translation>
     </message>
     <message>
-        <source>Move the border outwards; other regions stay</source>
-        <translation>Den Rand nach außen schieben; andere Regionen bleiben</translation>
+        <source>Move the border outwards; other regions are unchanged</source>
+        <translation>Den Rand nach außen schieben; andere Regionen bleiben unverändert</translation>
     </message>
     <message>
         <source>Shrink</source>
-        <translation>Kleiner</translation>
+        <translation>Verkleinern</translation>
     </message>
     <message>
         <source>Move the border inwards</source>
@@ -3579,8 +3831,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Leeren</translation>
     </message>
     <message>
-        <source>Take all facets out of the region</source>
-        <translation>Alle Facetten aus der Region nehmen</translation>
+        <source>Remove all facets from the region</source>
+        <translation>Alle Facetten aus der Region entfernen</translation>
     </message>
 </context>
 <context>
@@ -3593,41 +3845,41 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 <context>
     <name>Shrinking</name>
     <message>
-        <source>How the contact error shrank</source>
-        <translation>Wie der Kontaktfehler kleiner wurde</translation>
+        <source>Contact error over poses</source>
+        <translation>Kontaktfehler über den Posen</translation>
     </message>
 </context>
 <context>
     <name>Side</name>
     <message>
-        <source>What is shown</source>
-        <translation>Was gezeigt wird</translation>
+        <source>Displayed quantity</source>
+        <translation>Gezeigte Größe</translation>
     </message>
     <message>
-        <source>Value under the cursor</source>
-        <translation>Wert unter dem Zeiger</translation>
+        <source>Value at the pointer</source>
+        <translation>Wert am Zeiger</translation>
     </message>
     <message>
-        <source>± 1 sigma. Density: by the number of touches behind it.
-Means: the spread of what they are the mean of. Peak force: the sensor&apos;s noise.</source>
-        <translation>± 1 Sigma. Dichte: nach der Zahl der Berührungen dahinter.
-Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rauschen des Sensors.</translation>
+        <source>± 1 sigma. Density: from the number of touches.
+Means: spread of the averaged values. Peak force: sensor noise.</source>
+        <translation>± 1 Sigma. Dichte: aus der Zahl der Berührungen.
+Mittelwerte: Streuung der gemittelten Werte. Größte Kraft: Rauschen des Sensors.</translation>
     </message>
     <message>
         <source>Nothing to show: {why}</source>
         <translation>Nichts zu zeigen: {why}</translation>
     </message>
     <message>
-        <source>No contact in this time window and range of force: widen one of them.</source>
-        <translation>Kein Kontakt in diesem Zeitfenster und Kraftbereich: Erweitern Sie eines davon.</translation>
+        <source>No contacts in this time window and force range. Widen one of them.</source>
+        <translation>Keine Kontakte in diesem Zeitfenster und Kraftbereich. Erweitern Sie eines davon.</translation>
     </message>
     <message>
-        <source>Touches: {count:,} of {all:,}; plain grey: no data</source>
-        <translation>Berührungen: {count:,} von {all:,}; einfaches Grau: keine Daten</translation>
+        <source>Touches: {count:,} of {all:,}; grey: no data</source>
+        <translation>Berührungen: {count:,} von {all:,}; grau: keine Daten</translation>
     </message>
     <message>
-        <source>Samples: {count:,} of {all:,}; plain grey: no data</source>
-        <translation>Messwerte: {count:,} von {all:,}; einfaches Grau: keine Daten</translation>
+        <source>Samples: {count:,} of {all:,}; grey: no data</source>
+        <translation>Messwerte: {count:,} von {all:,}; grau: keine Daten</translation>
     </message>
     <message>
         <source>contact density</source>
@@ -3669,7 +3921,7 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>contactbench</translation>
     </message>
     <message>
-        <source>Calibrate a force/torque sensor behind a probe, prepare the probe&apos;s mesh, verify contacts at the bench, and export a bundle.</source>
+        <source>Calibrate a force/torque sensor behind a probe, prepare the probe mesh, verify contacts on the bench, and export a bundle.</source>
         <translation>Kalibrieren Sie einen Kraft-Momenten-Sensor hinter einer Sonde, bereiten Sie das Netz der Sonde vor, prüfen Sie Kontakte am Messplatz, und exportieren Sie ein Paket.</translation>
     </message>
     <message>
@@ -3677,23 +3929,23 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Zuletzt benutzte Sitzungen</translation>
     </message>
     <message>
-        <source>A session&apos;s folder can also be dropped on this window.</source>
-        <translation>Der Ordner einer Sitzung kann auch auf dieses Fenster gezogen werden.</translation>
+        <source>You can also drop a session folder on this window.</source>
+        <translation>Sie können einen Sitzungsordner auch auf dieses Fenster ziehen.</translation>
     </message>
     <message>
         <source>Try the virtual bench</source>
         <translation>Virtuellen Messplatz ausprobieren</translation>
     </message>
     <message>
-        <source>A simulated sensor, robot and probe: nothing needs to be connected</source>
-        <translation>Simulierter Sensor, Roboter und Sonde: Nichts muss angeschlossen sein</translation>
+        <source>Simulated sensor, robot and probe; no hardware needed</source>
+        <translation>Simulierter Sensor, Roboter und Sonde; keine Hardware nötig</translation>
     </message>
     <message>
         <source>New session</source>
         <translation>Neue Sitzung</translation>
     </message>
     <message>
-        <source>Begin with an empty folder for one sensor and one probe</source>
+        <source>Start with an empty folder for one sensor and one probe</source>
         <translation>Mit einem leeren Ordner für einen Sensor und eine Sonde beginnen</translation>
     </message>
     <message>
@@ -3701,8 +3953,8 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Sitzung öffnen</translation>
     </message>
     <message>
-        <source>Go on with a session that is on this computer</source>
-        <translation>Mit einer Sitzung weitermachen, die auf diesem Computer ist</translation>
+        <source>Open an existing session</source>
+        <translation>Eine vorhandene Sitzung öffnen</translation>
     </message>
     <message>
         <source>missing: moved or deleted</source>
@@ -3779,7 +4031,7 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Moment</translation>
     </message>
     <message>
-        <source>Size of the force</source>
+        <source>Force magnitude</source>
         <translation>Betrag der Kraft</translation>
     </message>
     <message>
@@ -3787,8 +4039,8 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Kontaktpunkt</translation>
     </message>
     <message>
-        <source>Nothing is measured yet: choose the devices.</source>
-        <translation>Noch wird nichts gemessen: Wählen Sie die Geräte.</translation>
+        <source>No measurements yet. Choose devices first.</source>
+        <translation>Noch keine Messwerte. Wählen Sie zuerst Geräte.</translation>
     </message>
     <message>
         <source>Raw</source>
@@ -3799,47 +4051,47 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Kompensiert</translation>
     </message>
     <message>
-        <source>Which wrenches the charts show</source>
-        <translation>Welche Kräfte und Momente die Diagramme zeigen</translation>
+        <source>Raw or compensated wrenches in the charts</source>
+        <translation>Rohe oder kompensierte Messwerte in den Diagrammen</translation>
     </message>
     <message>
-        <source>Raw: as the sensor gives them. Compensated: without bias and weight.</source>
-        <translation>Roh: wie der Sensor sie liefert. Kompensiert: ohne Nullpunktfehler und Gewicht.</translation>
+        <source>Raw: sensor readings. Compensated: bias and weight removed.</source>
+        <translation>Roh: Messwerte des Sensors. Kompensiert: ohne Nullpunktfehler und Gewicht.</translation>
     </message>
     <message>
         <source>{seconds:g} s</source>
         <translation>{seconds:g} s</translation>
     </message>
     <message>
-        <source>How much time the charts show</source>
-        <translation>Wie viel Zeit die Diagramme zeigen</translation>
+        <source>Time range of the charts</source>
+        <translation>Zeitbereich der Diagramme</translation>
     </message>
     <message>
-        <source>How much time is shown, in seconds</source>
-        <translation>Wie viel Zeit gezeigt wird, in Sekunden</translation>
+        <source>Time range in seconds</source>
+        <translation>Zeitbereich in Sekunden</translation>
     </message>
     <message>
         <source>Pause</source>
         <translation>Anhalten</translation>
     </message>
     <message>
-        <source>Hold the picture; recording goes on</source>
-        <translation>Das Bild festhalten; die Aufzeichnung geht weiter</translation>
+        <source>Freeze the charts; recording continues</source>
+        <translation>Die Diagramme einfrieren; die Aufzeichnung geht weiter</translation>
     </message>
     <message>
-        <source>Back to live</source>
-        <translation>Zurück zu jetzt</translation>
+        <source>Resume live view</source>
+        <translation>Zurück zur Live-Ansicht</translation>
     </message>
     <message>
-        <source>Show what is measured now</source>
-        <translation>Zeigen, was jetzt gemessen wird</translation>
+        <source>Show current measurements</source>
+        <translation>Aktuelle Messwerte zeigen</translation>
     </message>
     <message>
-        <source>Panes</source>
-        <translation>Felder</translation>
+        <source>Charts shown</source>
+        <translation>Diagramme</translation>
     </message>
     <message>
-        <source>Choose which charts are shown</source>
+        <source>Choose which charts to show</source>
         <translation>Wählen, welche Diagramme gezeigt werden</translation>
     </message>
 </context>
@@ -3850,40 +4102,36 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>2  Außenfläche</translation>
     </message>
     <message>
-        <source>as it seems best</source>
-        <translation>automatisch</translation>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
     </message>
     <message>
-        <source>by a fair surface</source>
-        <translation>mit glatter Fläche</translation>
+        <source>Smooth surface</source>
+        <translation>Glatte Fläche</translation>
     </message>
     <message>
-        <source>by straight lines</source>
-        <translation>mit geraden Linien</translation>
+        <source>Straight lines</source>
+        <translation>Gerade Linien</translation>
     </message>
     <message>
-        <source>by the hull of the rim</source>
-        <translation>mit der Hülle des Rands</translation>
+        <source>Hull of the rim</source>
+        <translation>Hülle des Rands</translation>
     </message>
     <message>
-        <source>leave them open</source>
-        <translation>offen lassen</translation>
+        <source>Leave open</source>
+        <translation>Offen lassen</translation>
     </message>
     <message>
-        <source>How openings are closed, such as the one for the cable</source>
-        <translation>Wie Öffnungen geschlossen werden, etwa die für das Kabel</translation>
+        <source>Method for closing openings such as the cable outlet</source>
+        <translation>Methode zum Schließen von Öffnungen, etwa für das Kabel</translation>
     </message>
     <message>
         <source>Close openings</source>
         <translation>Öffnungen schließen</translation>
     </message>
     <message>
-        <source>by the size</source>
-        <translation>nach der Größe</translation>
-    </message>
-    <message>
-        <source>Size of the outer surface&apos;s facets, mm; 0: a 190th of the probe&apos;s length</source>
-        <translation>Größe der Facetten der Außenfläche, mm; 0: ein 190stel der Länge der Sonde</translation>
+        <source>Facet size of the outer surface, mm; 0: 1/190 of the probe length</source>
+        <translation>Facettengröße der Außenfläche, mm; 0: 1/190 der Länge der Sonde</translation>
     </message>
     <message>
         <source>Facet size</source>
@@ -3897,18 +4145,18 @@ Mittelwerte: Streuung dessen, wovon sie das Mittel sind. Größte Kraft: Rausche
         <translation>Zeitfenster</translation>
     </message>
     <message>
-        <source>Time in seconds. Drag the handles, or what is between them; above the line, the moment shown.
-Keys: left and right, Space for the other handle.</source>
-        <translation>Zeit in Sekunden. Ziehen Sie die Griffe oder das, was dazwischen ist; über der Linie der gezeigte Moment.
-Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
+        <source>Time in seconds. Drag the handles or the bar between them; above the line: current time.
+Keys: left and right; Space switches handles.</source>
+        <translation>Zeit in Sekunden. Ziehen Sie die Griffe oder den Balken dazwischen; über der Linie: aktueller Zeitpunkt.
+Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
-        <source>All at once</source>
-        <translation>Alles zugleich</translation>
+        <source>Show all</source>
+        <translation>Alles zeigen</translation>
     </message>
     <message>
-        <source>Stop, and show the whole time window at once.</source>
-        <translation>Anhalten, und das ganze Zeitfenster auf einmal zeigen.</translation>
+        <source>Stop and show the whole time window.</source>
+        <translation>Anhalten und das ganze Zeitfenster zeigen.</translation>
     </message>
     <message>
         <source>{speed:g}x</source>
@@ -3919,24 +4167,24 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Tempo</translation>
     </message>
     <message>
-        <source>Seconds of the recording that pass in one second.</source>
-        <translation>Sekunden der Aufzeichnung, die in einer Sekunde vergehen.</translation>
+        <source>Recorded seconds per second of playback.</source>
+        <translation>Aufgezeichnete Sekunden pro Sekunde Wiedergabe.</translation>
     </message>
     <message>
-        <source>touches stay</source>
-        <translation>Berührungen bleiben</translation>
+        <source>keep touches</source>
+        <translation>Berührungen behalten</translation>
     </message>
     <message>
         <source>last {seconds:g} s</source>
         <translation>letzte {seconds:g} s</translation>
     </message>
     <message>
-        <source>What is shown while playing</source>
-        <translation>Was beim Abspielen gezeigt wird</translation>
+        <source>Contacts shown during playback</source>
+        <translation>Kontakte beim Abspielen</translation>
     </message>
     <message>
-        <source>While playing: all since the start, or only the last seconds.</source>
-        <translation>Beim Abspielen: alles seit dem Beginn, oder nur die letzten Sekunden.</translation>
+        <source>During playback: show all contacts from the start, or only the last seconds.</source>
+        <translation>Beim Abspielen: alle Kontakte seit dem Beginn zeigen, oder nur die letzten Sekunden.</translation>
     </message>
     <message>
         <source>Pause</source>
@@ -3958,23 +4206,23 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Andere Regionen schützen</translation>
     </message>
     <message>
-        <source>Facets that belong to another region stay there</source>
-        <translation>Facetten, die einer anderen Region gehören, bleiben dort</translation>
+        <source>Facets of other regions are not changed</source>
+        <translation>Facetten anderer Regionen werden nicht geändert</translation>
     </message>
     <message>
         <source>Now click the opposite corner.</source>
         <translation>Klicken Sie jetzt die gegenüberliegende Ecke an.</translation>
     </message>
     <message>
-        <source>Each low number must be below the high one.</source>
-        <translation>Jede untere Zahl muss kleiner sein als die obere.</translation>
+        <source>Each lower limit must be below the upper limit.</source>
+        <translation>Jede untere Grenze muss kleiner sein als die obere.</translation>
     </message>
     <message>
-        <source>Look</source>
-        <translation>Ansehen</translation>
+        <source>Navigate</source>
+        <translation>Navigieren</translation>
     </message>
     <message>
-        <source>Turn the view with the left button</source>
+        <source>Rotate the view with the left button</source>
         <translation>Die Ansicht mit der linken Taste drehen</translation>
     </message>
     <message>
@@ -3982,7 +4230,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Pinsel</translation>
     </message>
     <message>
-        <source>Paint the chosen region</source>
+        <source>Paint the selected region</source>
         <translation>Die gewählte Region malen</translation>
     </message>
     <message>
@@ -3990,8 +4238,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Radierer</translation>
     </message>
     <message>
-        <source>Take facets out of their region</source>
-        <translation>Facetten aus ihrer Region nehmen</translation>
+        <source>Remove facets from their region</source>
+        <translation>Facetten aus ihrer Region entfernen</translation>
     </message>
     <message>
         <source>Fill</source>
@@ -4006,7 +4254,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Quader</translation>
     </message>
     <message>
-        <source>Everything between two corners</source>
+        <source>Select everything between two corners</source>
         <translation>Alles zwischen zwei Ecken</translation>
     </message>
     <message>
@@ -4014,7 +4262,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Hälfte</translation>
     </message>
     <message>
-        <source>Everything on one side of a plane</source>
+        <source>Select everything on one side of a plane</source>
         <translation>Alles auf einer Seite einer Ebene</translation>
     </message>
     <message>
@@ -4022,7 +4270,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>{0} (Regionen)</translation>
     </message>
     <message>
-        <source>Choose a tool. The right button always turns the view.</source>
+        <source>Choose a tool. The right button always rotates the view.</source>
         <translation>Wählen Sie ein Werkzeug. Die rechte Taste dreht immer die Ansicht.</translation>
     </message>
     <message>
@@ -4030,44 +4278,44 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Radius</translation>
     </message>
     <message>
-        <source>Radius of the brush</source>
+        <source>Brush radius</source>
         <translation>Radius des Pinsels</translation>
     </message>
     <message>
-        <source>[ and ], or Ctrl and the wheel</source>
-        <translation>[ und ], oder Strg und das Mausrad</translation>
+        <source>[ and ], or Ctrl + wheel</source>
+        <translation>[ und ], oder Strg + Mausrad</translation>
     </message>
     <message>
-        <source>Radius of the brush, mm</source>
+        <source>Brush radius, mm</source>
         <translation>Radius des Pinsels, mm</translation>
     </message>
     <message>
-        <source>Drag over the probe. Shift: the other way. Esc: take the stroke back.</source>
-        <translation>Über die Sonde ziehen. Umschalt: umgekehrt. Esc: Strich zurücknehmen.</translation>
+        <source>Drag over the probe. Shift erases. Esc cancels the stroke.</source>
+        <translation>Über die Sonde ziehen. Umschalt radiert. Esc bricht den Strich ab.</translation>
     </message>
     <message>
-        <source>Edges over</source>
-        <translation>Kanten über</translation>
+        <source>Edge limit</source>
+        <translation>Kantengrenze</translation>
     </message>
     <message>
-        <source>Sharpest edge that is crossed</source>
-        <translation>Schärfste Kante, über die es geht</translation>
+        <source>Sharpest edge to cross</source>
+        <translation>Schärfste überschrittene Kante</translation>
     </message>
     <message>
-        <source>Sharpest edge that is crossed, degrees</source>
-        <translation>Schärfste Kante, über die es geht, in Grad</translation>
+        <source>Sharpest edge to cross, degrees</source>
+        <translation>Schärfste überschrittene Kante, Grad</translation>
     </message>
     <message>
-        <source>Edges sharper than this stop the fill, degrees</source>
-        <translation>Schärfere Kanten halten das Füllen auf, in Grad</translation>
+        <source>The fill stops at edges sharper than this, degrees</source>
+        <translation>Das Füllen endet an schärferen Kanten, Grad</translation>
     </message>
     <message>
-        <source>Take away instead</source>
-        <translation>Stattdessen wegnehmen</translation>
+        <source>Remove instead</source>
+        <translation>Stattdessen entfernen</translation>
     </message>
     <message>
-        <source>Click on the probe: everything up to such edges is filled.</source>
-        <translation>Auf die Sonde klicken: Alles bis zu solchen Kanten wird gefüllt.</translation>
+        <source>Click the probe to fill up to the nearest sharp edges.</source>
+        <translation>Auf die Sonde klicken, um bis zu den nächsten scharfen Kanten zu füllen.</translation>
     </message>
     <message>
         <source>low</source>
@@ -4082,87 +4330,67 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>{0} {1}, mm im Sensorsystem S</translation>
     </message>
     <message>
-        <source>Click on the probe to move the plane there, or type the number.</source>
+        <source>Click the probe to move the plane there, or enter a number.</source>
         <translation>Auf die Sonde klicken, um die Ebene dorthin zu legen, oder die Zahl eingeben.</translation>
     </message>
     <message>
-        <source>Which side of the plane</source>
+        <source>Side of the plane</source>
         <translation>Welche Seite der Ebene</translation>
     </message>
     <message>
-        <source>{0} above</source>
-        <translation>{0} über</translation>
+        <source>above {0}</source>
+        <translation>über {0}</translation>
     </message>
     <message>
-        <source>{0} below</source>
-        <translation>{0} unter</translation>
+        <source>below {0}</source>
+        <translation>unter {0}</translation>
     </message>
     <message>
-        <source>Where the plane is, mm in the sensor frame S</source>
-        <translation>Wo die Ebene liegt, mm im Sensorsystem S</translation>
+        <source>Position of the plane, mm in the sensor frame S</source>
+        <translation>Lage der Ebene, mm im Sensorsystem S</translation>
     </message>
     <message>
         <source>Add</source>
         <translation>Hinzufügen</translation>
     </message>
     <message>
-        <source>Take away</source>
-        <translation>Wegnehmen</translation>
+        <source>Remove facets</source>
+        <translation>Facetten entfernen</translation>
     </message>
     <message>
-        <source>Take these facets out of the chosen region</source>
-        <translation>Diese Facetten aus der gewählten Region nehmen</translation>
+        <source>Remove these facets from the selected region</source>
+        <translation>Diese Facetten aus der gewählten Region entfernen</translation>
     </message>
     <message>
-        <source>Give these facets to the chosen region</source>
-        <translation>Diese Facetten der gewählten Region geben</translation>
+        <source>Add these facets to the selected region</source>
+        <translation>Diese Facetten zur gewählten Region hinzufügen</translation>
     </message>
     <message>
-        <source>Click two opposite corners on the probe, or type the numbers.</source>
+        <source>Click two opposite corners on the probe, or enter the numbers.</source>
         <translation>Zwei gegenüberliegende Ecken auf der Sonde anklicken, oder die Zahlen eingeben.</translation>
     </message>
 </context>
 <context>
     <name>TouchPanel</name>
     <message>
-        <source>Start touching</source>
-        <translation>Berühren beginnen</translation>
-    </message>
-    <message>
-        <source>Finish</source>
-        <translation>Beenden</translation>
-    </message>
-    <message>
-        <source>Keep the recording, judge it, and make the report</source>
-        <translation>Die Aufzeichnung behalten, beurteilen und den Bericht machen</translation>
-    </message>
-    <message>
-        <source>Throw away</source>
-        <translation>Verwerfen</translation>
-    </message>
-    <message>
-        <source>End without a verdict; the touches are not kept</source>
-        <translation>Ohne Urteil beenden; die Berührungen werden nicht behalten</translation>
-    </message>
-    <message>
         <source>Touch again</source>
         <translation>Wiederholen</translation>
     </message>
     <message>
-        <source>The marker that is selected in the table, or else the last one; all its touches count</source>
-        <translation>Der Marker, der in der Tabelle gewählt ist, sonst der letzte; alle seine Berührungen zählen</translation>
+        <source>Repeat the marker selected in the table, or the last one; all its touches count</source>
+        <translation>Den in der Tabelle gewählten Marker wiederholen, sonst den letzten; alle seine Berührungen zählen</translation>
     </message>
     <message>
-        <source>Leave it out</source>
-        <translation>Auslassen</translation>
+        <source>Skip marker</source>
+        <translation>Marker auslassen</translation>
     </message>
     <message>
-        <source>Go on with the marker after the next one; you say why, and the report repeats it</source>
-        <translation>Mit dem übernächsten Marker weitermachen; Sie sagen, warum, und der Bericht wiederholt es</translation>
+        <source>Skip the next marker and enter the reason, which appears in the report</source>
+        <translation>Den nächsten Marker auslassen und den Grund eingeben; er erscheint im Bericht</translation>
     </message>
     <message>
-        <source>Touch it for me</source>
-        <translation>Für mich berühren</translation>
+        <source>Touch virtually</source>
+        <translation>Virtuell berühren</translation>
     </message>
     <message>
         <source>The virtual bench presses the next marker with a tip</source>
@@ -4173,64 +4401,64 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Alle berühren</translation>
     </message>
     <message>
-        <source>The virtual bench presses one marker after the other</source>
-        <translation>Der virtuelle Messplatz drückt auf einen Marker nach dem anderen</translation>
+        <source>The virtual bench presses all markers in turn</source>
+        <translation>Der virtuelle Messplatz drückt nacheinander auf alle Marker</translation>
     </message>
     <message>
-        <source>Heat map of contacts</source>
-        <translation>Heatmap der Kontakte</translation>
+        <source>Contact heatmap</source>
+        <translation>Kontakt-Heatmap</translation>
     </message>
     <message>
-        <source>Colour the probe by where it was touched, in contacts per mm²</source>
-        <translation>Die Sonde danach färben, wo sie berührt wurde, in Kontakten pro mm²</translation>
+        <source>Colour the probe by contact density, in contacts per mm²</source>
+        <translation>Die Sonde nach Kontaktdichte färben, in Kontakten pro mm²</translation>
     </message>
     <message>
-        <source>Mute the tones</source>
+        <source>Mute tones</source>
         <translation>Töne stumm schalten</translation>
     </message>
     <message>
-        <source>A tone for each state; press to mute them</source>
-        <translation>Ein Ton für jeden Zustand; drücken, um sie stumm zu schalten</translation>
+        <source>Each state has its own tone; press to mute</source>
+        <translation>Jeder Zustand hat einen eigenen Ton; drücken zum Stummschalten</translation>
     </message>
     <message>
-        <source>Tones are muted</source>
-        <translation>Die Töne sind stumm</translation>
+        <source>Tones muted</source>
+        <translation>Töne stumm</translation>
     </message>
     <message>
-        <source>Leave {name} out</source>
+        <source>Skip {name}</source>
         <translation>{name} auslassen</translation>
     </message>
     <message>
-        <source>Why is {name} not touched? The report says so.</source>
-        <translation>Warum wird {name} nicht berührt? Der Bericht sagt es.</translation>
+        <source>Reason for skipping {name} (appears in the report)</source>
+        <translation>Grund für das Auslassen von {name} (erscheint im Bericht)</translation>
     </message>
     <message>
-        <source>nothing reaches it</source>
-        <translation>nichts kommt dorthin</translation>
+        <source>not reachable</source>
+        <translation>nicht erreichbar</translation>
     </message>
     <message>
-        <source>the mark cannot be seen any more</source>
-        <translation>die Markierung ist nicht mehr zu sehen</translation>
+        <source>mark no longer visible</source>
+        <translation>Markierung nicht mehr sichtbar</translation>
     </message>
     <message>
-        <source>the housing gives way there</source>
-        <translation>das Gehäuse gibt dort nach</translation>
+        <source>housing is too soft there</source>
+        <translation>Gehäuse dort zu weich</translation>
     </message>
     <message>
-        <source>a touch there would do damage</source>
-        <translation>eine Berührung dort würde Schaden anrichten</translation>
+        <source>a touch could cause damage</source>
+        <translation>eine Berührung könnte Schaden anrichten</translation>
     </message>
     <message>
-        <source>{name} is not left out: that needs a reason.</source>
-        <translation>{name} wird nicht ausgelassen: Das braucht einen Grund.</translation>
+        <source>{name} was not skipped: enter a reason.</source>
+        <translation>{name} wurde nicht ausgelassen: Geben Sie einen Grund an.</translation>
     </message>
     <message>
-        <source>{name} is not left out: it was touched meanwhile.</source>
-        <translation>{name} wird nicht ausgelassen: Es wurde inzwischen berührt.</translation>
+        <source>{name} was not skipped because it has been touched in the meantime.</source>
+        <translation>{name} wurde nicht ausgelassen, weil der Marker inzwischen berührt wurde.</translation>
     </message>
     <message>
-        <source>{name} is left out: {why}. The verdict and the report say so.</source>
-        <translation>{name} wird ausgelassen: {why}. Das Urteil und der Bericht sagen es.</translation>
+        <source>{name} skipped: {why}. The verdict and the report state the reason.</source>
+        <translation>{name} ausgelassen: {why}. Ergebnis und Bericht nennen den Grund.</translation>
     </message>
     <message>
         <source>second touch</source>
@@ -4241,112 +4469,112 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>zweite Berührung, dahinter</translation>
     </message>
     <message>
-        <source>could also be here</source>
-        <translation>könnte auch hier sein</translation>
+        <source>possible alternative</source>
+        <translation>mögliche Alternative</translation>
     </message>
     <message>
-        <source>could also be here, behind</source>
-        <translation>könnte auch hier sein, dahinter</translation>
+        <source>possible alternative, behind</source>
+        <translation>mögliche Alternative, dahinter</translation>
     </message>
     <message>
-        <source>No sensor is open: connect one in step 1, Devices.</source>
-        <translation>Kein Sensor ist geöffnet: Verbinden Sie einen in Schritt 1, Geräte.</translation>
+        <source>No sensor is open. Connect one in step 1, Devices.</source>
+        <translation>Kein Sensor ist geöffnet. Verbinden Sie einen in Schritt 1, Geräte.</translation>
     </message>
     <message>
-        <source>Place markers first, on the first tab.</source>
-        <translation>Setzen Sie zuerst Marker, auf der ersten Karteikarte.</translation>
+        <source>Place markers on the first tab.</source>
+        <translation>Setzen Sie zuerst Marker auf dem ersten Reiter.</translation>
     </message>
     <message>
-        <source>Take everything off the probe, then start. From then on, only touch: no mouse is needed.</source>
-        <translation>Nehmen Sie alles von der Sonde weg und starten Sie. Von da an nur noch berühren: Eine Maus wird nicht gebraucht.</translation>
+        <source>Remove everything from the probe, then start. After that, just touch the markers; no mouse is needed.</source>
+        <translation>Nehmen Sie alles von der Sonde weg und starten Sie. Danach berühren Sie nur noch die Marker; eine Maus ist nicht nötig.</translation>
     </message>
     <message>
-        <source>Press with {low} to {high} N, and hold still.</source>
+        <source>Press with {low} to {high} N and hold still.</source>
         <translation>Mit {low} bis {high} N drücken und still halten.</translation>
     </message>
     <message>
-        <source>Bring the force to {low} to {high} N, and hold still.</source>
-        <translation>Die Kraft auf {low} bis {high} N bringen und still halten.</translation>
+        <source>Adjust the force to {low}–{high} N and hold still.</source>
+        <translation>Die Kraft auf {low}–{high} N bringen und still halten.</translation>
     </message>
     <message>
-        <source>Do not move: the samples are taken.</source>
-        <translation>Nicht bewegen: Die Messwerte werden aufgenommen.</translation>
+        <source>Keep still: measuring.</source>
+        <translation>Still halten: Es wird gemessen.</translation>
     </message>
     <message>
-        <source>Let go.</source>
+        <source>Release.</source>
         <translation>Loslassen.</translation>
     </message>
     <message>
-        <source>{why} ({force} N). Let go, and touch again.</source>
+        <source>{why} ({force} N). Release, then touch again.</source>
         <translation>{why} ({force} N). Loslassen und noch einmal berühren.</translation>
     </message>
     <message>
-        <source>{marker}: {size} mm off.</source>
-        <translation>{marker}: {size} mm daneben.</translation>
+        <source>{marker}: error {size} mm.</source>
+        <translation>{marker}: Fehler {size} mm.</translation>
     </message>
     <message>
-        <source>{marker}: {size} mm off. Let go.</source>
-        <translation>{marker}: {size} mm daneben. Loslassen.</translation>
+        <source>{marker}: error {size} mm. Release.</source>
+        <translation>{marker}: Fehler {size} mm. Loslassen.</translation>
     </message>
     <message>
         <source>Confidence {percent} %</source>
         <translation>Sicherheit {percent} %</translation>
     </message>
     <message>
-        <source>{sure}, because of the declared regions: the wrench fits another place, too.</source>
-        <translation>{sure}, wegen der festgelegten Regionen: Der Messwert passt auch zu einer anderen Stelle.</translation>
+        <source>{sure} thanks to the defined regions; the wrench also fits another place.</source>
+        <translation>{sure} dank der festgelegten Regionen; der Messwert passt auch zu einer anderen Stelle.</translation>
     </message>
     <message>
-        <source>{sure}: the wrench fits another place, too. Press in another direction.</source>
+        <source>{sure}: the wrench also fits another place. Press in a different direction.</source>
         <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
     </message>
     <message>
-        <source>A second touch joined: both are shown.</source>
-        <translation>Eine zweite Berührung kam dazu: Beide sind gezeigt.</translation>
+        <source>Two touches detected; both are shown.</source>
+        <translation>Zwei Berührungen erkannt; beide werden gezeigt.</translation>
     </message>
     <message>
-        <source>No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm. Two touches at once, or wrong units, mount or compensation?</source>
-        <translation>Keine einzelne Berührung erklärt diesen Messwert: {sigmas} Sigma bleiben übrig, Hebelarm des Moments {arm} mm. Zwei Berührungen zugleich, oder falsche Einheiten, Einbaulage oder Kompensation?</translation>
+        <source>No single touch explains this wrench (residual {sigmas} sigma, moment arm {arm} mm). Check for two simultaneous touches, and check units, mount and compensation.</source>
+        <translation>Keine einzelne Berührung erklärt diesen Messwert (Abweichung {sigmas} Sigma, Hebelarm {arm} mm). Prüfen Sie, ob zwei Berührungen gleichzeitig auftreten, und prüfen Sie Einheiten, Montage und Kompensation.</translation>
     </message>
     <message>
-        <source>The force is almost parallel to the surface: press more steeply.</source>
-        <translation>Die Kraft ist fast parallel zur Oberfläche: Drücken Sie steiler.</translation>
+        <source>The force is almost parallel to the surface. Press more directly into it.</source>
+        <translation>Die Kraft ist fast parallel zur Oberfläche. Drücken Sie steiler.</translation>
     </message>
     <message>
-        <source>The contact is outside every region.</source>
+        <source>The contact is outside all regions.</source>
         <translation>Der Kontakt liegt außerhalb aller Regionen.</translation>
     </message>
     <message>
-        <source>The sensor is at the end of its range: press less hard.</source>
-        <translation>Der Sensor ist am Ende seines Messbereichs: Drücken Sie weniger fest.</translation>
+        <source>The sensor is at the limit of its range. Press less hard.</source>
+        <translation>Der Sensor ist an der Grenze seines Messbereichs. Drücken Sie weniger fest.</translation>
     </message>
     <message>
-        <source>No part of the probe faces this force: check that it is the force on the probe, and the mount.</source>
-        <translation>Kein Teil der Sonde ist dieser Kraft zugewandt: Prüfen Sie, ob es die Kraft auf die Sonde ist, und die Einbaulage.</translation>
+        <source>No part of the probe faces this force. Check the force sign and the mount.</source>
+        <translation>Kein Teil der Sonde ist dieser Kraft zugewandt. Prüfen Sie das Vorzeichen der Kraft und die Montage.</translation>
     </message>
     <message>
-        <source>On a facet that the mesh file did not have: its place is a guess.</source>
-        <translation>Auf einer Facette, die die Netzdatei nicht hatte: Ihre Lage ist geschätzt.</translation>
+        <source>On a facet added during repair: its position is an estimate.</source>
+        <translation>Auf einer bei der Reparatur ergänzten Facette: Ihre Lage ist geschätzt.</translation>
     </message>
     <message>
-        <source>On a region marked untouchable: check the region and the mount.</source>
-        <translation>Auf einer Region, die als unberührbar markiert ist: Prüfen Sie die Region und die Einbaulage.</translation>
+        <source>On an untouchable region: check the region and the mount.</source>
+        <translation>Auf einer nicht berührbaren Region: Prüfen Sie die Region und die Montage.</translation>
     </message>
     <message>
-        <source>All markers are touched; touches: {done}. Finish, or touch some once more.</source>
-        <translation>Alle Marker sind berührt; Berührungen: {done}. Beenden Sie, oder berühren Sie einige noch einmal.</translation>
+        <source>All markers touched ({done} touches). Finish, or repeat any marker.</source>
+        <translation>Alle Marker berührt ({done} Berührungen). Beenden Sie, oder wiederholen Sie Marker.</translation>
     </message>
     <message>
         <source>Next: {name} · {done} of {wanted} touches</source>
         <translation>Als Nächstes: {name} · {done} von {wanted} Berührungen</translation>
     </message>
     <message>
-        <source>of the touches that count</source>
-        <translation>der Berührungen, die zählen</translation>
+        <source>of accepted touches</source>
+        <translation>der gezählten Berührungen</translation>
     </message>
     <message>
-        <source>largest {largest} mm; the last was {ratio} times what noise explains</source>
-        <translation>größter {largest} mm; zuletzt das {ratio}-Fache des Rauschens</translation>
+        <source>largest {largest} mm; last: {ratio} times the expected noise</source>
+        <translation>größter {largest} mm; letzter: das {ratio}-Fache des erwarteten Rauschens</translation>
     </message>
 </context>
 <context>
@@ -4387,12 +4615,12 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
 <context>
     <name>Toucher</name>
     <message>
-        <source>{name} was pressed {count} times and never counted ({why}). Press Leave it out and then Touch all again, or throw the touches away and move the marker.</source>
-        <translation>{name} wurde {count}-mal gedrückt und nie gezählt ({why}). Drücken Sie „Auslassen“ und dann wieder „Alle berühren“, oder verwerfen Sie die Berührungen und verschieben Sie den Marker.</translation>
+        <source>{name} was pressed {count} times without an accepted touch ({why}). Press Skip marker, then Touch all again. Or discard the touches and move the marker.</source>
+        <translation>{name} wurde {count}-mal gedrückt, ohne dass eine Berührung zählte ({why}). Drücken Sie „Marker auslassen“ und dann wieder „Alle berühren“. Oder verwerfen Sie die Berührungen und verschieben Sie den Marker.</translation>
     </message>
     <message>
-        <source>no touch came of it</source>
-        <translation>es wurde keine Berührung daraus</translation>
+        <source>no touch was detected</source>
+        <translation>es wurde keine Berührung erkannt</translation>
     </message>
 </context>
 <context>
@@ -4402,48 +4630,75 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Facetten</translation>
     </message>
     <message>
-        <source>time of a solve, µs</source>
-        <translation>Zeit einer Lösung, µs</translation>
+        <source>solve time, µs</source>
+        <translation>Rechenzeit einer Lösung, µs</translation>
     </message>
     <message>
-        <source>time of the plain loop, µs</source>
-        <translation>Zeit der einfachen Schleife, µs</translation>
+        <source>plain loop time, µs</source>
+        <translation>Rechenzeit der einfachen Schleife, µs</translation>
     </message>
     <message>
-        <source>What the chart shows across</source>
-        <translation>Was das Diagramm waagerecht zeigt</translation>
+        <source>Horizontal axis</source>
+        <translation>Waagerechte Achse</translation>
     </message>
     <message>
-        <source>What the chart shows across: facets, or µs of one solve</source>
-        <translation>Was das Diagramm waagerecht zeigt: Facetten, oder µs einer Lösung</translation>
+        <source>Horizontal axis: facets, or µs per solve</source>
+        <translation>Waagerechte Achse: Facetten, oder µs je Lösung</translation>
     </message>
     <message>
         <source>Error, mm, against</source>
         <translation>Fehler, mm, über</translation>
     </message>
     <message>
-        <source>How far 95 % of the contacts move at most, against all facets, mm</source>
-        <translation>Wie weit sich 95 % der Kontakte höchstens verschieben, gegenüber allen Facetten, mm</translation>
+        <source>95th percentile of the contact shift relative to the full mesh, mm</source>
+        <translation>95. Perzentil der Kontaktverschiebung gegenüber dem vollen Netz, mm</translation>
     </message>
     <message>
-        <source>Contact error against the number of facets</source>
-        <translation>Kontaktfehler über der Anzahl der Facetten</translation>
+        <source>Contact error against facet count</source>
+        <translation>Kontaktfehler über der Facettenzahl</translation>
     </message>
     <message>
-        <source>allowed {:.2g} mm</source>
-        <translation>erlaubt {:.2g} mm</translation>
+        <source>limit {:.2g} mm</source>
+        <translation>Grenze {:.2g} mm</translation>
     </message>
     <message>
         <source>knee</source>
         <translation>Knick</translation>
     </message>
     <message>
-        <source>Choose a point: by a click, or by the arrow keys.</source>
+        <source>Choose a point with a click or the arrow keys.</source>
         <translation>Wählen Sie einen Punkt: mit einem Klick oder den Pfeiltasten.</translation>
     </message>
     <message>
-        <source>{:,} facets: contacts move by up to {:.2g} mm, a solve takes {:.2g} µs.</source>
-        <translation>{:,} Facetten: Kontakte verschieben sich um bis zu {:.2g} mm, eine Lösung dauert {:.2g} µs.</translation>
+        <source>{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs.</source>
+        <translation>{:,} Facetten: Kontakte verschieben sich um bis zu {:.2g} mm; eine Lösung dauert {:.2g} µs.</translation>
+    </message>
+</context>
+<context>
+    <name>TroubleWatch</name>
+    <message>
+        <source>Checking session files</source>
+        <translation type="unfinished">Sitzungsdateien werden geprüft</translation>
+    </message>
+    <message>
+        <source>The disk is writable again and the session continues. Repeat the actions that were refused; earlier recordings are intact.</source>
+        <translation type="unfinished">Der Datenträger ist wieder beschreibbar und die Sitzung geht weiter. Wiederholen Sie die abgelehnten Aktionen; frühere Aufzeichnungen sind unversehrt.</translation>
+    </message>
+    <message>
+        <source>The sensor is back and sending readings.</source>
+        <translation type="unfinished">Der Sensor ist wieder da und sendet Messwerte.</translation>
+    </message>
+    <message>
+        <source>A file in this session has changed since it was written. Results that depend on it are invalid.</source>
+        <translation type="unfinished">Eine Datei dieser Sitzung wurde nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig.</translation>
+    </message>
+    <message>
+        <source>{} files in this session have changed since they were written. Results that depend on them are invalid. Run `contactbench session verify` to list them.</source>
+        <translation type="unfinished">{} Dateien dieser Sitzung wurden nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig. `contactbench session verify` listet sie auf.</translation>
+    </message>
+    <message>
+        <source>All files of this session are as they were written again.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -4457,31 +4712,23 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Brauchbar</translation>
     </message>
     <message>
-        <source>Refused: it must not be used</source>
-        <translation>Abgelehnt: darf nicht benutzt werden</translation>
+        <source>Rejected: do not use</source>
+        <translation>Abgelehnt: nicht benutzen</translation>
     </message>
     <message>
-        <source>Not yet</source>
-        <translation>Noch nicht</translation>
+        <source>Not ready yet</source>
+        <translation>Noch nicht bereit</translation>
     </message>
 </context>
 <context>
     <name>VerifyPage</name>
     <message>
-        <source>Verify</source>
-        <translation>Prüfen</translation>
-    </message>
-    <message>
-        <source>Go there</source>
-        <translation>Dorthin</translation>
-    </message>
-    <message>
         <source>Markers</source>
         <translation>Marker</translation>
     </message>
     <message>
-        <source>How</source>
-        <translation>Wie</translation>
+        <source>Settings</source>
+        <translation>Einstellungen</translation>
     </message>
     <message>
         <source>Point</source>
@@ -4496,87 +4743,131 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Ergebnis</translation>
     </message>
     <message>
-        <source>Drawing the heat map</source>
+        <source>Drawing heatmap</source>
         <translation>Die Heatmap wird gezeichnet</translation>
     </message>
     <message>
-        <source>All devices give samples again; the recording goes on.</source>
-        <translation>Alle Geräte liefern wieder Messwerte; die Aufzeichnung geht weiter.</translation>
+        <source>All devices are sending samples again. Recording continues.</source>
+        <translation>Alle Geräte senden wieder Messwerte. Die Aufzeichnung geht weiter.</translation>
     </message>
     <message>
-        <source>Keeping the recording</source>
+        <source>Saving recording</source>
         <translation>Die Aufzeichnung wird behalten</translation>
     </message>
     <message>
-        <source>Reading the verification</source>
-        <translation>Die Überprüfung wird gelesen</translation>
+        <source>Loading verification</source>
+        <translation>Die Überprüfung wird geladen</translation>
     </message>
     <message>
-        <source>Loading the probe</source>
+        <source>Loading probe</source>
         <translation>Die Sonde wird geladen</translation>
     </message>
     <message>
-        <source>Measuring the noise</source>
+        <source>Measuring noise</source>
         <translation>Das Rauschen wird gemessen</translation>
     </message>
     <message>
-        <source>The verification passed.</source>
+        <source>verify</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Verification passed.</source>
         <translation>Die Überprüfung ist bestanden.</translation>
     </message>
     <message>
-        <source>The verification did not pass.</source>
+        <source>Verification failed.</source>
         <translation>Die Überprüfung ist nicht bestanden.</translation>
     </message>
     <message>
-        <source>Judging the touches</source>
-        <translation>Die Berührungen werden beurteilt</translation>
+        <source>Evaluating touches</source>
+        <translation>Die Berührungen werden ausgewertet</translation>
     </message>
     <message>
-        <source>Ending the recording</source>
+        <source>Stopping recording</source>
         <translation>Die Aufzeichnung wird beendet</translation>
+    </message>
+    <message>
+        <source>Start touching</source>
+        <translation type="unfinished">Berühren beginnen</translation>
+    </message>
+    <message>
+        <source>Verify again</source>
+        <translation type="unfinished">Erneut prüfen</translation>
+    </message>
+    <message>
+        <source>Go to Gravity</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Open Probe</source>
+        <translation type="unfinished">Sonde öffnen</translation>
+    </message>
+    <message>
+        <source>Save the recording, evaluate it and create the report</source>
+        <translation type="unfinished">Die Aufzeichnung speichern, auswerten und den Bericht erstellen</translation>
+    </message>
+    <message>
+        <source>Finish</source>
+        <translation type="unfinished">Beenden</translation>
+    </message>
+    <message>
+        <source>Stop without a verdict; the touches are discarded</source>
+        <translation type="unfinished">Ohne Ergebnis beenden; die Berührungen werden verworfen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation type="unfinished">Verwerfen</translation>
+    </message>
+    <message>
+        <source>Next: Export</source>
+        <translation type="unfinished">Weiter: Export</translation>
+    </message>
+    <message>
+        <source>Place markers on the first tab.</source>
+        <translation type="unfinished">Setzen Sie zuerst Marker auf dem ersten Reiter.</translation>
     </message>
 </context>
 <context>
     <name>VerifySettingsPanel</name>
     <message>
-        <source>Lower end of the force window, N</source>
-        <translation>Unteres Ende des Kraftfensters, N</translation>
+        <source>Lower force limit, N</source>
+        <translation>Untere Kraftgrenze, N</translation>
     </message>
     <message>
-        <source>Upper end of the force window, N</source>
-        <translation>Oberes Ende des Kraftfensters, N</translation>
+        <source>Upper force limit, N</source>
+        <translation>Obere Kraftgrenze, N</translation>
     </message>
     <message>
-        <source>Accepted touches wanted of each marker</source>
-        <translation>Gewünschte gezählte Berührungen jedes Markers</translation>
+        <source>Accepted touches required per marker</source>
+        <translation>Nötige gezählte Berührungen je Marker</translation>
     </message>
     <message>
-        <source>Samples taken of each touch, once it has settled</source>
-        <translation>Messwerte je Berührung, sobald sie ruhig ist</translation>
+        <source>Samples per touch after settling</source>
+        <translation>Messwerte je Berührung nach dem Beruhigen</translation>
     </message>
     <message>
         <source>any order</source>
         <translation>beliebig</translation>
     </message>
     <message>
-        <source>as in the table</source>
+        <source>table order</source>
         <translation>wie in der Tabelle</translation>
     </message>
     <message>
-        <source>In which order markers are touched</source>
-        <translation>In welcher Reihenfolge Marker berührt werden</translation>
+        <source>Order in which to touch the markers</source>
+        <translation>Reihenfolge, in der die Marker berührt werden</translation>
     </message>
     <message>
-        <source>In any order a touch is of the marker that it is near; in the table&apos;s order, of the next one.</source>
-        <translation>Bei beliebiger Reihenfolge gilt eine Berührung dem Marker, dem sie nahe ist; nach der Tabelle dem nächsten.</translation>
+        <source>Any order: a touch counts for the nearest marker. Table order: it counts for the next marker.</source>
+        <translation>Beliebig: Eine Berührung zählt für den nächstgelegenen Marker. Wie in der Tabelle: Sie zählt für den nächsten Marker der Reihe.</translation>
     </message>
     <message>
-        <source>Largest mean error that passes, mm</source>
-        <translation>Größter mittlerer Fehler, mit dem bestanden wird, mm</translation>
+        <source>Largest permitted mean error, mm</source>
+        <translation>Größter zulässiger mittlerer Fehler, mm</translation>
     </message>
     <message>
-        <source>Largest error that passes, mm</source>
-        <translation>Größter Fehler, mit dem bestanden wird, mm</translation>
+        <source>Largest permitted error, mm</source>
+        <translation>Größter zulässiger Fehler, mm</translation>
     </message>
     <message>
         <source>Press with</source>
@@ -4587,15 +4878,15 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>bis</translation>
     </message>
     <message>
-        <source>Each marker</source>
-        <translation>Jeder Marker</translation>
+        <source>Per marker</source>
+        <translation>Je Marker</translation>
     </message>
     <message>
         <source>Samples</source>
         <translation>Messwerte</translation>
     </message>
     <message>
-        <source>Touch in</source>
+        <source>Touch order</source>
         <translation>Reihenfolge</translation>
     </message>
     <message>
@@ -4603,7 +4894,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Mittel bis</translation>
     </message>
     <message>
-        <source>Any error up to</source>
+        <source>Single error up to</source>
         <translation>Einzeln bis</translation>
     </message>
     <message>
@@ -4611,20 +4902,20 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Reihenfolge der Berührungen</translation>
     </message>
     <message>
-        <source>Touches of each marker</source>
-        <translation>Berührungen jedes Markers</translation>
+        <source>Touches per marker</source>
+        <translation>Berührungen je Marker</translation>
     </message>
     <message>
-        <source>Samples of each touch</source>
-        <translation>Messwerte jeder Berührung</translation>
+        <source>Samples per touch</source>
+        <translation>Messwerte je Berührung</translation>
     </message>
     <message>
-        <source>Limit of the mean error</source>
+        <source>Mean error limit</source>
         <translation>Grenze des mittleren Fehlers</translation>
     </message>
     <message>
-        <source>Limit of any error</source>
-        <translation>Grenze jedes Fehlers</translation>
+        <source>Single error limit</source>
+        <translation>Grenze des einzelnen Fehlers</translation>
     </message>
     <message>
         <source>Force window</source>
@@ -4638,7 +4929,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Vorn</translation>
     </message>
     <message>
-        <source>Look from the front: x to the right, z upwards</source>
+        <source>View from the front: x right, z up</source>
         <translation>Von vorn ansehen: x nach rechts, z nach oben</translation>
     </message>
     <message>
@@ -4646,7 +4937,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Seite</translation>
     </message>
     <message>
-        <source>Look from the side: y to the right, z upwards</source>
+        <source>View from the side: y right, z up</source>
         <translation>Von der Seite ansehen: y nach rechts, z nach oben</translation>
     </message>
     <message>
@@ -4654,7 +4945,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Oben</translation>
     </message>
     <message>
-        <source>Look at the tip from above: x to the right, y upwards</source>
+        <source>View the tip from above: x right, y up</source>
         <translation>Von oben auf die Spitze sehen: x nach rechts, y nach oben</translation>
     </message>
     <message>
@@ -4662,16 +4953,16 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Einpassen</translation>
     </message>
     <message>
-        <source>Show the whole probe; the direction stays</source>
-        <translation>Die ganze Sonde zeigen; die Richtung bleibt</translation>
+        <source>Show the whole probe from the same direction</source>
+        <translation>Die ganze Sonde aus derselben Richtung zeigen</translation>
     </message>
     <message>
         <source>Perspective</source>
         <translation>Perspektive</translation>
     </message>
     <message>
-        <source>What is nearer looks larger; lengths are then not true, so there is no scale</source>
-        <translation>Was näher ist, wirkt größer; Längen stimmen dann nicht, deshalb gibt es keinen Maßstab</translation>
+        <source>Nearer objects look larger, so no scale bar is shown</source>
+        <translation>Nähere Teile wirken größer; deshalb wird kein Maßstab gezeigt</translation>
     </message>
 </context>
 <context>
@@ -4681,8 +4972,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Angehalten; nichts wurde geändert.</translation>
     </message>
     <message>
-        <source>Something went wrong that should not have: {what}.</source>
-        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {what}.</translation>
+        <source>Unexpected error: {what}.</source>
+        <translation>Unerwarteter Fehler: {what}.</translation>
     </message>
 </context>
 <context>
@@ -4692,8 +4983,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Bekanntes Gewicht</translation>
     </message>
     <message>
-        <source>Hang a weight of known mass on the tool. It shows a wrong unit, sign or scale of the sensor, which poses cannot show.</source>
-        <translation>Ein Gewicht bekannter Masse an das Werkzeug hängen. Das zeigt eine falsche Einheit, ein falsches Vorzeichen oder eine falsche Skala des Sensors, die Posen nicht zeigen können.</translation>
+        <source>Hang a known mass on the tool. This reveals wrong sensor units, signs or scale, which poses alone cannot show.</source>
+        <translation>Hängen Sie eine bekannte Masse an das Werkzeug. So zeigen sich falsche Einheiten, Vorzeichen oder Skalen des Sensors, die Posen allein nicht zeigen können.</translation>
     </message>
     <message>
         <source>Mass</source>
@@ -4704,8 +4995,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Unsicherheit (1 Sigma)</translation>
     </message>
     <message>
-        <source>Number, if there is one</source>
-        <translation>Nummer, falls vorhanden</translation>
+        <source>Number (optional)</source>
+        <translation>Nummer (optional)</translation>
     </message>
     <message>
         <source>Certificate</source>
@@ -4720,12 +5011,12 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>2. Mit Gewicht messen</translation>
     </message>
     <message>
-        <source>Take everything off the tool, and hold it still.</source>
+        <source>Remove everything from the tool and hold it still.</source>
         <translation>Alles vom Werkzeug nehmen und es still halten.</translation>
     </message>
     <message>
-        <source>Read. Now hang the weight on the tool, wait until it is at rest, then press 2.</source>
-        <translation>Gemessen. Jetzt das Gewicht an das Werkzeug hängen, warten, bis es ruht, dann 2 drücken.</translation>
+        <source>Done. Hang the weight on the tool, wait until it is at rest, then press 2.</source>
+        <translation>Fertig. Hängen Sie das Gewicht an das Werkzeug, warten Sie, bis es ruht, und drücken Sie dann 2.</translation>
     </message>
     <message>
         <source>Wait until the weight is at rest.</source>
@@ -4735,8 +5026,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
 <context>
     <name>_Missing</name>
     <message>
-        <source>This page could not be made; the messages say why. The other steps can be used.</source>
-        <translation>Diese Seite konnte nicht gemacht werden; die Meldungen sagen, warum. Die anderen Schritte können benutzt werden.</translation>
+        <source>This page could not be created. See Messages for details. The other steps still work.</source>
+        <translation>Diese Seite konnte nicht erstellt werden. Einzelheiten stehen unter Meldungen. Die anderen Schritte funktionieren weiter.</translation>
     </message>
 </context>
 </TS>

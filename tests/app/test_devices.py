@@ -97,18 +97,18 @@ def test_noise_and_margin_of_each_channel_are_shown(page, qtbot):
 
 
 def test_a_wrong_address_is_told_beside_it_and_nothing_can_be_used(page):
-    choose(page.sensor, "Address typed in")
+    choose(page.sensor, "Enter address")
     page.sensor.address.setText("ur+tcp://1.2.3.4")
     assert "no force/torque sensor" in page.sensor.problem
     assert not page.use_button.isEnabled()
     page.sensor.address.setText("sri+tcp://1.2.3.4")
     assert not page.sensor.problem
-    assert "choose the robot" in page.poses.problem
+    assert "Choose the robot that moves it" in page.poses.problem
     choose(page.poses, "Robot")
     page.poses.address.setText("ur+tcp://1.2.3.5")
     assert page.use_button.isEnabled()
     assert page.devices().poses == "ur+tcp://1.2.3.5"
-    choose(page.poses, "Nothing tells it")
+    choose(page.poses, "None")
     assert page.devices().poses is None
 
 
@@ -120,7 +120,7 @@ def test_a_recording_that_is_not_there_is_told_in_words(page, bench, qtbot, tmp_
     page.sensor.recording.edit.setText(str(tmp_path / "none.mcap"))
     click(qtbot, page.try_button)
     qtbot.waitUntil(lambda: bool(told), timeout=PATIENCE_MS)
-    assert "could not be opened" in told[0].text
+    assert "Could not open" in told[0].text
     assert "none.mcap" in page.sensor.problem
     assert Step.DEVICES in bench.failed
     assert page.try_button.isEnabled()
@@ -173,8 +173,8 @@ def test_an_unplugged_sensor_and_its_return_are_told(page, bench, qtbot):
     with emulator(
         "sri", "tcp", script=Script([FaultEvent(1.0, Fault.RECONNECT, 1.5)]), signal=sine((5, 5, 5, 1, 1, 1))
     ) as device:
-        choose(page.sensor, "Address typed in")
-        choose(page.poses, "Nothing tells it")
+        choose(page.sensor, "Enter address")
+        choose(page.poses, "None")
         page.sensor.address.setText(device.url)
         click(qtbot, page.use_button)
         tick_until(qtbot, page, lambda: heard("plug it in again"))

@@ -62,7 +62,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     assert page.exported.verified
     assert "verified" in page.bar.words
     assert window.told[-1].weight is Weight.GOOD
-    window.wait(lambda: "exported as it is" in page.standing.text())
+    window.wait(lambda: "Verified and exported" in page.standing.text())
     assert page.show_folder.isVisible()
     folder = window.desk.folder
     done = CliRunner().invoke(
@@ -82,7 +82,9 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     window.bench.go_to.connect(went.append)
     page.checklist.wanted.emit(Step.VERIFY)
     assert went == [Step.VERIFY]
-    assert "fill in Readings" in page.standing.text()  # in the window's words, not the command line's
+    assert (
+        "or enter Readings under Settings to match the sensor"
+    ) in page.standing.text()  # in the window's words, not the command line's
     assert "--" not in page.standing.text()
     page.settings.rate.setValue(200.0)
     window.wait(lambda: "Not verified" in page.standing.text())

@@ -47,8 +47,8 @@ def click(made, button):
     made.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def typed(page, address, poses="Nothing tells it"):
-    page.sensor.kind.setCurrentIndex(page.sensor.kind.findText("Address typed in"))
+def typed(page, address, poses="None"):
+    page.sensor.kind.setCurrentIndex(page.sensor.kind.findText("Enter address"))
     page.poses.kind.setCurrentIndex(page.poses.kind.findText(poses))
     page.sensor.address.setText(address)
 
@@ -118,7 +118,7 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
     made.wait(lambda: not page.work.going_on)
     made.idle()
     # Nothing was touched. Whether the robot had said a pose by then decides between a verdict and the reason for none.
-    made.wait(lambda: made.said("did not pass") or made.said("verify-1.mcap"))
+    made.wait(lambda: made.said("Verification failed") or made.said("verify-1.mcap"))
     reason = [text for text in made.window.messages.texts() if "verify-1.mcap" in text]
     assert page.bar.words == (reason[0] if reason else "")
     assert ("recording", "verify-1.mcap") in made.window.bench.desk.state.current_inputs
@@ -170,7 +170,7 @@ def test_a_replay_that_cannot_be_played(made, tmp_path, damage):
     page.sensor.kind.setCurrentIndex(page.sensor.kind.findText("Replay a recording"))
     page.sensor.recording.edit.setText(str(file))
     click(made, page.use_button)
-    made.wait_said("could not be opened", "r.mcap")
+    made.wait_said("Could not open", "r.mcap")
     assert page.sensor.problem
     assert page.use_button.isEnabled()  # to be tried again
     assert made.alive()
@@ -182,7 +182,7 @@ def test_a_replay_that_cannot_be_played(made, tmp_path, damage):
 
 def test_a_session_whose_replay_is_gone_opens_all_the_same(made, tmp_path):
     made.open(equipped(tmp_path / "s", f"replay://{tmp_path}/gone.mcap", f"replay://{tmp_path}/gone.mcap"))
-    made.wait_said("could not be opened", "gone.mcap", "step 1")
+    made.wait_said("Could not open", "gone.mcap", "step 1")
     page = made.page(Step.GRAVITY)
     made.idle()
     if page.primary.isEnabled():

@@ -75,7 +75,7 @@ def test_at_the_desk(open_window):
 
     open_window.window.bench.do("Doing", action)
     wait_told(open_window, "at the desk")
-    open_window.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
+    open_window.window.bench.desk.do(lambda session: session.note("continues")).result(10)
 
 
 def test_in_a_follower_while_samples_come(open_window):

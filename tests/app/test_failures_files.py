@@ -142,7 +142,7 @@ def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
     full.free()
     shown(made.qtbot, made.window, made.window.menus.open_again)
     made.wait(lambda: made.window.bench.connected)
-    made.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
+    made.window.bench.desk.do(lambda session: session.note("continues")).result(10)
     assert not made.unexpected
     close(made)
     assert results(folder) == before
@@ -205,7 +205,7 @@ def test_on_a_disk_that_really_is_small(made, tmp_path):
         assert made.alive()
         (disk / "filling").unlink()
         shown(made.qtbot, made.window, made.window.menus.open_again)
-        made.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
+        made.window.bench.desk.do(lambda session: session.note("continues")).result(10)
         close(made)
         assert not check(disk / "s").problems
     finally:
@@ -272,7 +272,7 @@ def test_results_that_are_damaged_are_said_and_every_page_still_opens(made, read
     for step in Step:
         made.page(step)
         made.idle()
-    made.wait_said("not as they were written", "session verify")
+    made.wait_said("files in this session have changed since they were written", "session verify")
     assert made.alive()
     assert not made.unexpected
 
@@ -351,7 +351,7 @@ def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
     made.wait_said("gravity-1.mcap", "adopted")
     assert made.window.pages.step is Step.GRAVITY
     page = made.window.pages.current
-    made.wait(lambda: page.primary.text() == "Go on with gravity-1.mcap")
+    made.wait(lambda: page.primary.text() == "Continue gravity-1.mcap")
     (kept,) = [each for each in made.window.bench.desk.state.inputs if each.name == "gravity-1.mcap"]
     assert kept.about["wrenches"] > 200
     assert not made.unexpected

@@ -135,7 +135,7 @@ def test_killed_amid_a_probe_it_is_there_again_with_its_stage_and_its_undo(qtbot
         made.idle()
         assert bench.undo.undoText() == "place the mesh"
         made.window.menus.undo.trigger()
-        made.wait(lambda: page.bar.primary.text() == "Say where it lies (3)")
+        made.wait(lambda: page.bar.primary.text() == "Align with sensor (3)")
         made.idle()
         made.window.menus.undo.trigger()
         made.wait(lambda: page.stages.mesh is None)

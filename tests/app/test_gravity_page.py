@@ -117,7 +117,7 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
 def test_poses_are_left_out_by_key_and_undone(window):
     w = window(lambda session: record(session, "gravity-1.mcap", batches()))
     table = w.page.panel.table
-    w.until(lambda: w.page.primary.text().startswith("Go on with gravity-1"))
+    w.until(lambda: w.page.primary.text().startswith("Continue gravity-1"))
     w.bench.do("compute", lambda session: _computed(session))
     w.until(lambda: w.page.run.outcome is not None)
     assert len(table.rows) == 6
@@ -149,7 +149,9 @@ def test_by_key_the_space_bar_takes_poses(window):
     def states():
         return {row.state for row in w.page.panel.table.rows}
 
-    w.until(lambda: w.page.panel.state.word == "still: SPACE" and PoseState.LEFT_OUT in states(), steps=50)
+    w.until(
+        lambda: w.page.panel.state.word == "still: press SPACE" and PoseState.LEFT_OUT in states(), steps=50
+    )
     assert PoseState.TAKEN not in states()
     w.widget.activateWindow()
     w.qtbot.waitUntil(w.widget.isActiveWindow, timeout=20_000)
@@ -220,7 +222,7 @@ def test_too_few_poses_are_kept_and_gone_on_from(window):
 
     w = window(interrupted)
     w.open()
-    w.until(lambda: w.page.primary.text() == "Go on with gravity-1.mcap", steps=0)
+    w.until(lambda: w.page.primary.text() == "Continue gravity-1.mcap", steps=0)
     w.start()
     w.until(lambda: len(w.page.panel.table.rows) == 2)
     w.take(2)
@@ -237,7 +239,7 @@ def test_stopping_keeps_the_recording(window):
     w.press(w.page.second)
     w.until(lambda: w.page.run.phase is Phase.IDLE, steps=0)
     assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
-    w.until(lambda: w.page.primary.text() == "Go on with gravity-1.mcap", steps=0)
+    w.until(lambda: w.page.primary.text() == "Continue gravity-1.mcap", steps=0)
     w.press(w.page.primary)  # there is no still pose in it
     w.until(lambda: bool(w.page.run.problem), steps=0)
     assert "hold more of them still" in w.page.panel.problem.text
@@ -246,13 +248,13 @@ def test_stopping_keeps_the_recording(window):
 def test_without_devices_or_poses_it_says_what_to_choose(window):
     w = window()
     w.press(w.page.primary)
-    assert "choose and open a sensor" in w.page.panel.problem.text
+    assert "Choose and open a sensor under Devices first" in w.page.panel.problem.text
     w.open("virtual://bench?probe=convex&speed=step", None)
     w.press(w.page.primary)
-    assert "no source of poses" in w.page.panel.problem.text
+    assert "No pose source" in w.page.panel.problem.text
     assert w.page.run.phase is Phase.IDLE
     w.page.show_state(StepStatus(StepState.LOCKED, "Choose devices first."))
-    assert w.page.primary.text() == "Go to Devices"
+    assert w.page.primary.text() == "Open Devices"
     assert "Choose devices first." in w.page.panel.problem.text
 
 

@@ -73,10 +73,10 @@ def test_three_clicks_weigh_a_kilogram(gravity):
     assert not panel.verdict.isVisible()
     panel.certificate.setText("DKD-7")
     w.click(panel.first)
-    assert "Take everything off" in panel.hint.text()
+    assert "Remove everything" in panel.hint.text()
     assert not page.primary.isEnabled()  # no captures beside it
     w.until(panel.second.isEnabled)
-    assert "hang the weight on the tool" in panel.hint.text()
+    assert "Hang the weight on the tool" in panel.hint.text()
     w.click(panel.second)
     w.until(lambda: panel.outcome is not None and not panel.busy)
     assert panel.outcome.outcome is CheckOutcome.PASSED, panel.outcome.sentence
@@ -135,7 +135,7 @@ def test_a_new_calibration_makes_the_check_stale(gravity):
     )
     done.result()
     w.until(lambda: bool(panel.outcome.stale), steps=0)
-    assert panel.verdict.text.startswith("Stale: check again")
+    assert panel.verdict.text.startswith("Outdated: check again")
 
 
 def test_a_press_on_a_marker_is_located(point):

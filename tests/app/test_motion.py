@@ -89,7 +89,7 @@ def test_the_session_that_is_open_is_what_is_run(qtbot, tmp_path):
         qtbot.waitUntil(made.controls.start.isEnabled, timeout=LONG_MS)
         assert made.controls.bundle.text().startswith("bench 1: ")
         assert "no gains" in made.controls.bundle.text()
-        assert "taken as not turned" in made.controls.bundle.text()
+        assert "no rotation is assumed" in made.controls.bundle.text()
         made.begin()  # and so it can be run
         qtbot.waitUntil(lambda: made.run.newest is not None or not made.run.running, timeout=LONG_MS)
         assert made.run.failure == ""

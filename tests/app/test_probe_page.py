@@ -74,11 +74,11 @@ def prepared(qtbot, page, file):
 
 def test_from_a_dropped_file_to_a_probe_in_use_and_back(qtbot, bench, page, tmp_path):
     stages, next_one = page.stages, page.bar.primary
-    assert next_one.text() == "Choose a mesh..."
+    assert next_one.text() == "Choose mesh…"
     bench.scene.dropped.emit(egg(tmp_path))
     qtbot.waitUntil(lambda: stages.dense is not None, timeout=PATIENCE)
     settled(qtbot, page)
-    assert next_one.text() == "Say where it lies (3)"
+    assert next_one.text() == "Align with sensor (3)"
     assert bench.scene.probe is stages.dense.content.probe
 
     page.place.panel.numbers[2].setValue(35.0)
@@ -173,8 +173,8 @@ def test_every_stage_is_in_the_session_at_once_and_can_be_undone(qtbot, bench, p
         other.close_page()
     for wanted, words in (
         (("egg.stl", True, advised), "Use this probe"),
-        (("egg.stl", False, None), "Say where it lies (3)"),
-        (None, "Choose a mesh..."),
+        (("egg.stl", False, None), "Align with sensor (3)"),
+        (None, "Choose mesh…"),
     ):
         bench.undo.undo()
         reached(wanted)
@@ -233,7 +233,7 @@ def test_the_unit_is_a_question_with_lengths(qtbot, page, tmp_path):
     page.stages.take(egg(tmp_path, "small.stl", scale=0.2))
     qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
     settled(qtbot, page)
-    assert page.bar.primary.text() == "Say how long the probe is (1)"
+    assert page.bar.primary.text() == "Enter probe length (1)"
     assert page.stages.dense is None
     buttons = page.mesh_section.unit_buttons
     assert {"mm", "cm", "in"} <= set(buttons)
@@ -256,7 +256,7 @@ def test_work_can_be_stopped_and_begun_again(qtbot, bench, page, tmp_path):
     assert bench.running == set()
     assert page.bar.words.startswith("Stopped")
     assert page.stages.dense is None
-    assert page.bar.primary.text() == "Make the outer surface"
+    assert page.bar.primary.text() == "Create outer surface"
     press(qtbot, page.bar.primary)
     qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)
 

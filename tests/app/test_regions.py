@@ -119,7 +119,7 @@ def test_a_new_region_can_be_painted_at_once(window, qtbot):
     page = window.page
     assert page.panel.tools.tool == "brush"
     assert window.scene.mouse.tool == "brush"
-    assert "Nothing is painted" in said(window)
+    assert "Nothing painted yet" in said(window)
     draw(window, (0, 0, 1), (0.3, 0, 0.95))
     assert window.bench.undo.undoText() == "paint Region 1"
     colours = window.scene.probe_layer._colours
@@ -341,13 +341,13 @@ def test_it_is_kept_by_itself_and_found_again(window, opened, folder, qtbot):  #
     draw(window, (0, 0, 1))
     assert "in a moment" in said(window)
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
-    qtbot.waitUntil(lambda: "does not have them yet" in said(window), timeout=LONG)
+    qtbot.waitUntil(lambda: "but not yet applied to the probe" in said(window), timeout=LONG)
     draw(window, (0, 1, 0))
     painted = rows(window)
     opened.close(window)  # at once: nothing waits for the pause
     again = opened(folder)
     assert rows(again) == painted
-    assert "does not have them yet" in said(again)
+    assert "but not yet applied to the probe" in said(again)
 
 
 def test_leaving_keeps_at_once_and_gives_the_tool_back(window, qtbot):
@@ -421,7 +421,7 @@ def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
     draw(window, (0, 1, 0))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
-    qtbot.waitUntil(lambda: "does not have them yet" in said(window), timeout=LONG)
+    qtbot.waitUntil(lambda: "but not yet applied to the probe" in said(window), timeout=LONG)
 
 
 def test_another_alignment_opens_another_surface(window, qtbot):
@@ -439,8 +439,8 @@ def test_without_a_probe_it_is_locked(opened, tmp_path, qtbot):
     Session.create(tmp_path / "empty").close()
     window = opened(tmp_path / "empty", wait=False)
     panel = window.page.panel
-    assert "no probe yet" in said(window)
-    assert window.page.bar.primary.text() == "Go to Probe"
+    assert "No probe yet" in said(window)
+    assert window.page.bar.primary.text() == "Open Probe"
     assert not panel.body.isVisible()
     with qtbot.waitSignal(window.bench.go_to) as asked:
         window.page.bar.primary.click()

@@ -21,7 +21,7 @@ def test_every_key_of_every_page_is_listed(window):
     keys = {each.keys: each.words for each in keys_of(window)}
     assert keys["F1"] == "This page"
     assert keys["Ctrl+Z"] == "Undo"
-    assert "Take this pose" in keys["Space"]
+    assert "Capture this pose" in keys["Space"]
     assert {"Ctrl+1", "Ctrl+6", "[", "]", "M", "Esc", "Alt+Up", "Ctrl+C"} <= keys.keys()
     assert all(keys.values())
 
@@ -36,6 +36,6 @@ def test_the_sheet_also_has_what_no_action_stands_for(window, qtbot):
     sheet = CheatSheet(window)
     qtbot.addWidget(sheet)
     words = [sheet.table.item(row, 1).text() for row in range(sheet.table.rowCount())]
-    assert "Turn the view" in words
+    assert "Rotate the view" in words
     assert "Leave out the selected poses; remove the selected markers" in words
     assert len(words) == len(set(words))

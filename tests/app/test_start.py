@@ -80,7 +80,7 @@ def test_a_session_that_is_open_elsewhere_can_be_looked_at(qtbot, window, tmp_pa
         qtbot.waitUntil(lambda: "another process" in asked(window), timeout=20_000)
         answer(qtbot, window, "Open read-only")
         assert [note.text for note in window.bench.desk.state.notes] == ["a note of theirs"]
-        read_only(qtbot, window, "another program is writing")
+        read_only(qtbot, window, "another program is using this session")
         other.communicate("\n")
 
 
@@ -134,7 +134,7 @@ def test_a_damaged_session_is_salvaged_by_a_button(qtbot, window, damaged):
     assert [note.text for note in bench.desk.state.notes][:2] == ["before", "after"]
     assert any("At least one record is lost" in text for text in window.messages.texts())
     assert files(damaged) == before
-    bench.desk.do(lambda session: session.note("goes on")).result()
+    bench.desk.do(lambda session: session.note("continues")).result()
 
 
 def test_a_damaged_session_is_opened_read_only_by_a_button(qtbot, window, damaged):
@@ -172,7 +172,7 @@ def test_a_damaged_session_is_opened_up_to_the_damage_by_a_button(qtbot, window,
     bench = answer(qtbot, window, "Open up to the damage")
     assert bench.desk.folder == damaged
     assert [note.text for note in bench.desk.state.notes] == ["before"]
-    bench.desk.do(lambda session: session.note("goes on")).result()
+    bench.desk.do(lambda session: session.note("continues")).result()
     (kept,) = damaged.glob("journal.before-repair-*")
     assert kept.read_bytes() == journal
 
@@ -185,7 +185,7 @@ def test_a_folder_on_a_disk_that_is_read_only_is_opened_read_only(qtbot, window,
             session.note("there")
         subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True, capture_output=True)
         shown(qtbot, window, lambda: window.sessions.open(folder))
-        read_only(qtbot, window, "the folder of this session cannot be written")
+        read_only(qtbot, window, "the session folder is not writable")
     finally:
         subprocess.run(["umount", "-l", str(disk)], check=False)
 
@@ -197,7 +197,7 @@ def test_a_folder_that_cannot_be_written_is_opened_read_only(qtbot, window, tmp_
     monkeypatch.setattr("contactbench.pipeline.session.lock.writable", lambda _path: False)
     bench = shown(qtbot, window, lambda: window.sessions.open(tmp_path / "s"))
     assert [note.text for note in bench.desk.state.notes] == ["there"]
-    read_only(qtbot, window, "the folder of this session cannot be written")
+    read_only(qtbot, window, "the session folder is not writable")
     assert files(tmp_path / "s") == before
 
 
@@ -242,7 +242,7 @@ def _cut_short(folder):
     subprocess.run([sys.executable, "-c", code, str(folder)], check=False)
 
 
-@pytest.mark.parametrize(("answer", "left"), [("Take it in", 0), ("Leave it", 1)])
+@pytest.mark.parametrize(("answer", "left"), [("Add recording", 0), ("Leave it", 1)])
 def test_after_a_crash_the_recordings_are_asked_for(qtbot, window, tmp_path, answer, left):
     folder = tmp_path / "s"
     _cut_short(folder)

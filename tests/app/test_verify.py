@@ -217,9 +217,9 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
     assert page.work.touches.left_out == {"M1": "the arm cannot get there"}
     assert "the arm cannot get there" in window.told[-1].text
     page.panel_touch.leave_out("M2", "  ")
-    assert "needs a reason" in window.told[-1].text
+    assert "enter a reason" in window.told[-1].text
     page.panel_touch.leave_out("M1", "again")
-    assert "touched meanwhile" in window.told[-1].text
+    assert "was not skipped because it has been touched in the meantime" in window.told[-1].text
     page.tick()
     assert page.panel_markers.table.item(0, 4).text() == "left out"
     press(window.bench.live, page.work.markers.all[1].point_S)
@@ -307,8 +307,8 @@ def shown(window, monkeypatch, contact, force=9.0, on=None):
 
 
 IMPLAUSIBLE = (
-    "No single touch explains this wrench: 4.2 sigma left over, torque arm 12 mm. Two touches at once, or wrong units,"
-    " mount or compensation?"
+    "No single touch explains this wrench (residual 4.2 sigma, moment arm 12 mm). Check for two"
+    " simultaneous touches, and check units, mount and compensation."
 )
 RIVALS = [SimpleNamespace(point=np.array([0.0, 0.02, 0.1])), SimpleNamespace(point=np.array([0.0, 0.0, 0.1]))]
 
@@ -320,21 +320,21 @@ RIVALS = [SimpleNamespace(point=np.array([0.0, 0.02, 0.1])), SimpleNamespace(poi
         (found(Reason.VERTEX, confidence=1.0), "Confidence 99.9 %", True, None, None),
         (
             found(Reason.BY_REGION, candidates=RIVALS),
-            "because of the declared regions",
+            "thanks to the defined regions",
             True,
             2,
-            "could also be here",
+            "possible alternative",
         ),
         (
             found(Reason.AMBIGUOUS, confidence=0.6, candidates=RIVALS),
-            "Confidence 60 %: the wrench fits another place",
+            "Confidence 60 %: the wrench also fits another place",
             False,
             2,
-            "could also be here",
+            "possible alternative",
         ),
         (
             found(Reason.TWO_TOUCHES, second=RIVALS[0].point),
-            "A second touch joined: both are shown.",
+            "Two touches detected; both are shown.",
             False,
             1,
             "second touch",
@@ -363,10 +363,10 @@ def test_how_sure_a_contact_is_and_where_it_could_be_as_well(
     ("reason", "words"),
     [
         (Reason.IMPLAUSIBLE, IMPLAUSIBLE),
-        (Reason.TANGENTIAL, "press more steeply"),
+        (Reason.TANGENTIAL, "Press more directly into it"),
         (Reason.OFF_SURFACE, "No part of the probe faces this force"),
         (Reason.OUTSIDE_REGION, "outside every region"),
-        (Reason.SATURATED, "end of its range"),
+        (Reason.SATURATED, "The sensor is at the limit of its range"),
     ],
 )
 def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, reason, words):
@@ -386,12 +386,12 @@ def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, rea
         ("measured", "Confidence 98 %", True),
         (
             "invented",
-            "Confidence 98 % On a facet that the mesh file did not have: its place is a guess.",
+            "Confidence 98 % On a facet added during repair: its position is an estimate.",
             False,
         ),
         (
             "untouchable",
-            "Confidence 98 % On a region marked untouchable: check the region and the mount.",
+            "Confidence 98 % On an untouchable region: check the region and the mount.",
             False,
         ),
     ],

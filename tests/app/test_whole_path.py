@@ -50,19 +50,19 @@ def begin(hand):
 
 def weigh(hand):
     """Let the virtual bench turn; the first pose by the space bar, the others by themselves."""
-    hand.press("Take each still pose by itself")
+    hand.press("Capture automatically when still")
     hand.press("Start")
-    hand.press("Turn it there for me", LONG)
-    hand.read("You are there", LONG)
+    hand.press("Move virtual tool there", LONG)
+    hand.read("In position", LONG)
     hand.read("Press SPACE", LONG)
     hand.key(Qt.Key.Key_Space)
     hand.read("pose 2 of", LONG)
-    hand.press("Take each still pose by itself")
+    hand.press("Capture automatically when still")
     for _ in range(12):
         if enough(hand):
             break
         poses = count(hand)
-        hand.press("Turn it there for me", LONG)
+        hand.press("Move virtual tool there", LONG)
         hand.until(lambda poses=poses: count(hand) != poses or enough(hand), "another pose", LONG)
     hand.press("Finish")
     hand.read("The calibration adds up to", LONG)
@@ -77,20 +77,20 @@ def enough(hand):
 
 
 def check_a_pose(hand):
-    hand.press("Check one more pose", LONG)
-    hand.press("Turn it there for me", LONG)
-    hand.read("Checked in a pose it had not seen", LONG)
+    hand.press("Check with another pose", LONG)
+    hand.press("Move virtual tool there", LONG)
+    hand.read("Checked with a new pose", LONG)
 
 
 def prepare_the_probe(hand):
     hand.press("Next: Probe")
-    hand.press("Use the virtual bench's housing")
+    hand.press("Use virtual bench housing")
     hand.until(lambda: hand.enabled("Use this probe"), "the probe to be prepared", LONG)
-    advised = hand.reading("facets: contacts move")
-    chart = hand.find("Contact error against the number of facets", QWidget)
+    advised = hand.reading("facets: contacts shift")
+    chart = hand.find("Contact error against facet count", QWidget)
     hand.click(chart, QPoint(chart.width() // 2, chart.height() // 2))
     hand.key(Qt.Key.Key_Right)
-    hand.until(lambda: hand.reading("facets: contacts move") != advised, "another choice")
+    hand.until(lambda: hand.reading("facets: contacts shift") != advised, "another choice")
     rest(600)
     hand.press("Use this probe", LONG)
 
@@ -103,21 +103,21 @@ def paint_a_region(hand):
     for _ in range(5):  # a person sees that nothing is painted yet, and drags once more
         rest(1_000)
         hand.drag(scene, [QPoint(x, y - 10 * step) for step in range(9)])
-        if hand.enabled("Give them to the probe"):
+        if hand.enabled("Apply regions"):
             break
-    hand.press("Give them to the probe", LONG)
+    hand.press("Apply regions", LONG)
     hand.read("The probe has these regions", LONG)
 
 
 def verify(hand):
     hand.press("Next: Verify")
-    hand.until(lambda: hand.enabled("Spread evenly"), "the probe to be loaded", LONG)
-    hand.choose("Where markers are placed", "the whole probe")
-    hand.type("How many markers", "6")
-    hand.press("Spread evenly", LONG)
+    hand.until(lambda: hand.enabled("Distribute evenly"), "the probe to be loaded", LONG)
+    hand.choose("Area for markers", "whole probe")
+    hand.type("Number of markers", "6")
+    hand.press("Distribute evenly", LONG)
     hand.press("Start touching", LONG)
     hand.press("Touch all", LONG)
-    hand.read("All markers are touched", LONG)
+    hand.read("All markers touched", LONG)
     hand.press("Finish")
     hand.read("mean error of 6 touches", LONG)
     hand.read("Passed")
@@ -125,8 +125,8 @@ def verify(hand):
 
 def export(hand, bundle):
     hand.press("Next: Export")
-    hand.read("Verified: ready to be exported", LONG)
-    hand.name_file("Export a file", bundle)
+    hand.read("Verified and ready to export", LONG)
+    hand.name_file("Export file", bundle)
     hand.until(bundle.exists, "the bundle", LONG)
     hand.read(bundle.name, LONG)
 

@@ -226,7 +226,7 @@ def test_help_shortcuts_log_and_about_open(opened):
 def test_diagnostics_are_saved_from_the_menu(qtbot, opened, tmp_path):
     opened.menus.save_diagnostics(tmp_path / "d.zip")
     qtbot.waitUntil(lambda: opened.messages.texts()[:1] != (), timeout=20_000)
-    assert "Diagnostics are saved" in opened.messages.texts()[0]
+    assert "Diagnostics saved as" in opened.messages.texts()[0]
     assert (tmp_path / "d.zip").stat().st_size > 500
 
 
@@ -354,11 +354,14 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
         for name in ("write", "fsync"):
             full.setattr(os, name, refuses)
         window.bench.do("Noting", lambda session: session.note("lost"))
-        qtbot.waitUntil(lambda: any("goes on by itself" in text for text in texts()), timeout=LONG)
+        qtbot.waitUntil(lambda: any("Saving resumes automatically" in text for text in texts()), timeout=LONG)
         times = len(tried)
         qtbot.waitUntil(lambda: len(tried) > times + 1, timeout=LONG)  # it goes on trying
         assert window.bench.desk.refuses
-    qtbot.waitUntil(lambda: any("can be written again" in text for text in texts()), timeout=LONG)
+    qtbot.waitUntil(
+        lambda: any("The disk is writable again and the session continues" in text for text in texts()),
+        timeout=LONG,
+    )
     assert not window.bench.desk.refuses
-    assert sum("goes on by itself" in text for text in texts()) == 1
+    assert sum("Saving resumes automatically" in text for text in texts()) == 1
     window.bench.desk.do(lambda session: session.note("again")).result(10)

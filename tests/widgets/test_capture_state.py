@@ -30,7 +30,7 @@ def test_each_state_has_its_own_word_and_shape(shown):
 
 def test_the_key_is_asked_for_and_the_capture_confirmed(shown):
     shown.show_state(StillState.STILL, by_key=True)
-    assert shown.word == "still: SPACE"
+    assert shown.word == "still: press SPACE"
     shown.show_state(StillState.STILL, by_key=True, wanted=True)
     assert shown.word == "still"
     shown.show_state(StillState.STILL, by_key=True, captured=True)

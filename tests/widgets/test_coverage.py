@@ -55,7 +55,7 @@ def test_each_state_looks_different(shown):
         seen[state] = tuple(_colour(shown, at + QPointF(dx, dy)) for dx, dy in ((0, 0), (6, 0), (3, 3)))
     assert seen[PoseState.TAKEN][0] == colours(dark=False).good
     assert len(set(seen.values())) == 3
-    assert shown.accessibleDescription() == "Poses: 0 taken, 0 left out, 1 rejected"
+    assert shown.accessibleDescription() == "Poses: 0 captured, 0 left out, 1 rejected"
 
 
 def test_what_cannot_be_reached_is_hatched(shown):
@@ -91,4 +91,4 @@ def test_a_tool_tip_names_the_pose(shown):
     pose = row(DOWN)
     shown.show_poses((pose, PoseRow("at 3 s", 3.0, None, "bumped", PoseState.REJECTED)), None)
     assert shown._under(shown.spot_of(pose)).startswith("pose 1: 0°, +z down")
-    assert "Filled: taken" in shown._under(QPointF(0, 0))
+    assert "Filled: captured" in shown._under(QPointF(0, 0))

@@ -29,7 +29,7 @@ def _text(table, row, column, role=Qt.ItemDataRole.DisplayRole):
 
 
 def test_it_says_state_and_residual_in_words_and_numbers(table):
-    assert [_text(table, row, STATE) for row in range(4)] == ["taken", "rejected", "rejected", "left out"]
+    assert [_text(table, row, STATE) for row in range(4)] == ["captured", "rejected", "rejected", "left out"]
     assert [_text(table, row, SIGMAS) for row in range(4)] == ["0.8 σ", "6.1 σ", "-", "-"]
     assert "bumped" in _text(table, 1, 0, Qt.ItemDataRole.ToolTipRole)
     assert "torque 6.1 sigma" in _text(table, 1, 0, Qt.ItemDataRole.ToolTipRole)
@@ -65,7 +65,7 @@ def test_a_verdict_has_word_and_reasons(qtbot):
     box = VerdictBox()
     qtbot.addWidget(box)
     box.show_verdict(REFUSE, ["Too few poses.", "Take more."])
-    assert box.text == "Refused: it must not be used: Too few poses.\nTake more."
+    assert box.text == "Rejected: do not use: Too few poses.\nTake more."
     box.show_verdict(GOOD, ["Fine."], "So far")
     assert box.accessibleName() == "So far: Fine."
 

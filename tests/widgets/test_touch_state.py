@@ -50,7 +50,7 @@ def test_how_sure_the_contact_is_stands_below_and_a_doubt_has_a_sign(state):
     assert state.grab().toImage() != empty
     theme = colours(False)
     assert has(state, theme.good, below)
-    state.show_contact("A second touch joined: both are shown.", False)
+    state.show_contact("Two touches detected; both are shown.", False)
     assert has(state, theme.warning, below)
     assert not has(state, theme.good, below)
     state.show_contact("")
@@ -75,7 +75,7 @@ def test_the_error_is_a_number_with_its_scatter(qtbot):
     assert view.number == "–"
     view.show_errors(0.734, None)
     assert view.number == "0.73 mm"
-    view.show_errors(0.734, 0.123, (0.6, 0.8), (0.5, -0.2, 0.1), 2.0, "of the touches that count")
+    view.show_errors(0.734, 0.123, (0.6, 0.8), (0.5, -0.2, 0.1), 2.0, "of accepted touches")
     assert view.number == "0.73 ± 0.12 mm"
     assert "0.73 ± 0.12 mm" in view.accessibleName()
     assert not view.grab().isNull()

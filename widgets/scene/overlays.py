@@ -33,17 +33,17 @@ class ViewButtons(QFrame):
         row.setSpacing(2)
         self.buttons: dict[str, QToolButton] = {}
         for name, text, tip in (
-            ("front", self.tr("Front"), self.tr("Look from the front: x to the right, z upwards")),
-            ("side", self.tr("Side"), self.tr("Look from the side: y to the right, z upwards")),
-            ("top", self.tr("Top"), self.tr("Look at the tip from above: x to the right, y upwards")),
-            ("fit", self.tr("Fit"), self.tr("Show the whole probe; the direction stays")),
+            ("front", self.tr("Front"), self.tr("View from the front: x right, z up")),
+            ("side", self.tr("Side"), self.tr("View from the side: y right, z up")),
+            ("top", self.tr("Top"), self.tr("View the tip from above: x right, y up")),
+            ("fit", self.tr("Fit"), self.tr("Show the whole probe from the same direction")),
         ):
             button = self._button(text, tip)
             button.clicked.connect(lambda _checked=False, name=name: self.chosen.emit(name))
             self.buttons[name] = button
         depth = self._button(
             self.tr("Perspective"),
-            self.tr("What is nearer looks larger; lengths are then not true, so there is no scale"),
+            self.tr("Nearer objects look larger, so no scale bar is shown"),
         )
         depth.setCheckable(True)
         depth.toggled.connect(self.perspective)
@@ -93,7 +93,7 @@ class ScaleBar(QWidget):
         """Say how long a pixel is, m."""
         if metres_per_pixel != self._per_pixel:
             self._per_pixel = metres_per_pixel
-            self.setAccessibleName(self.tr("Scale: the bar is {length} long").format(length=self.text))
+            self.setAccessibleName(self.tr("Scale bar: {length}").format(length=self.text))
             self.update()
 
     @property

@@ -498,7 +498,7 @@ class Scene(QWidget):
         if touches.covariances is not None and np.isfinite(touches.covariances).any():
             signs.append(KeySign("ellipse", self.tr("95 % of noise, {times} times").format(times=times)))
         if touches.rivals is not None and len(touches.rivals):
-            signs.append(KeySign("ring", self.tr("could also be here")))
+            signs.append(KeySign("ring", self.tr("possible alternative")))
         return signs
 
     def _arrange(self) -> None:

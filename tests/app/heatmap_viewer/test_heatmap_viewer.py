@@ -107,7 +107,7 @@ def test_a_recording_is_shown_and_narrowed(qtbot, viewer, files):
     viewer.controls.force.setFocus()
     qtbot.keyClick(viewer.controls.force, Qt.Key.Key_End)  # the lower handle: nothing is that hard
     qtbot.waitUntil(lambda: side.frame.contacts == 0, timeout=LONG)
-    assert "No contact in this time window" in side.words.text()
+    assert "No contacts in this time window and force range" in side.words.text()
 
 
 def test_a_quantity_that_is_not_there_is_said(qtbot, viewer, files):

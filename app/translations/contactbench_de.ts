@@ -32,11 +32,11 @@
     <name>ActionBar</name>
     <message>
         <source>What to do next</source>
-        <translation type="unfinished"></translation>
+        <translation>Was als Nächstes zu tun ist</translation>
     </message>
     <message>
         <source>Message</source>
-        <translation type="unfinished"></translation>
+        <translation>Meldung</translation>
     </message>
 </context>
 <context>
@@ -337,11 +337,11 @@
     </message>
     <message>
         <source>Esc</source>
-        <translation type="unfinished"></translation>
+        <translation>Esc</translation>
     </message>
     <message>
         <source>Have the probe go back (motion control)</source>
-        <translation type="unfinished"></translation>
+        <translation>Sonde zurückziehen (Bewegungsregelung)</translation>
     </message>
     <message>
         <source>P</source>
@@ -427,7 +427,7 @@
     <name>ColourBar</name>
     <message>
         <source>darkest: up to {largest:.3g}</source>
-        <translation type="unfinished"></translation>
+        <translation>am dunkelsten: bis {largest:.3g}</translation>
     </message>
     <message>
         <source>{title}: from {low:.3g} to {high:.3g}</source>
@@ -504,31 +504,31 @@
     <name>Departure</name>
     <message>
         <source>Work is going on</source>
-        <translation type="unfinished"></translation>
+        <translation>Es wird noch gearbeitet</translation>
     </message>
     <message>
         <source>Stopped, nothing that was chosen or recorded until now is lost. What is being computed is computed again when the session is opened the next time.</source>
-        <translation type="unfinished"></translation>
+        <translation>Beim Anhalten geht nichts verloren, was bisher gewählt oder aufgezeichnet wurde. Was gerade berechnet wird, wird beim nächsten Öffnen der Sitzung neu berechnet.</translation>
     </message>
     <message>
         <source>Stopped, what was recorded until now is kept, and can be gone on from the next time.</source>
-        <translation type="unfinished"></translation>
+        <translation>Beim Anhalten bleibt erhalten, was bisher aufgezeichnet wurde; beim nächsten Mal geht es dort weiter.</translation>
     </message>
     <message>
         <source>Wait until it is done</source>
-        <translation type="unfinished"></translation>
+        <translation>Warten, bis es fertig ist</translation>
     </message>
     <message>
         <source>Stop, and keep what is done</source>
-        <translation type="unfinished"></translation>
+        <translation>Anhalten und behalten, was fertig ist</translation>
     </message>
     <message>
         <source>Do not close</source>
-        <translation type="unfinished"></translation>
+        <translation>Nicht schließen</translation>
     </message>
     <message>
         <source>It is closed as soon as the work is done; until then it can be used.</source>
-        <translation type="unfinished"></translation>
+        <translation>Geschlossen wird, sobald die Arbeit fertig ist; bis dahin kann alles benutzt werden.</translation>
     </message>
 </context>
 <context>
@@ -681,7 +681,7 @@
     </message>
     <message>
         <source>Next: Gravity</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter: Schwerkraft</translation>
     </message>
     <message>
         <source>These devices are recording. Stop the recording before you change them.</source>
@@ -1005,7 +1005,7 @@
     </message>
     <message>
         <source>{name}; left empty: {otherwise}</source>
-        <translation type="unfinished"></translation>
+        <translation>{name}; leer gelassen: {otherwise}</translation>
     </message>
     <message>
         <source>left out</source>
@@ -1397,7 +1397,7 @@
     </message>
     <message>
         <source>calibrate gravity</source>
-        <translation type="unfinished"></translation>
+        <translation>Schwerkraft kalibrieren</translation>
     </message>
     <message>
         <source>Gravity: {why}</source>
@@ -1567,27 +1567,27 @@
     </message>
     <message>
         <source>from the first contact</source>
-        <translation type="unfinished"></translation>
+        <translation>ab dem ersten Kontakt</translation>
     </message>
     <message>
         <source>from each one&apos;s beginning</source>
-        <translation type="unfinished"></translation>
+        <translation>ab dem jeweiligen Anfang</translation>
     </message>
     <message>
         <source>Time of two that are compared</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeit der beiden Verglichenen</translation>
     </message>
     <message>
         <source>Whether both times count from where the probe was touched first, or from where each file begins.</source>
-        <translation type="unfinished"></translation>
+        <translation>Ob beide Zeiten ab der ersten Berührung der Sonde zählen oder ab dem Anfang der jeweiligen Datei.</translation>
     </message>
     <message>
         <source>How much later the second one is shown, s</source>
-        <translation type="unfinished"></translation>
+        <translation>Um wie viel später die zweite gezeigt wird, s</translation>
     </message>
     <message>
         <source>Moves the second one against the first in time.</source>
-        <translation type="unfinished"></translation>
+        <translation>Verschiebt die zweite gegen die erste in der Zeit.</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -1647,11 +1647,11 @@
     </message>
     <message>
         <source>Time</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeit</translation>
     </message>
     <message>
         <source>Second one later by</source>
-        <translation type="unfinished"></translation>
+        <translation>Zweite später um</translation>
     </message>
     <message>
         <source>Heatmap</source>
@@ -1663,11 +1663,11 @@
     </message>
     <message>
         <source>A peak is the largest force: nothing is weighed in it.</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Spitze ist die größte Kraft: Dabei wird nichts gewichtet.</translation>
     </message>
     <message>
         <source>What is shown does not say how sure its contacts are: locate them again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die gezeigten Daten sagen nicht, wie sicher ihre Kontakte sind: Orten Sie sie neu.</translation>
     </message>
     <message>
         <source>Forces unknown.</source>
@@ -1679,7 +1679,7 @@
     </message>
     <message>
         <source>Nothing is shown yet: open files or a session first.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ist nichts zu sehen: Öffnen Sie zuerst Dateien oder eine Sitzung.</translation>
     </message>
     <message>
         <source>{title}: {percent}</source>
@@ -1702,11 +1702,11 @@
     </message>
     <message>
         <source>MP4 film (*.mp4)</source>
-        <translation type="unfinished"></translation>
+        <translation>MP4-Film (*.mp4)</translation>
     </message>
     <message>
         <source>Animated GIF (*.gif)</source>
-        <translation type="unfinished"></translation>
+        <translation>Animiertes GIF (*.gif)</translation>
     </message>
     <message>
         <source>Saving {name}</source>
@@ -1737,11 +1737,11 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Nothing is shown yet: open files or a session first.</source>
-        <translation type="unfinished"></translation>
+        <translation>Noch ist nichts zu sehen: Öffnen Sie zuerst Dateien oder eine Sitzung.</translation>
     </message>
     <message>
         <source>The picture is in the clipboard.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Bild ist in der Zwischenablage.</translation>
     </message>
     <message>
         <source>Opening</source>
@@ -1780,23 +1780,23 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <name>HelpBook</name>
     <message>
         <source>Help</source>
-        <translation type="unfinished">Hilfe</translation>
+        <translation>Hilfe</translation>
     </message>
     <message>
         <source>Search</source>
-        <translation type="unfinished"></translation>
+        <translation>Suchen</translation>
     </message>
     <message>
         <source>Search the help</source>
-        <translation type="unfinished"></translation>
+        <translation>In der Hilfe suchen</translation>
     </message>
     <message>
         <source>Pages</source>
-        <translation type="unfinished"></translation>
+        <translation>Seiten</translation>
     </message>
     <message>
         <source>No page has these words.</source>
-        <translation type="unfinished"></translation>
+        <translation>Keine Seite enthält diese Wörter.</translation>
     </message>
 </context>
 <context>
@@ -1893,7 +1893,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Step {} of {}: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>Schritt {} von {}: {}</translation>
     </message>
 </context>
 <context>
@@ -2130,7 +2130,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>&amp;Copy the picture of the 3D view</source>
-        <translation type="unfinished"></translation>
+        <translation>Bild der 3D-Ansicht &amp;kopieren</translation>
     </message>
     <message>
         <source>&amp;View</source>
@@ -2194,7 +2194,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>&amp;Tutorial</source>
-        <translation type="unfinished"></translation>
+        <translation>&amp;Einführung</translation>
     </message>
     <message>
         <source>&amp;Shortcuts</source>
@@ -2210,7 +2210,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>The picture of the 3D view is in the clipboard.</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Bild der 3D-Ansicht ist in der Zwischenablage.</translation>
     </message>
     <message>
         <source>Longest UI stall {:.0f} ms; 99th percentile {:.0f} ms.</source>
@@ -2509,7 +2509,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>How fast its time goes, against the clock: 1.00 is real time. Measured over the last frames.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie schnell die Zeit der Simulation gegen die Uhr läuft: 1.00 ist Echtzeit. Über die letzten Bilder gemessen.</translation>
     </message>
     <message>
         <source>Use a bundle of the open session in its current state.</source>
@@ -2541,59 +2541,59 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Nothing moves any more; it is about to end.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts bewegt sich mehr; der Lauf endet gleich.</translation>
     </message>
     <message>
         <source>No bundle</source>
-        <translation type="unfinished"></translation>
+        <translation>Kein Paket</translation>
     </message>
     <message>
         <source>Choose the bundle that is to be run.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wählen Sie das Paket, das laufen soll.</translation>
     </message>
     <message>
         <source>Opening the bundle</source>
-        <translation type="unfinished"></translation>
+        <translation>Das Paket wird geöffnet</translation>
     </message>
     <message>
         <source>Ready</source>
-        <translation type="unfinished"></translation>
+        <translation>Bereit</translation>
     </message>
     <message>
         <source>Nothing moves until you press Start.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts bewegt sich, bis Sie Starten drücken.</translation>
     </message>
     <message>
         <source>Starting</source>
-        <translation type="unfinished"></translation>
+        <translation>Startet</translation>
     </message>
     <message>
         <source>The virtual robot is being made.</source>
-        <translation type="unfinished"></translation>
+        <translation>Der virtuelle Roboter wird angelegt.</translation>
     </message>
     <message>
         <source>Stopping</source>
-        <translation type="unfinished">Wird angehalten</translation>
+        <translation>Hält an</translation>
     </message>
     <message>
         <source>The probe leaves the phantom, then stands still.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Sonde verlässt das Phantom und steht dann still.</translation>
     </message>
     <message>
         <source>Ended</source>
-        <translation type="unfinished">Beendet</translation>
+        <translation>Beendet</translation>
     </message>
     <message>
         <source>The probe stands still; nothing moves any more.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die Sonde steht still; nichts bewegt sich mehr.</translation>
     </message>
     <message>
         <source>Failed</source>
-        <translation type="unfinished">Nicht bestanden</translation>
+        <translation>Fehlgeschlagen</translation>
     </message>
     <message>
         <source>Nothing moves any more; the message says why.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts bewegt sich mehr; die Meldung sagt, warum.</translation>
     </message>
     <message>
         <source>Motion control</source>
@@ -2625,15 +2625,15 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Pace: –</source>
-        <translation type="unfinished"></translation>
+        <translation>Tempo: –</translation>
     </message>
     <message>
         <source>Pace: {pace:.2f} of real time</source>
-        <translation type="unfinished"></translation>
+        <translation>Tempo: {pace:.2f} der Echtzeit</translation>
     </message>
     <message>
         <source>Pace: {pace:.2f} of real time: this computer is too slow</source>
-        <translation type="unfinished"></translation>
+        <translation>Tempo: {pace:.2f} der Echtzeit: Dieser Rechner ist zu langsam</translation>
     </message>
     <message>
         <source>{time:.1f} s  {state}: {why}</source>
@@ -2692,11 +2692,11 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Stop</source>
-        <translation type="unfinished">Stopp</translation>
+        <translation>Stopp</translation>
     </message>
     <message>
         <source>This page</source>
-        <translation type="unfinished"></translation>
+        <translation>Diese Seite</translation>
     </message>
     <message>
         <source>No session is open. Open one or choose a bundle.</source>
@@ -2747,7 +2747,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <name>NewestMessage</name>
     <message>
         <source>Newest message</source>
-        <translation type="unfinished"></translation>
+        <translation>Neueste Meldung</translation>
     </message>
 </context>
 <context>
@@ -2959,7 +2959,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Next: Regions</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter: Regionen</translation>
     </message>
     <message>
         <source>Choose mesh…</source>
@@ -3002,7 +3002,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>keep the probe&apos;s draft</source>
-        <translation type="unfinished"></translation>
+        <translation>Entwurf der Sonde sichern</translation>
     </message>
     <message>
         <source>Reading {}</source>
@@ -3014,7 +3014,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>take the mesh {}</source>
-        <translation type="unfinished"></translation>
+        <translation>Netz {} nehmen</translation>
     </message>
     <message>
         <source>Checking the mesh in its unit</source>
@@ -3022,11 +3022,11 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>say the mesh&apos;s unit</source>
-        <translation type="unfinished"></translation>
+        <translation>Einheit des Netzes angeben</translation>
     </message>
     <message>
         <source>choose how the outer surface is made</source>
-        <translation type="unfinished"></translation>
+        <translation>Außenfläche einstellen</translation>
     </message>
     <message>
         <source>Creating outer surface</source>
@@ -3034,7 +3034,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>place the mesh</source>
-        <translation type="unfinished"></translation>
+        <translation>Netz platzieren</translation>
     </message>
     <message>
         <source>Aligning mesh</source>
@@ -3046,7 +3046,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>choose the number of facets</source>
-        <translation type="unfinished"></translation>
+        <translation>Facettenzahl wählen</translation>
     </message>
     <message>
         <source>Preparing probe</source>
@@ -3380,7 +3380,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Next: Verify, without regions</source>
-        <translation type="unfinished"></translation>
+        <translation>Weiter: Prüfen, ohne Regionen</translation>
     </message>
     <message>
         <source>Preparing the surface for painting…</source>
@@ -3450,7 +3450,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Does not count</source>
-        <translation type="unfinished"></translation>
+        <translation>Zählt nicht</translation>
     </message>
     <message>
         <source>Outdated: verify again</source>
@@ -3498,11 +3498,11 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Show the worst marker</source>
-        <translation type="unfinished"></translation>
+        <translation>Schlechteste Marke zeigen</translation>
     </message>
     <message>
         <source>Turn the 3D view to the marker with the largest error</source>
-        <translation type="unfinished"></translation>
+        <translation>Die 3D-Ansicht zur Marke mit dem größten Fehler drehen</translation>
     </message>
     <message>
         <source>{ratio} times the expected error (noise and calibration)</source>
@@ -3536,31 +3536,31 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>error, mm</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler, mm</translation>
     </message>
     <message>
         <source>made up: hatched</source>
-        <translation type="unfinished"></translation>
+        <translation>ergänzt: schraffiert</translation>
     </message>
     <message>
         <source>made up: a narrow seam</source>
-        <translation type="unfinished"></translation>
+        <translation>ergänzt: schmale Naht</translation>
     </message>
     <message>
         <source>untouchable: crossed</source>
-        <translation type="unfinished"></translation>
+        <translation>unberührbar: gekreuzt</translation>
     </message>
     <message>
         <source>error, {times} times</source>
-        <translation type="unfinished"></translation>
+        <translation>Fehler, {times}-fach</translation>
     </message>
     <message>
         <source>95 % of noise, {times} times</source>
-        <translation type="unfinished"></translation>
+        <translation>95 % des Rauschens, {times}-fach</translation>
     </message>
     <message>
         <source>possible alternative</source>
-        <translation type="unfinished">mögliche Alternative</translation>
+        <translation>mögliche Alternative</translation>
     </message>
 </context>
 <context>
@@ -3645,7 +3645,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Opening {} up to the damage</source>
-        <translation type="unfinished"></translation>
+        <translation>{} wird bis zum Schaden geöffnet</translation>
     </message>
     <message>
         <source>Creating {}</source>
@@ -3701,39 +3701,39 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Nothing is lost, and nothing can be added. All {} whole records are shown.</source>
-        <translation type="unfinished"></translation>
+        <translation>Nichts geht verloren, und nichts kann hinzukommen. Alle {} heilen Einträge sind zu sehen.</translation>
     </message>
     <message>
         <source>Open up to the damage</source>
-        <translation type="unfinished"></translation>
+        <translation>Bis zum Schaden öffnen</translation>
     </message>
     <message>
         <source>All {} whole records go into a new session; this one stays as it is. What is lost: at least {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle {} heilen Einträge kommen in eine neue Sitzung; diese bleibt, wie sie ist. Verloren geht mindestens: {}.</translation>
     </message>
     <message>
         <source>To be done again: {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Neu zu machen: {}.</translation>
     </message>
     <message>
         <source>Files: {}</source>
-        <translation type="unfinished"></translation>
+        <translation>Dateien: {}</translation>
     </message>
     <message>
         <source>The first {} records go on as this session; {} after them are set aside, and the journal as it was is kept beside.</source>
-        <translation type="unfinished"></translation>
+        <translation>Die ersten {} Einträge gehen als diese Sitzung weiter; {} danach werden beiseitegelegt, und das bisherige Journal bleibt daneben erhalten.</translation>
     </message>
     <message>
         <source>What is lost: {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Verloren geht: {}.</translation>
     </message>
     <message>
         <source>1 record</source>
-        <translation type="unfinished"></translation>
+        <translation>1 Eintrag</translation>
     </message>
     <message>
         <source>{} records</source>
-        <translation type="unfinished"></translation>
+        <translation>{} Einträge</translation>
     </message>
     <message>
         <source>Salvaging a copy of {}</source>
@@ -3741,7 +3741,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Looking at the damage of {}</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Schaden von {} wird untersucht</translation>
     </message>
     <message>
         <source>Salvage a copy</source>
@@ -4678,27 +4678,27 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <name>TroubleWatch</name>
     <message>
         <source>Checking session files</source>
-        <translation type="unfinished">Sitzungsdateien werden geprüft</translation>
+        <translation>Sitzungsdateien werden geprüft</translation>
     </message>
     <message>
         <source>The disk is writable again and the session continues. Repeat the actions that were refused; earlier recordings are intact.</source>
-        <translation type="unfinished">Der Datenträger ist wieder beschreibbar und die Sitzung geht weiter. Wiederholen Sie die abgelehnten Aktionen; frühere Aufzeichnungen sind unversehrt.</translation>
+        <translation>Der Datenträger ist wieder beschreibbar und die Sitzung geht weiter. Wiederholen Sie die abgelehnten Aktionen; frühere Aufzeichnungen sind unversehrt.</translation>
     </message>
     <message>
         <source>The sensor is back and sending readings.</source>
-        <translation type="unfinished">Der Sensor ist wieder da und sendet Messwerte.</translation>
+        <translation>Der Sensor ist wieder da und sendet Messwerte.</translation>
     </message>
     <message>
         <source>A file in this session has changed since it was written. Results that depend on it are invalid.</source>
-        <translation type="unfinished">Eine Datei dieser Sitzung wurde nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig.</translation>
+        <translation>Eine Datei dieser Sitzung wurde nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig.</translation>
     </message>
     <message>
         <source>{} files in this session have changed since they were written. Results that depend on them are invalid. Run `contactbench session verify` to list them.</source>
-        <translation type="unfinished">{} Dateien dieser Sitzung wurden nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig. `contactbench session verify` listet sie auf.</translation>
+        <translation>{} Dateien dieser Sitzung wurden nachträglich verändert. Ergebnisse, die darauf beruhen, sind ungültig. `contactbench session verify` listet sie auf.</translation>
     </message>
     <message>
         <source>All files of this session are as they were written again.</source>
-        <translation type="unfinished"></translation>
+        <translation>Alle Dateien dieser Sitzung sind wieder so, wie sie geschrieben wurden.</translation>
     </message>
 </context>
 <context>
@@ -4768,7 +4768,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>verify</source>
-        <translation type="unfinished"></translation>
+        <translation>prüfen</translation>
     </message>
     <message>
         <source>Verification passed.</source>
@@ -4788,43 +4788,43 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Start touching</source>
-        <translation type="unfinished">Berühren beginnen</translation>
+        <translation>Berühren beginnen</translation>
     </message>
     <message>
         <source>Verify again</source>
-        <translation type="unfinished">Erneut prüfen</translation>
+        <translation>Erneut prüfen</translation>
     </message>
     <message>
         <source>Go to Gravity</source>
-        <translation type="unfinished"></translation>
+        <translation>Zur Schwerkraft</translation>
     </message>
     <message>
         <source>Open Probe</source>
-        <translation type="unfinished">Sonde öffnen</translation>
+        <translation>Sonde öffnen</translation>
     </message>
     <message>
         <source>Save the recording, evaluate it and create the report</source>
-        <translation type="unfinished">Die Aufzeichnung speichern, auswerten und den Bericht erstellen</translation>
+        <translation>Die Aufzeichnung speichern, auswerten und den Bericht erstellen</translation>
     </message>
     <message>
         <source>Finish</source>
-        <translation type="unfinished">Beenden</translation>
+        <translation>Beenden</translation>
     </message>
     <message>
         <source>Stop without a verdict; the touches are discarded</source>
-        <translation type="unfinished">Ohne Ergebnis beenden; die Berührungen werden verworfen</translation>
+        <translation>Ohne Ergebnis beenden; die Berührungen werden verworfen</translation>
     </message>
     <message>
         <source>Discard</source>
-        <translation type="unfinished">Verwerfen</translation>
+        <translation>Verwerfen</translation>
     </message>
     <message>
         <source>Next: Export</source>
-        <translation type="unfinished">Weiter: Export</translation>
+        <translation>Weiter: Export</translation>
     </message>
     <message>
         <source>Place markers on the first tab.</source>
-        <translation type="unfinished">Setzen Sie zuerst Marker auf dem ersten Reiter.</translation>
+        <translation>Setzen Sie zuerst Marker auf dem ersten Reiter.</translation>
     </message>
 </context>
 <context>

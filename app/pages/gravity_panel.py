@@ -251,7 +251,7 @@ class GravityPanel(PanelScroll):
         self.orientation_noise = self._choice(
             self.tr("Orientation accuracy"),
             (
-                (self.tr("estimate from poses"), None),
+                (self.tr("from the poses"), None),
                 *(
                     (names[key].format(degrees=f"{degrees:g}"), degrees)
                     for key, degrees in ORIENTATION_NOISE_DEG.items()

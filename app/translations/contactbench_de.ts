@@ -1349,8 +1349,8 @@
         <translation>Genauigkeit der Orientierung</translation>
     </message>
     <message>
-        <source>estimate from poses</source>
-        <translation>aus den Posen schätzen</translation>
+        <source>from the poses</source>
+        <translation>aus den Posen</translation>
     </message>
     <message>
         <source>1 sigma about each axis. Orientation errors shift the weight in the readings.</source>
@@ -1409,7 +1409,7 @@
     </message>
     <message>
         <source>Saving recording</source>
-        <translation>Die Aufzeichnung wird behalten</translation>
+        <translation>Die Aufzeichnung wird gesichert</translation>
     </message>
     <message>
         <source>All devices are sending samples again. Recording continues.</source>
@@ -4728,7 +4728,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation>Einstellungen</translation>
+        <translation>Ablauf</translation>
     </message>
     <message>
         <source>Point</source>
@@ -4752,7 +4752,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Saving recording</source>
-        <translation>Die Aufzeichnung wird behalten</translation>
+        <translation>Die Aufzeichnung wird gesichert</translation>
     </message>
     <message>
         <source>Loading verification</source>

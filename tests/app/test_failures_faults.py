@@ -31,7 +31,7 @@ def open_window(qtbot, folder, tmp_path):
 
 def wait_told(made, words, *, times=1):
     """It is in the list, the log and the journal; and the window lives."""
-    made.wait_said(words, "what is in the session is safe")
+    made.wait_said(words, "your session is safe")
     assert words in made.log.read()
     notes = lambda: [note for note in made.window.bench.desk.state.notes if words in note.text]  # noqa: E731
     made.wait(lambda: len(notes()) >= times)

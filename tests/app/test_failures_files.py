@@ -343,7 +343,7 @@ def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
     made.window.sessions.open(folder)
     made.wait(lambda: made.window.start.question.sentence != "")
     sentence = made.window.start.question.sentence
-    assert "ended abruptly" in sentence
+    assert "ended unexpectedly" in sentence
     assert sentence.endswith("?")
     yes = made.window.start.question.answers()[0]
     with made.qtbot.waitSignal(made.window.shown, timeout=LONG):

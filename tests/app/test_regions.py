@@ -339,7 +339,7 @@ def test_import_and_export(window, qtbot, tmp_path):
 
 def test_it_is_kept_by_itself_and_found_again(window, opened, folder, qtbot):  # noqa: F811
     draw(window, (0, 0, 1))
-    assert "in a moment" in said(window)
+    assert "Saving" in said(window)
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
     qtbot.waitUntil(lambda: "but not yet applied to the probe" in said(window), timeout=LONG)
     draw(window, (0, 1, 0))

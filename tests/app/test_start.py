@@ -247,7 +247,7 @@ def test_after_a_crash_the_recordings_are_asked_for(qtbot, window, tmp_path, ans
     folder = tmp_path / "s"
     _cut_short(folder)
     window.sessions.open(folder)
-    qtbot.waitUntil(lambda: "ended abruptly" in asked(window), timeout=10_000)
+    qtbot.waitUntil(lambda: "ended unexpectedly" in asked(window), timeout=10_000)
     button = next(each for each in window.start.question.answers() if each.text().startswith(answer))
     shown(qtbot, window, lambda: qtbot.mouseClick(button, Qt.MouseButton.LeftButton))
     assert len(list((folder / "raw").glob("unfinished-*"))) == left
@@ -266,7 +266,7 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
         "folder": str(folder),
         "opened": "",
         "page": "verify",
-        "done": "begun",
+        "done": "started",
     }
     with Session.open(copy) as session:
         assert session.state.count == window.bench.desk.state.count

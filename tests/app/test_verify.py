@@ -365,7 +365,7 @@ def test_how_sure_a_contact_is_and_where_it_could_be_as_well(
         (Reason.IMPLAUSIBLE, IMPLAUSIBLE),
         (Reason.TANGENTIAL, "Press more directly into it"),
         (Reason.OFF_SURFACE, "No part of the probe faces this force"),
-        (Reason.OUTSIDE_REGION, "outside every region"),
+        (Reason.OUTSIDE_REGION, "outside all regions"),
         (Reason.SATURATED, "The sensor is at the limit of its range"),
     ],
 )

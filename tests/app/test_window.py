@@ -12,6 +12,7 @@ from PySide6.QtGui import QUndoCommand, QWheelEvent
 from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
+from contactbench.app.help_book import HelpBook
 from contactbench.app.settings import WindowSettings
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
@@ -203,14 +204,18 @@ def test_a_session_is_opened_while_another_is_open(qtbot, opened, tmp_path):
 
 
 def test_help_shortcuts_log_and_about_open(opened):
-    for action, words in (
-        (opened.menus.show_help, "sensor"),
-        (opened.menus.show_log, "stood still"),
-    ):
-        action()
-        dialog = QApplication.activeModalWidget()
-        assert words in dialog.view.toPlainText()
-        dialog.close()
+    opened.menus.show_help()
+    book = opened.findChild(HelpBook)
+    assert book.isVisible()
+    assert "sensor" in book.view.toPlainText()
+    opened.menus.show_help_page("tutorial")
+    assert opened.findChild(HelpBook) is book
+    assert book.name == "tutorial"
+    book.close()
+    opened.menus.show_log()
+    dialog = QApplication.activeModalWidget()
+    assert "stall" in dialog.view.toPlainText()
+    dialog.close()
     opened.menus.show_shortcuts()
     sheet = QApplication.activeModalWidget()
     keys = {sheet.table.item(row, 0).text() for row in range(sheet.table.rowCount())}
@@ -354,7 +359,9 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
         for name in ("write", "fsync"):
             full.setattr(os, name, refuses)
         window.bench.do("Noting", lambda session: session.note("lost"))
-        qtbot.waitUntil(lambda: any("Saving resumes automatically" in text for text in texts()), timeout=LONG)
+        qtbot.waitUntil(
+            lambda: any("the session goes on by itself" in text for text in texts()), timeout=LONG
+        )
         times = len(tried)
         qtbot.waitUntil(lambda: len(tried) > times + 1, timeout=LONG)  # it goes on trying
         assert window.bench.desk.refuses
@@ -363,5 +370,5 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
         timeout=LONG,
     )
     assert not window.bench.desk.refuses
-    assert sum("Saving resumes automatically" in text for text in texts()) == 1
+    assert sum("the session goes on by itself" in text for text in texts()) == 1
     window.bench.desk.do(lambda session: session.note("again")).result(10)

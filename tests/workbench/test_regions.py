@@ -369,7 +369,7 @@ def test_without_a_probe_there_is_nothing_to_paint_on(tmp_path):
         assert surface_key(desk.state) is None
         with pytest.raises(InputError, match="probe"):
             open_work(desk)
-        with pytest.raises(InputError, match="No probe yet"):
+        with pytest.raises(InputError, match="There is no probe yet"):
             apply(desk)
     finally:
         desk.close()

@@ -78,6 +78,9 @@ class DevicesPage(Page):
         self.fill(PanelScroll(inside))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
+        self.serial.textChanged.connect(self._edited)
+        for spin in self.mount:
+            spin.valueChanged.connect(self._edited)
 
     # ---- what is chosen ----------------------------------------------------------------------------
 

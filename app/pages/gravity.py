@@ -70,6 +70,8 @@ class GravityPage(Page):
         panel.table.take_back.connect(lambda rows: self._leave_out(rows, left_out=False))
         panel.table.selectionModel().selectionChanged.connect(self._show_selection)
         panel.findings.confirmed.connect(self._confirm)
+        panel.more.clicked.connect(lambda: self._begin(again=False))
+        panel.anew.clicked.connect(lambda: self._begin(again=True))
         panel.turn.clicked.connect(self._turn)
         panel.bump.clicked.connect(self._bump)
         panel.tilt.valueChanged.connect(self._set_tilt)
@@ -265,6 +267,18 @@ class GravityPage(Page):
         free = not (run.busy or self.weight.busy or self._locked)
         bar.offer_second("" if second is None else second[0], lambda: self._press(1), enabled=free)
         accent(self.panel.turn, not good, "play")
+        outcome = run.outcome if run.phase is Phase.IDLE else None
+        self.panel.more.setVisible(outcome is not None and outcome.changeable)
+        self.panel.anew.setVisible(outcome is not None)
+        for button in (self.panel.more, self.panel.anew):
+            button.setEnabled(free)
+
+    def _begin(self, *, again: bool) -> None:
+        """Capture more poses, or all of them anew."""
+        outcome = self.run.outcome
+        if outcome is not None and not self.run.busy:
+            self._heard = -1
+            self.run.start("" if again else outcome.recording)
 
     def _choices(self) -> tuple[Choice, Choice | None]:
         """Return what the primary button does now, and the other if there is one."""

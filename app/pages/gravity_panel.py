@@ -211,6 +211,10 @@ class GravityPanel(PanelScroll):
             high=_HIGH,
         )
         self._box.addLayout(row(self.out, self.back))
+        # Below a result, whatever the foot of the page offers.
+        self.more = push_button(self.tr("Add poses"), None, "add", high=_HIGH)
+        self.anew = push_button(self.tr("Start over"), None, "redo", high=_HIGH)
+        self._box.addLayout(row(self.more, self.anew))
 
     def _make_tilt(self) -> None:
         words = self.tr("Tilt limit of the tool")

@@ -1293,6 +1293,14 @@
         <translation>Die gewählten Posen wieder einbeziehen (Return)</translation>
     </message>
     <message>
+        <source>Add poses</source>
+        <translation>Posen hinzufügen</translation>
+    </message>
+    <message>
+        <source>Start over</source>
+        <translation>Neu beginnen</translation>
+    </message>
+    <message>
         <source>Tilt limit of the tool</source>
         <translation>Größte Neigung des Werkzeugs</translation>
     </message>

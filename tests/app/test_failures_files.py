@@ -102,9 +102,7 @@ def use_devices(made, _tmp_path):
 
 def begin_gravity(made, _tmp_path):
     page = made.page(Step.GRAVITY)
-    click(
-        made, page.second if page.second.isVisible() and "new" in page.second.text().lower() else page.primary
-    )
+    click(made, page.panel.anew)
 
 
 def place_markers(made, _tmp_path):

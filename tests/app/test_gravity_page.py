@@ -103,6 +103,8 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     assert panel.verdict.text.startswith("Good")
 
     assert page.primary.text() == "Next: Probe"
+    assert panel.more.isVisible()  # what is good can still be made better, or anew
+    assert panel.anew.isVisible()
     w.press(page.second)  # check one more pose
     w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
     assert not page.primary.isEnabled()

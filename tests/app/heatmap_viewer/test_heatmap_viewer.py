@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent, QGuiApplication
+from PySide6.QtGui import QDropEvent, QGuiApplication, QShortcut
 from PySide6.QtWidgets import QFileDialog
 from typer.testing import CliRunner
 from weighing_files import weighed
@@ -253,9 +253,8 @@ def test_the_picture_is_copied_with_a_key(qtbot, viewer, files):
     viewer._copy()
     assert "Nothing is shown yet" in viewer.controls.message.text()
     opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
-    qtbot.keyClick(
-        viewer, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
-    )
+    keys = {each.key().toString(): each for each in viewer.findChildren(QShortcut)}
+    keys["Ctrl+Shift+C"].activated.emit()  # a key reaches it only where a window manager gives the focus
     assert QGuiApplication.clipboard().image().width() >= viewer.sides[0].width()
     assert viewer.sides[0].scene.buttons.isVisible()
 

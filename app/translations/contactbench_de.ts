@@ -4736,7 +4736,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Settings</source>
-        <translation>Ablauf</translation>
+        <translation>Wie</translation>
     </message>
     <message>
         <source>Point</source>

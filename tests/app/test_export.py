@@ -103,7 +103,7 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     gains.write_text(json.dumps({"controller": controller.model_dump()}), encoding="utf-8")
     assert page.settings.gains.text() == "left out"
     page.settings.read_gains(gains)
-    window.wait(lambda: page.settings.gains.text() == "6 N, aware")
+    window.wait(lambda: page.settings.gains.text() == "6 N, predictive")
     window.wait(lambda: page.zip.isEnabled())
     page.write(tmp_path / "with.zip")
     window.wait(lambda: page.exported is not None)

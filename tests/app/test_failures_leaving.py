@@ -6,7 +6,7 @@ import threading
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtTest import QTest
+from PySide6.QtGui import QAction, QKeySequence
 from workbench.probe_files import egg
 
 from contactbench.app.pages.gravity_run import Phase
@@ -28,7 +28,10 @@ def made(qtbot, tmp_path):
 
 
 def quit_by_key(made):
-    QTest.keyClick(made.window, Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier)
+    """Do what the key does; the key itself reaches the window only where a window manager gives it the focus."""
+    quits = [each for each in made.window.findChildren(QAction) if QKeySequence("Ctrl+Q") in each.shortcuts()]
+    assert len(quits) == 1
+    quits[0].trigger()
 
 
 def answer(made, button):

@@ -43,7 +43,7 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     controls, scene = window.controls, window.picture.scene
     assert not controls.start.isEnabled()
     use(qtbot, window, bundle)
-    assert "not verified" in controls.bundle.text()
+    assert "Not verified" in controls.bundle.text()
     assert "5 N" in controls.bundle.text()
     before = scene.picture()
     controls.robot.setCurrentIndex(controls.robot.findData("virtual://platform"))
@@ -56,7 +56,7 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     assert controls.force.text().endswith("N")
     # Phantom and arrow come.
     qtbot.waitUntil(lambda: np.abs(scene.picture().astype(int) - before).max() > 50, timeout=LONG_MS)
-    assert "wanted 5.00" in window.picture.force.read_out
+    assert "target 5.00" in window.picture.force.read_out
     controls.stop.click()
     qtbot.waitUntil(lambda: not window.run.running and controls.start.isEnabled(), timeout=LONG_MS)
     assert controls.state.text() == "Ended"

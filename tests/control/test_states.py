@@ -80,7 +80,7 @@ def test_the_usual_course():
     ("what", "says"),
     [
         ({"force": 24.5}, "too near to the limit of 30 N"),
-        ({"fault": SensingFault.SATURATED}, "the sensor is at the limit of its range"),
+        ({"fault": SensingFault.SATURATED}, "end of its range"),
     ],
 )
 def test_danger_makes_it_go_back_from_anywhere(state, what, says):

@@ -115,7 +115,7 @@ def test_an_action_goes_on_by_itself_once_the_disk_does(tmp_path, monkeypatch):
     with Session.create(tmp_path / "s") as session:
         with monkeypatch.context() as patch:
             Failing(patch, 1, errno.ENOSPC, forever=False)
-            with pytest.raises(SessionError, match="then try again"):
+            with pytest.raises(SessionError, match="do it again"):
                 session.note("lost")
         session.note("again")
     with Session.open(tmp_path / "s") as session:

@@ -164,10 +164,10 @@ def test_limits_decide_the_verdict(good):
 def test_a_marker_that_is_left_out_for_a_reason_is_not_missing_and_its_touches_count(good):
     first, *others = good.markers.names
     asked = replace(VerifySettings().protocol, repeats=3)
-    found = good.verified(VerifySettings(asked, left_out={first: "not reachable"}))
+    found = good.verified(VerifySettings(asked, left_out={first: "nothing reaches it"}))
     assert found.missing == tuple(others)
     assert any(f"{first} (nothing reaches it)" in note for note in found.verdict.notes)
-    assert found.settings["left_out"] == {first: "not reachable"}
+    assert found.settings["left_out"] == {first: "nothing reaches it"}
     assert found.overall == good.verified().overall
     assert "left_out" not in good.verified().settings
     with pytest.raises(InputError, match="no markers Nowhere"):

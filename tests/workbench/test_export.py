@@ -171,7 +171,7 @@ def test_what_was_rejected_or_is_missing_is_said(calibrated, tmp_path):
         assert set(states(session).values()) == {"missing", "left out"}
         view = survey(session)
         assert view.preview is None
-        assert "No calibration" in view.problem
+        assert "no calibration" in view.problem
 
 
 def test_an_unverified_bundle_is_written_only_when_somebody_says_so(calibrated, tmp_path):

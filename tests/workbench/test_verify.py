@@ -119,16 +119,16 @@ def test_a_marker_that_is_left_out_is_missing(bench):
 
 def test_a_marker_that_is_left_out_for_a_reason_is_not_missing(bench):
     work = bench.start()
-    assert work.touches.skip("not reachable") == "M1"
+    assert work.touches.skip("nothing reaches it") == "M1"
     touch_all(bench.live, work)
     outcome = work.finish()
     assert "M1" not in " ".join(outcome.found.verdict.reasons)
     assert any("M1 (nothing reaches it)" in note for note in outcome.found.verdict.notes)
     state = bench.desk.state
     made = state.current_results["verification", "verification.json"]
-    assert made.action.parameters["left_out"] == {"M1": "not reachable"}
+    assert made.action.parameters["left_out"] == {"M1": "nothing reaches it"}
     report = state.current_results["report", "report.html"].file.path
-    assert "not reachable" in (bench.desk.folder / report).read_text(encoding="utf-8")
+    assert "nothing reaches it" in (bench.desk.folder / report).read_text(encoding="utf-8")
 
 
 def test_a_verification_that_is_thrown_away_leaves_a_note_only(bench):

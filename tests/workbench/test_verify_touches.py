@@ -128,11 +128,11 @@ def test_turns_go_round_once_per_repeat():
 def test_the_last_of_an_order_can_be_left_out_too():
     touches = following(order=("left", "middle", "right"))
     play(touches, Push(0), Push(1))
-    assert touches.skip("not reachable", "left") is None, "it is not the next one"
-    assert touches.skip("not reachable", "right") == "right"
+    assert touches.skip("nothing reaches it", "left") is None, "it is not the next one"
+    assert touches.skip("nothing reaches it", "right") == "right"
     assert touches.view().next_one is None
     assert touches.view().rows[2].state == "skipped"
-    assert touches.left_out == {"right": "not reachable"}
+    assert touches.left_out == {"right": "nothing reaches it"}
     assert touches.order == ("left", "middle")
     touches.repeat("right")
     assert touches.left_out == {}

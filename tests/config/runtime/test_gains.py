@@ -50,7 +50,7 @@ def verification(**settings):
 
 
 def test_markers_that_were_left_out_are_repeated_with_why():
-    part, _ = read_verification(verification(left_out={"7": "not reachable"}), "v.json")
+    part, _ = read_verification(verification(left_out={"7": "nothing reaches it"}), "v.json")
     assert part.diagnosis.startswith(
         "Left out on purpose: 7 (nothing reaches it): nothing is known of contacts"
     )

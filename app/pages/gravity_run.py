@@ -118,10 +118,18 @@ class GravityRun(QObject):
             return
         self._read = key
         folder = self.bench.desk.folder
+
+        def came(outcome: GravityOutcome | None) -> None:
+            if self._known() == key:
+                self.set_outcome(outcome)
+            else:  # something was done or undone while it was read
+                self._read = (-1, 0)
+                self.reload()
+
         self.bench.jobs.start(
             self.tr("Loading calibration"),
             lambda _progress, _cancelled: results.outcome_of(folder, state),
-            self.set_outcome,
+            came,
             self.fail,
         )
 

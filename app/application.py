@@ -34,7 +34,7 @@ def run(session: Path | None = None, *, virtual: bool = False, language: str = "
     Parameters
     ----------
     session : path, optional
-        Opened at once; with `virtual`, made where there is none.
+        Opened at once; with `virtual`, made where there is none. An archive is unpacked first.
     virtual : bool
         Whether to begin with a virtual bench.
     language : str
@@ -57,6 +57,8 @@ def run(session: Path | None = None, *, virtual: bool = False, language: str = "
         signal.signal(number, lambda *_: window.close())
     if virtual:
         window.sessions.try_virtual(session)
+    elif session is not None and session.is_file():
+        window.sessions.unpack(session)
     elif session is not None:
         window.sessions.open(session)
     try:

@@ -13,14 +13,19 @@ import typer
 from contactbench.pipeline.commands.heatmap import heatmap_app
 from contactbench.pipeline.console import Noun
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.installation import remedy
 
 __all__ = ["gui_app", "heatmap_app"]
 
 gui_app = Noun()
 
 
-@gui_app.command(example="gui --virtual", as_json=False)
+@gui_app.command(example=("gui --virtual", "gui bench-1.contactbench"), as_json=False)
 def gui(
+    file: Annotated[
+        Path | None,
+        typer.Argument(metavar="[SESSION]", help="Session to open, or a session archive to unpack and open."),
+    ] = None,
     session: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="Session to open; with --virtual, made if it is missing."),
@@ -31,10 +36,12 @@ def gui(
     ] = "",
 ) -> None:
     """Open the window: calibrate, prepare, verify and export at the bench. contactbench alone does the same."""
+    if file is not None and session is not None:
+        raise typer.BadParameter("SESSION and --session contradict each other: give one.")
     check_screen()
     from contactbench.app.application import run
 
-    raise typer.Exit(run(session, virtual=virtual, language=language))
+    raise typer.Exit(run(file or session, virtual=virtual, language=language))
 
 
 @heatmap_app.command(example="heatmap view my-session", as_json=False)
@@ -64,7 +71,7 @@ def check_screen() -> None:
     missing = [name for name in ("PySide6", "pyvista", "pyvistaqt", "pyqtgraph") if not find_spec(name)]
     if missing:
         raise InputError(
-            f"the window needs {', '.join(missing)}, which is not installed: run pip install 'contactbench[gui]'."
+            f"the window needs {', '.join(missing)}, which is not installed: {remedy('gui')}."
             " All other commands work without it."
         )
     chosen = os.environ.get("QT_QPA_PLATFORM", "")

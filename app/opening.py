@@ -118,6 +118,17 @@ def free_folder(parent: Path, name: str) -> Path:
     return candidate
 
 
+def unpacked(archive: Path, parent: Path) -> OpenedSession:
+    """Unpack a session archive into a new folder of `parent`, and open it. SessionError: it is none, or damaged."""
+    from contactbench.pipeline.durable import make_folder
+    from contactbench.pipeline.session.archive import import_archive
+
+    folder = free_folder(parent, archive.stem)
+    make_folder(parent)
+    import_archive(archive, folder)
+    return open_session(folder)
+
+
 def salvaged(folder: Path, elsewhere: Path) -> OpenedSession:
     """
     Salvage a copy beside a damaged session, and open it.

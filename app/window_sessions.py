@@ -21,6 +21,7 @@ from contactbench.app.opening import (
     opened_up_to_damage,
     problem_with,
     salvaged,
+    unpacked,
     virtual_session,
 )
 from contactbench.app.read_only_view import ReadOnlyView
@@ -118,6 +119,13 @@ class Sessions(QObject):
         title = self.tr("Opening {}").format(session_name(folder))
         self._ask_for(
             lambda: self._begin(title, lambda _p, _c: open_session(folder, write=write), step, folder)
+        )
+
+    def unpack(self, archive: Path) -> None:
+        """Unpack a session archive into a new folder, and open that."""
+        title = self.tr("Opening {}").format(archive.name)
+        self._ask_for(
+            lambda: self._begin(title, lambda _p, _c: unpacked(archive, self._settings.sessions), None)
         )
 
     def salvage(self, folder: Path) -> None:

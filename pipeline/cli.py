@@ -18,6 +18,7 @@ import typer
 from contactbench import __version__
 from contactbench.pipeline.console import Nouns, print_json, report_error
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.installation import remedy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -154,7 +155,7 @@ def _told(ctx: Any) -> Iterator[None]:
         if name not in _EXTRAS:
             raise
         report_error(
-            f"this needs {name}, which is not installed: run pip install 'contactbench[{_EXTRAS[name]}]'.",
+            f"this needs {name}, which is not installed: {remedy(_EXTRAS[name])}.",
             as_json=as_json,
         )
         raise typer.Exit(_WRONG_INPUT) from None
@@ -179,16 +180,38 @@ def main() -> None:
     app()
 
 
-def _show_version(value: bool) -> None:
+def _show_version(ctx: typer.Context, value: bool) -> None:
     if value:
-        typer.echo(f"contactbench {__version__}")
+        from contactbench.pipeline import kernel
+        from contactbench.pipeline.kernel.build import build
+
+        built = build()
+        if "--json" in ctx.meta[_WORDS]:
+            told = {"contactbench": __version__, "kernel": kernel.variant, "commit": built.commit}
+            print_json(told | {"build_type": built.kind})
+        else:
+            typer.echo(f"contactbench {__version__} (kernel {kernel.variant}, {built})")
         raise typer.Exit
+
+
+def _refuse_json(value: bool) -> None:
+    if value:
+        raise typer.BadParameter("it goes with --version here, or behind a command.")
 
 
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", help="Print the version.", callback=_show_version, is_eager=True)
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the version, the kernel and its build.",
+            callback=_show_version,
+            is_eager=True,
+        ),
+    ] = False,
+    json: Annotated[
+        bool, typer.Option("--json", help="With --version: one JSON object.", callback=_refuse_json)
     ] = False,
 ) -> None:
     pass

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from waiting import until
 
 import contactbench
-from contactbench.pipeline import cli
+from contactbench.pipeline import cli, kernel
 from contactbench.pipeline.commands import info as command_info
 from contactbench.pipeline.commands.locate import MethodName
 from contactbench.pipeline.console import Bar
@@ -26,6 +26,7 @@ from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, Wren
 from contactbench.pipeline.contact.contact_csv import REASONS
 from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import _cpu
 from contactbench.pipeline.mesh import load_probe, save_probe
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles
@@ -70,7 +71,32 @@ def refused(result: Any, message: str) -> None:
 def test_version():
     result = run("--version")
     assert result.exit_code == 0
-    assert result.stdout == f"contactbench {contactbench.__version__}\n"
+    assert result.stdout.startswith(f"contactbench {contactbench.__version__} (kernel {kernel.variant}, ")
+
+
+def test_version_as_json():
+    told = json.loads(run("--version", "--json").stdout)
+    assert told["contactbench"] == contactbench.__version__
+    assert told["kernel"] == kernel.variant
+    assert {"commit", "build_type"} < set(told)
+
+
+def test_json_alone_is_wrong():
+    result = run("--json")
+    assert result.exit_code == 2
+    assert "--version" in json.loads(result.stdout)["error"]
+
+
+def test_a_build_tells_its_commit_where_it_is_known(monkeypatch, tmp_path):
+    monkeypatch.setattr(_cpu, "__file__", str(tmp_path / "_cpu.so"))
+    (tmp_path / "build.json").write_text('{"commit": "0123abc+", "kind": "Release"}', "utf-8")
+    assert "(kernel " in (said := run("--version").stdout)
+    assert said.endswith(", Release build of 0123abc+)\n")
+    (tmp_path / "build.json").write_text('{"commit": "", "kind": "Release"}', "utf-8")
+    assert run("--version").stdout.endswith(", Release build of an unknown commit)\n")
+    for wrong in ("", "[]", "{"):
+        (tmp_path / "build.json").write_text(wrong, "utf-8")
+        assert run("--version").stdout.endswith(", unknown build)\n")
 
 
 def test_starting_imports_nothing_heavy():

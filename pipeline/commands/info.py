@@ -45,7 +45,9 @@ def facts() -> dict[str, Any]:
     from importlib.util import find_spec
 
     from contactbench.pipeline import kernel
+    from contactbench.pipeline.kernel.build import build
 
+    built = build()
     optional = {
         name: _version(*distributions) if find_spec(name) else None
         for name, distributions in _OPTIONAL.items()
@@ -59,6 +61,8 @@ def facts() -> dict[str, Any]:
         "cpu_count": os.cpu_count(),
         "cpu_features": dict(import_module("contactbench.pipeline.kernel._cpu").features()),
         "kernel": kernel.variant,
+        "commit": built.commit,
+        "build_type": built.kind,
         "compiler": kernel.compiler,
         "optional": optional,
     }

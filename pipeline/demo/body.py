@@ -1,8 +1,7 @@
 """Render probes, in a process of its own: without a graphics driver VTK ends its process.
 
-The child is ``python -m contactbench.pipeline.demo.body FILE``; it takes the views as JSON on standard input
-and leaves the
-images in FILE. What VTK has to say about missing displays stays in the child.
+The child runs this module with the name of a file; it takes the views as JSON on standard input and leaves the
+images in that file. What VTK has to say about missing displays stays in the child.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.installation import module_command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -109,7 +109,7 @@ def render_bodies(bodies: Sequence[BodyOrder]) -> list[Image]:
     orders = json.dumps([asdict(body) for body in bodies])
     with TemporaryDirectory() as folder:
         file = Path(folder, "bodies.npz")
-        command = [sys.executable, "-m", "contactbench.pipeline.demo.body", str(file)]
+        command = module_command("contactbench.pipeline.demo.body", str(file))
         try:
             subprocess.run(  # noqa: S603  (this interpreter and this module)
                 command, input=orders.encode(), capture_output=True, check=True, timeout=_PATIENCE_S

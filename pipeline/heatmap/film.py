@@ -20,6 +20,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import picture
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.selection import empty_words
+from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 
 if TYPE_CHECKING:
@@ -167,7 +168,7 @@ def _write_mp4(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> No
         import imageio_ffmpeg
     except ImportError as error:
         raise HeatmapError(
-            "a film as .mp4 needs ffmpeg: pip install 'contactbench[video]', or name a file that ends in .gif."
+            f"a film as .mp4 needs ffmpeg: {remedy('video')}, or name a file that ends in .gif."
         ) from error
     file.touch()  # ffmpeg's own words about a folder that is not there are long
     first = next(images)

@@ -23,6 +23,7 @@ import numpy as np
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.installation import module_command
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -169,7 +170,7 @@ class MotionRun:
         self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - it lives as long as the process
         try:
             self._process = subprocess.Popen(  # noqa: S603 - this Python and a command of ours
-                [*_program(), *choice.arguments(bundle)],
+                module_command("contactbench.pipeline.cli", *choice.arguments(bundle)),
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=self._said,
@@ -285,10 +286,3 @@ def placed(beginning: Beginning, frame: LoopFrame) -> MotionPlace:
         R_BS.T @ (np.array(frame.phantom_B_m) - sensor),
         R_BS.T @ np.array(frame.normal_B),
     )
-
-
-def _program() -> list[str]:
-    if getattr(sys, "frozen", False):
-        return [sys.executable]
-    # -P: a file called numpy.py in the current folder must not be imported.
-    return [sys.executable, "-P", "-m", "contactbench.pipeline.cli"]

@@ -15,6 +15,7 @@ import time
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
+from contactbench.pipeline.installation import module_command
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
 from contactbench.pipeline.mesh.engines.libraries import Library
 from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
@@ -305,8 +306,7 @@ def _converse(
 
 
 def _command(library: Library) -> list[str]:
-    # -P: a file called numpy.py in the current folder must not be imported.
-    return [sys.executable, "-P", "-m", _WORKER, str(library)]
+    return module_command(_WORKER, str(library))
 
 
 def _environment() -> dict[str, str]:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.installation import remedy
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -23,8 +25,8 @@ class Library(StrEnum):
 
     @property
     def install(self) -> str:
-        """The command that installs it."""
-        return "pip install 'contactbench[meshlab]'"
+        """What installs it, in the imperative."""
+        return remedy("meshlab")
 
 
 class Operation(StrEnum):

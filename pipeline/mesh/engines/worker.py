@@ -16,6 +16,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.mesh.engines.errors import WireError
 from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
 from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
@@ -53,6 +54,7 @@ def main(library: str) -> int:
     _limit_resources()
     _give_way()
     name = Library(library)
+    sys.path += map(str, component_folders("meshlab"))
     try:
         module = importlib.import_module(_MODULES[name])
     except ImportError as error:

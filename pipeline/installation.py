@@ -70,8 +70,9 @@ def run_asked_module(words: Sequence[str]) -> bool:
     """
     if len(words) < 3 or words[1] != _MODULE or words[2] not in MODULES:
         return False
-    sys.argv[:] = [words[0], *words[3:]]
-    runpy.run_module(words[2], run_name="__main__")
+    program, _, module, *rest = words
+    sys.argv = [program, *rest]
+    runpy.run_module(module, run_name="__main__")
     return True
 
 

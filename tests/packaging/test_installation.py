@@ -1,5 +1,6 @@
 """Modules of ours are started the right way, as a package and as the application."""
 
+import io
 import subprocess
 import sys
 from pathlib import Path
@@ -103,7 +104,7 @@ def test_the_engines_child_finds_a_component(application, monkeypatch):
     monkeypatch.setattr(worker, "_MODULES", dict.fromkeys(worker.Library, "pymeshlab_of_the_component"))
     monkeypatch.setattr(sys, "path", [*sys.path])
     said = []
-    monkeypatch.setattr(worker, "_private_pipes", lambda: ((folder / "calls").open("w+b"), None))
+    monkeypatch.setattr(worker, "_private_pipes", lambda: (io.BytesIO(), None))
     monkeypatch.setattr(worker, "_limit_resources", lambda: None)
     monkeypatch.setattr(worker, "_give_way", lambda: None)
     monkeypatch.setattr(worker.signal, "signal", lambda *_: None)

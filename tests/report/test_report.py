@@ -20,7 +20,9 @@ from contactbench.pipeline.calibration.files.calibration_file import load_record
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import save_probe_file
-from contactbench.pipeline.report import read_verification, report_html, report_pdf
+from contactbench.pipeline.page.details import ReportDetails
+from contactbench.pipeline.page.printed import print_pdf
+from contactbench.pipeline.report import read_verification, report_html
 from contactbench.pipeline.report.facts import settings_rows, summaries
 from contactbench.pipeline.report.figures import draw
 from contactbench.pipeline.report.report_file import report as make
@@ -96,7 +98,7 @@ def test_the_page_is_one_file_without_scripts(page):
     assert all(link.startswith(("data:image/png;base64,", "#")) for link in found.links)
     assert "<script" not in page
     assert not re.search(r"url\((?!['\"]?#)", page)
-    assert "@page { size: A4" in page
+    assert "size: A4" in page
 
 
 def test_the_page_tells_what_was_found(page, given):
@@ -106,11 +108,11 @@ def test_the_page_tells_what_was_found(page, given):
         "Passed",
         f"{overall.mean_mm:.2f} mm",
         f"{overall.max_mm:.2f} mm",
-        "1.3 ×",
+        "1.3 × errors of the touches (rms) over noise and calibration alone",
         "9 µs",
         given.verification.diagnosis.text,
         "A. Technician",
-        "serial number SN 7",
+        "sensor M8128: SN 7",
         "2026-03-04 05:06 UTC",
         "slipped (1)",
         "mean 1 mm, largest 2 mm",
@@ -162,7 +164,7 @@ def test_what_the_model_leaves_is_told(given):
 
 def test_names_cannot_become_markup(given):
     page = report_html(
-        replace(with_marker_named(given, "<img src=x>&\u202e"), operator="<script>alert(1)</script>")
+        replace(with_marker_named(given, "<img src=x>&\u202e"), details=ReportDetails("<script>alert(1)</script>"))
     )
     assert "<img src=x" not in page
     assert "<script" not in page
@@ -248,12 +250,12 @@ def test_wrong_parameters_are_refused(files, parameters):
 
 
 def test_a_pdf_or_the_remedy(page, monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.report.report_file.find_spec", lambda _: None)
+    monkeypatch.setattr("contactbench.pipeline.page.printed.find_spec", lambda _: None)
     with pytest.raises(InputError, match=r"contactbench\[pdf\]"):
-        report_pdf(page)
+        print_pdf(page)
     monkeypatch.undo()
     pytest.importorskip("weasyprint")
-    assert report_pdf(page).startswith(b"%PDF")
+    assert print_pdf(page).startswith(b"%PDF")
 
 
 def test_the_command(files):

@@ -17,7 +17,7 @@ _SHARED = ("base.html.jinja", _PARTS)
 # Text of a page, and in it what keeps a number and its unit on one line.
 _TEXT = re.compile(r">[^<]+<")
 _UNITS = "mm²|mm|cm|µm|m|mN·m/h|mN·m|N·m|N/h|N|kg|g|ms|µs|min|s|h|kHz|Hz|MiB|%|×|°C|sigma|UTC"
-_BEFORE_UNIT = re.compile(rf"(?<=\d) (?=(?:{_UNITS})(?![\w·²]))")
+_BEFORE_UNIT = re.compile(rf"(?<=\d) (?=(?:{_UNITS})(?![\w·²]))|(?<=\d) (?=± \d)|(?<=±) (?=\d)")
 # Control characters, halves of characters, and what turns the direction of writing.
 _UNPRINTABLE = re.compile("[\0-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 

@@ -65,7 +65,7 @@ class ReportDetails:
         overdue = bool(self.due) and created is not None and created.date().isoformat() > self.due
         return {
             "rows": [*own.items(), *others],
-            "missing": _missing([name for name, said in own.items() if not said]),
+            "missing": [_WHERE[name] for name, said in own.items() if not said],
             "overdue": f"The sensor's calibration was due on {self.due}, before this report was made."
             if overdue
             else "",
@@ -77,15 +77,3 @@ def _listed(serials: Mapping[str, str]) -> str:
     if list(serials) == ["sensor"]:
         return serials["sensor"]
     return ", ".join(f"{device}: {serial}" for device, serial in serials.items())
-
-
-def _missing(names: Sequence[str]) -> str:
-    if not names:
-        return ""
-    options = ", ".join(_WHERE[name][0] for name in names)
-    keys = ", ".join(_WHERE[name][1] for name in names)
-    plural = len(names) > 1
-    return (
-        f"To fill in what is missing, add {'the options' if plural else 'the option'} {options} to the command, or give"
-        f" a session {'the settings' if plural else 'the setting'} {keys} (contactbench session set)."
-    )

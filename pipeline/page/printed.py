@@ -9,7 +9,7 @@ from typing import Any
 
 from contactbench.pipeline.errors import InputError
 
-FIRST, APPENDIX = "first", "appendix"  # ids: of a report's first page, and of what follows it
+APPENDIX = '<div id="appendix"></div>'  # stands between a report's first page and what follows it
 _SIZES = ("", "tight", "tightest")  # classes of the page, until its first part fits on one sheet
 _SVG = re.compile(r"<svg.*?</svg>", re.DOTALL)
 _ROOT = re.compile(r":root \{(.*?)\}", re.DOTALL)
@@ -17,7 +17,7 @@ _ROOT = re.compile(r":root \{(.*?)\}", re.DOTALL)
 
 def print_pdf(html: str) -> bytes:
     """
-    Print a page to PDF, A4; what comes before the element `APPENDIX` is made to fit on the first sheet.
+    Print a page to PDF, A4; what comes before `APPENDIX` is made to fit on the first sheet.
 
     Raises
     ------
@@ -28,13 +28,17 @@ def print_pdf(html: str) -> bytes:
     # Pictures stand in the page itself; nothing is fetched from outside.
     fetcher = weasyprint.urls.URLFetcher(allowed_protocols=["data"])
     html = in_plain_colours(html)
+    first, appendix, _ = html.partition(APPENDIX)
     for size in _SIZES:
-        sized = html.replace('<html lang="en"', f'<html lang="en" class="{size}"', 1)
-        document = weasyprint.HTML(string=sized, url_fetcher=fetcher).render()
-        if not any(APPENDIX in page.anchors for page in document.pages[2:]):
+        alone = weasyprint.HTML(string=_sized(first, size), url_fetcher=fetcher)
+        if not appendix or len(alone.render().pages) == 1:
             break
-    data: bytes = document.write_pdf()
+    data: bytes = weasyprint.HTML(string=_sized(html, size), url_fetcher=fetcher).write_pdf()
     return data
+
+
+def _sized(html: str, size: str) -> str:
+    return html.replace("<html ", f'<html class="{size}" ', 1) if size else html
 
 
 def in_plain_colours(html: str) -> str:

@@ -53,6 +53,8 @@ def draw(
     views: Sequence[MarkerView],
     limits: VerificationLimits,
     diagnosis: ErrorDiagnosis | None,
+    *,
+    passed: bool = False,
 ) -> VerificationFigures:
     """Draw all pictures of a report.
 
@@ -62,6 +64,8 @@ def draw(
         Accepted ones.
     views : sequence of MarkerView
         The markers whose scatter is shown.
+    passed : bool
+        Then no cause is to be put right.
     """
     repeated = [each for each in per_marker if each.touches >= FEWEST_REPEATS and each.scatter_mm is not None]
     with page_style(**_STYLE):
@@ -77,7 +81,7 @@ def draw(
             to_svg(_parts(repeated), "b", "Bias and scatter by marker") if repeated else "",
             ""
             if diagnosis is None
-            else to_svg(_causes(diagnosis), "c", "Shares of the squared error by cause"),
+            else to_svg(_causes(diagnosis, passed), "c", "Shares of the squared error by cause"),
         )
 
 
@@ -96,8 +100,10 @@ def _markers(per_marker: Sequence[Summary], limits: VerificationLimits) -> Figur
     ):
         style: dict[str, Any] = {"linestyle": "none", "marker": shape, "ms": 6, "mew": 1.8, "zorder": 3}
         beyond = values > 1e3 * limit
-        axes.plot(x[~beyond], values[~beyond], color=BLUE, label=words, **style)
-        axes.plot(x[beyond], values[beyond], color=VERMILION, label=f"{words}, over its limit", **style)
+        if not beyond.all():
+            axes.plot(x[~beyond], values[~beyond], color=BLUE, label=words, **style)
+        if beyond.any():
+            axes.plot(x[beyond], values[beyond], color=VERMILION, label=f"{words} over its limit", **style)
     _limits(axes, limits)
     axes.set_xticks(x, [_short(s.name) for s in per_marker], rotation=0 if len(x) <= 12 else 90)
     if len(x) > _MOST_NAMES:
@@ -180,12 +186,12 @@ def _parts(per_marker: Sequence[Summary]) -> Figure:
     return figure
 
 
-def _causes(diagnosis: ErrorDiagnosis) -> Figure:
+def _causes(diagnosis: ErrorDiagnosis, passed: bool) -> Figure:
     figure = Figure(figsize=(3.35, 2.9))
     axes = figure.add_axes((0.25, 0.16, 0.64, 0.79))
     shares = diagnosis.shares[::-1]
     y = np.arange(len(shares))
-    colours = [VERMILION if share.cause == diagnosis.first else BLUE for share in shares]
+    colours = [VERMILION if share.cause == diagnosis.first and not passed else BLUE for share in shares]
     axes.barh(y, [100 * share.share for share in shares], color=colours, height=0.62)
     for row, share in enumerate(shares):
         axes.text(100 * share.share + 1.5, row, f"{100 * share.share:.0f} %", va="center")

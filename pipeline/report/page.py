@@ -104,7 +104,7 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "mesh_sha256": mesh_hash(probe),
         "v": verification,
         "passed": verification.verdict.passed,
-        "reasons": [reason[:1].upper() + reason[1:] for reason in verification.verdict.reasons],
+        "reasons": [f"{reason[:1].upper()}{reason[1:]}." for reason in verification.verdict.reasons],
         "tiles": tiles(verification),
         "accepted": len(accepted),
         "total": len(verification.touches),
@@ -128,7 +128,7 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     """Draw; what is drawn with takes a while to import."""
     from contactbench.pipeline.heatmap.picture import encode_png
     from contactbench.pipeline.report.figures import FEWEST_REPEATS, draw
-    from contactbench.pipeline.report.picture import encode_touches
+    from contactbench.pipeline.report.picture import draw_touches
 
     verification, probe = content.verification, content.probe.probe
     accepted = [touch for touch in verification.touches if touch.accepted]
@@ -139,12 +139,19 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     made = error_map(accepted, probe)
     limit = 1e3 * verification.limits.max_m
     errors = b"" if made is None else encode_png(made, pixels=_PIXELS, legend=False, limit=limit)
-    seen = encode_touches(accepted, probe, verification.limits, _PIXELS)
-    figures = draw(accepted, verification.per_marker, shown, verification.limits, verification.diagnosis)
+    seen = draw_touches(accepted, probe, verification.limits, _PIXELS)
+    figures = draw(
+        accepted,
+        verification.per_marker,
+        shown,
+        verification.limits,
+        verification.diagnosis,
+        passed=verification.verdict.passed,
+    )
     hidden = len(views) - len(shown)
     return {
         "figures": figures,
-        "picture": base64.b64encode(seen).decode(),
+        "picture": seen,
         "map": base64.b64encode(errors).decode(),
         "hidden": hidden,
         "fewest": FEWEST_REPEATS,

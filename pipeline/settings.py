@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from datetime import date
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -277,6 +278,32 @@ class VerificationSettings(OrientationSettings):
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
     noise_torque: Positive | None = knob(None, "The same of a torque, N·m.")
     seed: int = knob(0, "Seed of the bootstrap.")
+
+
+# ---- reports -----------------------------------------------------------------------------------
+
+
+def _iso_date(value: object) -> object:
+    if not value:
+        return ""
+    try:
+        return date.fromisoformat(str(value)).isoformat()
+    except ValueError:
+        raise ValueError("give a date as 2027-03-31") from None
+
+
+_Line = Annotated[str, Field(max_length=200)]
+
+
+class ReportSettings(Settings):
+    """What a report says of who measured, and with which sensor; nothing is computed from it."""
+
+    operator: _Line = knob("", "Who measured; for the report.")
+    sensor: _Line = knob("", "Model of the force/torque sensor; for the report.")
+    certificate: _Line = knob("", "Number of the sensor's calibration certificate; for the report.")
+    due: Annotated[_Line, BeforeValidator(_iso_date)] = knob(
+        "", "Until when that certificate is valid; for the report.", metavar="YYYY-MM-DD"
+    )
 
 
 # ---- probe -------------------------------------------------------------------------------------

@@ -12,7 +12,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.check import check_app
-from contactbench.pipeline.commands.options import RobotPosesOption, refuse_overwriting, write_file, written
+from contactbench.pipeline.commands.options import (
+    RobotPosesOption,
+    SerialOption,
+    refuse_overwriting,
+    serials_of,
+    write_file,
+    written,
+)
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import (
@@ -23,6 +30,7 @@ from contactbench.pipeline.settings import (
     NoiseSettings,
     Only,
     PosesSettings,
+    ReportSettings,
     TaskSettings,
     knob,
 )
@@ -77,7 +85,11 @@ def fit(
     out: Annotated[Path, typer.Option(help="Calibration file to write, JSON.")],
     given: CalibrationSettings,
     heard: Delay,
-    report: Annotated[Path | None, typer.Option(help="Also write a report for people, HTML.")] = None,
+    said_of: ReportSettings,
+    report: Annotated[
+        Path | None, typer.Option(help="Also write a report for people: .html, or .pdf on A4.")
+    ] = None,
+    serial: SerialOption = None,
     robot_poses: RobotPosesOption = None,
 ) -> None:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
@@ -97,7 +109,9 @@ def fit(
     """
     for file in (out, report):
         refuse_overwriting(file, [each for each in (poses, robot_poses) if each is not None])
-    R_ES = given.R_ES
+    if report is not None and report.suffix.lower() not in (".html", ".pdf"):
+        raise typer.BadParameter(f"--report {report}: name a file that ends in .html or .pdf.")
+    R_ES, serials = given.R_ES, serials_of(serial)
     from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
@@ -122,8 +136,10 @@ def fit(
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
     if report:
         from contactbench.pipeline.calibration.report.page import write_report
+        from contactbench.pipeline.page.details import ReportDetails
 
-        write_report(calibration, report, source=source, created=created)
+        details = ReportDetails(**said_of.model_dump(), serials=serials)
+        write_report(calibration, report, source=source, created=created, details=details)
     _show(calibration, mounted)
     answer(_facts(calibration, mounted, out, report, table))
     if calibration.verdict.level == "refuse":

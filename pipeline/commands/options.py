@@ -26,6 +26,13 @@ RobotPosesOption = Annotated[
     ),
 ]
 
+SerialOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--serial", metavar="DEVICE=NUMBER", help="A serial number, for the report; may be repeated."
+    ),
+]
+
 RealityOption = Annotated[
     str,
     typer.Option(
@@ -45,6 +52,14 @@ PatchOption = Annotated[
         " is tilted and how the force is shared. flat, or the radii of the tissue along S's x and y, mm, 0 for flat.",
     ),
 ]
+
+
+def serials_of(pairs: Sequence[str] | None) -> dict[str, str]:
+    """Return serial numbers by device; typer.BadParameter if one is not written as DEVICE=NUMBER."""
+    split = [pair.partition("=") for pair in pairs or ()]
+    if not all(device and number for device, _, number in split):
+        raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
+    return {device: number for device, _, number in split}
 
 
 def written(given: OrientationSettings) -> Convention | None:

@@ -7,9 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
+from contactbench.pipeline.commands.options import (
+    SerialOption,
+    refuse_overwriting,
+    serials_of,
+    write_file,
+    written,
+)
 from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
-from contactbench.pipeline.settings import VerificationSettings
+from contactbench.pipeline.settings import ReportSettings, VerificationSettings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -175,6 +181,7 @@ def report(
     verification: Annotated[Path, typer.Option(help="What contactbench verify touches --out wrote.")],
     probe: Annotated[Path, typer.Option(help="The probe that was verified, .ply.")],
     out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
+    said: ReportSettings,
     calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate fit wrote.")] = None,
     known_weight: Annotated[
         Path | None, typer.Option(help="What contactbench calibrate check weight --out wrote.")
@@ -182,14 +189,12 @@ def report(
     known_touch: Annotated[
         Path | None, typer.Option(help="What contactbench calibrate check touch --out wrote.")
     ] = None,
-    operator: Annotated[str, typer.Option(help="Who verified.")] = "",
-    serial: Annotated[
-        list[str] | None, typer.Option(metavar="DEVICE=NUMBER", help="A serial number; may be repeated.")
-    ] = None,
+    serial: SerialOption = None,
 ) -> None:
-    """Write what a verification found as one page that anybody can read: HTML, or PDF on A4.
+    """Write what a verification found as a report that anybody can read: HTML, or PDF on A4.
 
-    The HTML file needs nothing beside itself. A PDF needs WeasyPrint: pip install 'contactbench[pdf]'.
+    Its first page says who, what, when and with which sensor, the verdict and the uncertainty budget, with room for a
+    signature; the details follow. The HTML file needs nothing beside itself. A PDF needs WeasyPrint: pip install 'contactbench[pdf]'.
     """
     if out.suffix.lower() not in (".html", ".pdf"):
         raise typer.BadParameter(f"--out {out}: name a file that ends in .html or .pdf.")
@@ -197,15 +202,12 @@ def report(
     inputs = {"verification": verification, "probe": probe}
     inputs |= {role: file for role, file in optional.items() if file is not None}
     refuse_overwriting(out, list(inputs.values()))
-    pairs = [pair.partition("=") for pair in serial or []]
-    if not all(device and number for device, _, number in pairs):
-        raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
+    serials = serials_of(serial)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.report.report_file import report as make
 
-    serials = {device: number for device, _, number in pairs}
     name = f"report{out.suffix.lower()}"
-    parameters = {"name": name, "operator": operator, "serials": serials}
+    parameters = {**said.model_dump(), "name": name, "serials": serials}
     data = make(inputs, parameters, creation_time().isoformat())[name]
     write_file(out, data)
     say(f"{out}: {len(data):,} bytes")

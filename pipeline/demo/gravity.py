@@ -15,6 +15,8 @@ from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.report.page import write_report
 from contactbench.pipeline.demo.tape import STEP_S, DemoTape
+from contactbench.pipeline.demo.tool import OPERATOR, SENSOR_MODEL
+from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
 from contactbench.pipeline.simulation.scenes import BenchScene
 from contactbench.pipeline.study.real_causes import POSES, planned_poses
@@ -155,7 +157,8 @@ def calibrate_folder(
     calibration = calibrate(poses)
     source = SourceFile.of(folder / "poses.csv")
     save_calibration(calibration, folder / "calibration.json", source=source)
-    write_report(calibration, folder / "calibration.html", source=source)
+    details = ReportDetails(OPERATOR, SENSOR_MODEL)
+    write_report(calibration, folder / "calibration.html", source=source, details=details)
     off = calibration.model.vector - truth.vector
     far = float(off @ np.linalg.solve(calibration.covariance, off))
     result = GravityResult(

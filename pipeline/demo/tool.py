@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 SENSOR_MODEL = "virtual, paper-like"
+OPERATOR = "contactbench demo"
 RATE_HZ = 200
 WARM_S = 3600.0  # since the sensor was switched on: as long as one should wait before a calibration
 

@@ -15,7 +15,7 @@ from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
+from contactbench.pipeline.demo.tool import OPERATOR, RATE_HZ, SENSOR_MODEL
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -42,7 +42,6 @@ WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")
 WINDOW_N = (7.5, 10.5)
 # Half a second is recorded once the tip rests: a tenth to see that, a quarter taken.
 SAMPLES = 50
-_OPERATOR = "contactbench demo"
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)  # the virtual sensor sits on the flange as it is
 _AT_ONCE = 1_000
 # The runtime's point is of filtered readings, the verification's of averaged ones: they differ by less than either
@@ -161,7 +160,7 @@ def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
     created = creation_time()
     made = {role: folder / file for role, file in _INPUTS.items() if role in ("probe", "calibration")}
     inputs = {"verification": folder / "verification.json", **made}
-    page = report(inputs, {"name": "report.html", "operator": _OPERATOR}, created.isoformat())
+    page = report(inputs, {"name": "report.html", "operator": OPERATOR, "sensor": SENSOR_MODEL}, created.isoformat())
     write_file(folder / "report.html", page["report.html"])
     judged = _judged(found)
     if judged.failed:
@@ -228,7 +227,7 @@ def export_settings(tool: DemoTool, probe: Path) -> ExportSettings:
         noise=tool.noise(),
         gates=Gates(saturation=(fx, fy, fz, mx, my, mz)),
         controller=controller_of(usual),
-        operator=_OPERATOR,
+        operator=OPERATOR,
         mount=_UNTURNED,
     )
 

@@ -48,7 +48,9 @@ class PictureLook:
     width: float
 
 
-def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: bool = True) -> bytes:
+def encode_png(
+    heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: bool = True, limit: float | None = None
+) -> bytes:
     """
     Return a heatmap as a PNG image.
 
@@ -60,6 +62,9 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
         A line at the foot.
     legend : bool
         With a heading.
+    limit : float, optional
+        Where the colours end, in the heatmap's unit, such as the largest error that is allowed: then a colour means the
+        same on every picture. Left out: `Heatmap.top`.
     """
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -77,16 +82,16 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
                 (column * side / size[0], low / size[1], side / size[0], HIGH * side / size[1])
             )
             axes.imshow(
-                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap),
+                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap, limit),
                 extent=(-0.5, 0.5, -HIGH / 2, HIGH / 2),
             )
             axes.set_axis_off()
             axes.set(xlim=(-0.5, 0.5), ylim=(-HIGH / 2, HIGH / 2))
-            _triad(axes, look)
+            add_triad(axes, look)
         if legend:
             words = f"{heatmap.title} on {heatmap.probe.name}"
             figure.text(0.5, 1 - 0.33 / size[1], words, ha="center", va="center", fontsize=14, color=_INK)
-        _scale(figure, heatmap, size)
+        _scale(figure, heatmap, size, limit)
         _ruler(figure, first, size, side)
         figure.text(0.5, 0.13 / size[1], note or _note(heatmap), ha="center", color=_FAINT, fontsize=9)
         data = BytesIO()
@@ -100,6 +105,13 @@ def looks(heatmap: Heatmap) -> tuple[PictureLook, PictureLook]:
     touched = probe.vertices[known]
     middle = 0.5 * (touched.min(axis=0) + touched.max(axis=0))
     normal = np.nan_to_num(heatmap.values)[known] @ vertex_normals(probe)[known]
+    return _two_looks(touched, middle, normal)
+
+
+def _two_looks(
+    touched: NDArray[np.float64], middle: NDArray[np.float64], normal: NDArray[np.float64]
+) -> tuple[PictureLook, PictureLook]:
+    """Return a look from the side that `normal` shows to, and one from the opposite side."""
     longest, ratio = _longest((touched - middle)[:, :2])
     # What is long lies across the picture, whichever way it is touched.
     y, x = (longest[1], longest[0]) if ratio > _LONG else (normal[0], -normal[1])
@@ -108,6 +120,16 @@ def looks(heatmap: Heatmap) -> tuple[PictureLook, PictureLook]:
     first, second = (_look(touched, middle, azimuth + turn, low) for turn in (0.0, np.pi))
     width = max(first.width, second.width)
     return replace(first, width=width), replace(second, width=width)
+
+
+def looks_at(probe: Probe, points: NDArray[np.float64]) -> tuple[PictureLook, PictureLook]:
+    """Return two looks at a probe with points (n, 3) on it, S, m: at all of it where there are none."""
+    if len(points) < 3:
+        points = probe.vertices
+    index = SurfaceIndex(probe.vertices, probe.faces)
+    normal = probe.normals[np.asarray(index.closest(np.ascontiguousarray(points))[1])].mean(axis=0)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    return _two_looks(points, middle, normal)
 
 
 def _longest(flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
@@ -177,7 +199,7 @@ class SurfaceView:
         return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
 
 
-def _triad(axes: Any, look: PictureLook) -> None:
+def add_triad(axes: Any, look: PictureLook) -> None:
     """Draw the axes of S in the lower left corner."""
     origin = np.array([-0.41, 0.09 - HIGH / 2])
     for letter, axis in zip("xyz", np.eye(3), strict=True):
@@ -211,15 +233,15 @@ def _nice(length: float) -> float:
     return float(power * _NICE[_NICE * power <= length * (1 + 1e-12)].max())
 
 
-def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float]) -> None:
+def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None) -> None:
     """Draw the colours with numbers, and the grey of no data beside them."""
     axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
-    largest = heatmap.top or 1.0
+    largest = limit or heatmap.top or 1.0
     axes.imshow(colour_ramp()[None], extent=(0, largest, 0, 1), aspect="auto")
     axes.set(yticks=[], xlim=(0, largest))
     axes.locator_params(axis="x", nbins=6)
     axes.tick_params(colors=_INK, labelsize=10, length=3)
-    over = f" (darkest above; up to {heatmap.largest:.3g})" if heatmap.top < heatmap.largest else ""
+    over = f" (darkest above; up to {heatmap.largest:.3g})" if largest < heatmap.largest else ""
     axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
     key = figure.add_axes((0.72, 0.84 / size[1], 0.03, 0.16 / size[1]))
     key.set(xticks=[], yticks=[], facecolor=NO_DATA)

@@ -12,6 +12,12 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from datetime import datetime
 
+_PARTS = "parts.html.jinja"  # macros, as `parts` in every page
+_SHARED = ("base.html.jinja", _PARTS)
+# Text of a page, and in it what keeps a number and its unit on one line.
+_TEXT = re.compile(r">[^<]+<")
+_UNITS = "mm²|mm|cm|µm|m|mN·m/h|mN·m|N·m|N/h|N|kg|g|ms|µs|min|s|h|kHz|Hz|MiB|%|×|°C|sigma|UTC"
+_BEFORE_UNIT = re.compile(rf"(?<=\d) (?=(?:{_UNITS})(?![\w·²]))|(?<=\d) (?=± \d)|(?<=±) (?=\d)")
 # Control characters, halves of characters, and what turns the direction of writing.
 _UNPRINTABLE = re.compile("[\0-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
@@ -23,7 +29,7 @@ def render(package: str, **content: Any) -> str:
     Parameters
     ----------
     package : str
-        Whose ``page.html.jinja`` fills the blocks of ``base.html.jinja`` here.
+        Whose ``page.html.jinja`` fills the blocks of ``base.html.jinja`` here, with the macros of ``parts``.
     **content
         What the templates name.
     """
@@ -34,7 +40,7 @@ def render(package: str, **content: Any) -> str:
     )
 
     def source(name: str) -> str:
-        place = __package__ if name == "base.html.jinja" else package
+        place = __package__ if name in _SHARED else package
         return files(place).joinpath(name).read_text("utf-8")
 
     environment = Environment(
@@ -45,8 +51,9 @@ def render(package: str, **content: Any) -> str:
         finalize=_finalize,
         loader=FunctionLoader(source),
     )
-    page: str = environment.get_template("page.html.jinja").render(**content)
-    return page
+    parts = environment.get_template(_PARTS).module
+    page: str = environment.get_template("page.html.jinja").render(parts=parts, **content)
+    return _TEXT.sub(lambda match: _BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", match[0]), page)
 
 
 def printable(text: str) -> str:

@@ -8,8 +8,10 @@ import numpy as np
 import scipy
 
 from contactbench import __version__
+from contactbench.pipeline.calibration.budget import COVERAGE, BudgetSource
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
+from contactbench.pipeline.calibration.report.budget_table import budget_table, length_mm
 from contactbench.pipeline.page import moment
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
     from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.report.page import ReportContent
     from contactbench.pipeline.verification.figures import ForceAccuracy, Summary, TouchFigure, Verification
 
 # Kind, what it is called, and what it rests on.
@@ -55,8 +58,76 @@ _UNSAID = {
 }
 
 
-def tiles(verification: Verification) -> list[tuple[str, str]]:
-    """Return the main numbers, each with a sentence."""
+def about(content: ReportContent, when: str | None) -> list[tuple[str, str]]:
+    """Return what the head of the page says of the measurement."""
+    verification, record = content.verification, content.calibration
+    accepted = [touch for touch in verification.touches if touch.accepted]
+    markers = len(verification.per_marker)
+    calibrated = ""
+    if record is not None:
+        facts = calibration_facts(record)
+        calibrated = f"{facts['word']}, {facts['created'] or 'time not given'}"
+    return [
+        ("Report made", when or ""),
+        ("Probe", content.probe.probe.name),
+        ("Touches", f"{len(accepted)} used of {len(verification.touches)}, on {markers} marker{'s' * (markers != 1)}"),
+        ("Gravity calibration", calibrated or "not in this report: add --calibration"),
+        ("Session", content.session or "none: made from files"),
+        ("Software", f"contactbench {__version__}"),
+    ]
+
+
+# What stands in a budget instead of a contribution.
+_NO_PART = {
+    BudgetSource.MOUNT: "in the model error",
+    BudgetSource.MESH: "not known",
+}
+
+
+def budget_facts(verification: Verification) -> dict[str, Any] | None:
+    """Return the uncertainty budget, and how the errors compare with it; None: the verification has none."""
+    table, u, overall = (
+        budget_table(verification.budget, _NO_PART),
+        verification.combined_mm,
+        verification.overall,
+    )
+    if table is None or u is None or overall is None:
+        return None
+    measured = verification.model_error is not None
+    return {
+        **table,
+        "observed": f"{length_mm(overall.rms_mm)} mm",
+        "ratio": _times(overall.rms_mm / u) if u > 0 else NOTHING,
+        "beyond": overall.rms_mm > COVERAGE * u,
+        "measured": measured,
+        "noise_measured": verification.budget[0].kind == "A",
+    }
+
+
+def ratio_rows(verification: Verification, record: CalibrationRecord | None) -> list[tuple[str, str]]:
+    """Return every ratio of errors that the report or its sources give, and what it compares."""
+    rows = []
+    u, overall = verification.combined_mm, verification.overall
+    if u and overall is not None:
+        rows.append((_times(overall.rms_mm / u), "errors of the touches (rms) over the whole uncertainty budget"))
+    if verification.ratio is not None:
+        words = "errors of the touches (rms) over noise and calibration alone, without model error, markers and mesh"
+        rows.append((_times(verification.ratio), words))
+    if verification.diagnosis is not None:
+        words = "what no cause explains of these errors over the sensor's noise alone"
+        rows.append((_times(verification.diagnosis.noise_scale), words))
+    if record is not None:
+        words = "residuals of the gravity calibration's poses over the noise of a pose: nothing of the touches is in it"
+        rows.append((_times(float(np.sqrt(record.calibration.scatter))), words))
+    return rows
+
+
+def _times(ratio: float) -> str:
+    return f"{plain(ratio)} ×"
+
+
+def tiles(verification: Verification) -> list[tuple[str, str, bool]]:
+    """Return the main numbers: what, in words, and whether it is beyond its limit."""
     limits, overall, times = verification.limits, verification.overall, verification.times
     if overall is None:
         return []
@@ -64,21 +135,23 @@ def tiles(verification: Verification) -> list[tuple[str, str]]:
         (
             f"{overall.mean_mm:.2f} mm",
             f"mean error; the limit is {1e3 * limits.mean_m:g} mm{_interval(verification)}",
+            overall.mean_mm > 1e3 * limits.mean_m,
         ),
-        (f"{overall.max_mm:.2f} mm", f"largest error; the limit is {1e3 * limits.max_m:g} mm"),
+        (
+            f"{overall.max_mm:.2f} mm",
+            f"largest error; the limit is {1e3 * limits.max_m:g} mm",
+            overall.max_mm > 1e3 * limits.max_m,
+        ),
     ]
-    if verification.ratio is not None:
-        words = "times the error that the sensor's noise and the calibration explain (1 would be perfect)"
-        found.append((f"{verification.ratio:.1f} ×", words))
     if times is not None:
         words = f"to find one contact, in 99 of 100 cases; the limit is {1e3 * limits.p99_s:g} ms"
-        found.append((f"{1e6 * times.p99_s:.0f} µs", words))
+        found.append((f"{1e6 * times.p99_s:.0f} µs", words, times.p99_s > limits.p99_s))
     if verification.force is not None:
         found.append(_force_tile(verification.force))
     return found
 
 
-def _force_tile(force: ForceAccuracy) -> tuple[str, str]:
+def _force_tile(force: ForceAccuracy) -> tuple[str, str, bool]:
     """Return the mean deviation of the force, and how many touches, the largest and the share in words."""
     of = f" of {force.of}" if force.of > force.touches else ""
     touches = f"{force.touches}{of} touch{'es' * (max(force.touches, force.of) != 1)}"
@@ -87,7 +160,7 @@ def _force_tile(force: ForceAccuracy) -> tuple[str, str]:
         f"deviation of the force from the reference{scatter}; largest {force.max_N:.2f} N, {force.rms_percent:.1f} %"
         f" (rms) of the force, over {touches}"
     )
-    return f"{signed(f'{force.mean_N:.2f}')} N", words
+    return f"{signed(f'{force.mean_N:.2f}')} N", words, False
 
 
 def _interval(verification: Verification) -> str:

@@ -14,10 +14,14 @@ from contactbench import __version__
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions.exchange import mesh_hash
 from contactbench.pipeline.page import moment, render
+from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.report.facts import (
+    about,
+    budget_facts,
     calibration_facts,
     check_rows,
     mesh_steps,
+    ratio_rows,
     settings_rows,
     summaries,
     tiles,
@@ -54,10 +58,10 @@ class ReportContent:
     calibration : CalibrationRecord or None
     created : datetime or None
         When the report was made, with a time zone; the only time that is not in the inputs.
-    operator, session : str
-        Who, and of which session; empty: not said.
-    serials : mapping of str to str
-        Serial number by device: ``{"sensor M8128": "SN 7"}``.
+    details : ReportDetails
+        Who, and with which sensor.
+    session : str
+        Of which session; empty: not said.
     files : mapping of str to str
         SHA-256 by name, of further files.
     checks : mapping of str to mapping
@@ -68,9 +72,8 @@ class ReportContent:
     probe: ProbeFile
     calibration: CalibrationRecord | None = None
     created: datetime | None = None
-    operator: str = ""
+    details: ReportDetails = field(default_factory=ReportDetails)
     session: str = ""
-    serials: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str] = field(default_factory=dict)
     checks: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
@@ -89,7 +92,8 @@ def report_html(content: ReportContent) -> str:
         raise InputError(
             f"{content.probe.probe.name}: the probe is not aligned with the sensor: run `contactbench probe align`."
         )
-    return render(__package__, created=when, **_context(content), **_pictures(content))
+    details = content.details.table(content.created, about(content, when))
+    return render(__package__, created=when, details=details, **_context(content), **_pictures(content))
 
 
 def _context(content: ReportContent) -> dict[str, Any]:
@@ -100,7 +104,7 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "mesh_sha256": mesh_hash(probe),
         "v": verification,
         "passed": verification.verdict.passed,
-        "reasons": [reason[:1].upper() + reason[1:] for reason in verification.verdict.reasons],
+        "reasons": [f"{reason[:1].upper()}{reason[1:]}." for reason in verification.verdict.reasons],
         "tiles": tiles(verification),
         "accepted": len(accepted),
         "total": len(verification.touches),
@@ -113,9 +117,8 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "settings": settings_rows(verification.settings),
         "versions": versions(),
         "steps": mesh_steps(content.probe),
-        "operator": content.operator,
-        "session": content.session,
-        "serials": dict(content.serials),
+        "budget": budget_facts(verification),
+        "ratios": ratio_rows(verification, content.calibration),
         "files": {**{f"verified {role}": h for role, h in verification.sources.items()}, **content.files},
         "tool": f"contactbench {__version__}",
     }
@@ -125,6 +128,7 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     """Draw; what is drawn with takes a while to import."""
     from contactbench.pipeline.heatmap.picture import encode_png
     from contactbench.pipeline.report.figures import FEWEST_REPEATS, draw
+    from contactbench.pipeline.report.picture import draw_touches
 
     verification, probe = content.verification, content.probe.probe
     accepted = [touch for touch in verification.touches if touch.accepted]
@@ -133,9 +137,22 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     worst = {v.name for v in sorted(views, key=lambda v: -largest.get(v.name, 0.0))[:MOST_SHOWN]}
     shown = [view for view in views if view.name in worst]
     made = error_map(accepted, probe)
-    picture = (
-        "" if made is None else base64.b64encode(encode_png(made, pixels=_PIXELS, legend=False)).decode()
+    limit = 1e3 * verification.limits.max_m
+    errors = b"" if made is None else encode_png(made, pixels=_PIXELS, legend=False, limit=limit)
+    seen = draw_touches(accepted, probe, verification.limits, _PIXELS)
+    figures = draw(
+        accepted,
+        verification.per_marker,
+        shown,
+        verification.limits,
+        verification.diagnosis,
+        passed=verification.verdict.passed,
     )
-    figures = draw(accepted, verification.per_marker, shown, verification.limits, verification.diagnosis)
     hidden = len(views) - len(shown)
-    return {"figures": figures, "map": picture, "hidden": hidden, "fewest": FEWEST_REPEATS}
+    return {
+        "figures": figures,
+        "picture": seen,
+        "map": base64.b64encode(errors).decode(),
+        "hidden": hidden,
+        "fewest": FEWEST_REPEATS,
+    }

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from datetime import datetime
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.page.details import ReportDetails
+from contactbench.pipeline.page.printed import print_pdf
+from contactbench.pipeline.settings import ReportSettings
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_check
 
 if TYPE_CHECKING:
@@ -20,13 +21,12 @@ if TYPE_CHECKING:
 _ROLES = ("verification", "probe", "calibration", WEIGHT, TOUCH)
 
 
-class ReportParameters(Parameters):
+class ReportParameters(ReportSettings, Parameters):
     """Who made the report, and of what: as `ReportContent`."""
 
     endings = (".html", ".pdf")
 
     name: str = "report.html"
-    operator: str = ""
     session: str = ""
     serials: dict[str, str] = Field(default_factory=dict)
 
@@ -57,39 +57,13 @@ def report(
         load_probe_file(inputs["probe"]),
         load_record(inputs["calibration"]) if "calibration" in inputs else None,
         None if created is None else datetime.fromisoformat(created),
-        given.operator,
+        ReportDetails(given.operator, given.sensor, given.certificate, given.due, given.serials),
         given.session,
-        given.serials,
         {f"{role} ({inputs[role].name})": sha256 for role, sha256 in hashes.items()},
         {kind: read_check(kind, inputs[kind]) for kind in (WEIGHT, TOUCH) if kind in inputs},
     )
     page = report_html(content)
-    return {given.name: report_pdf(page) if given.name.endswith(".pdf") else page.encode()}
-
-
-def report_pdf(html: str) -> bytes:
-    """
-    Print a report's page to PDF, A4.
-
-    Raises
-    ------
-    InputError
-        WeasyPrint, an optional package, is missing or cannot work here.
-    """
-    remedy = "pip install 'contactbench[pdf]', or print the HTML file with a browser."
-    if find_spec("weasyprint") is None:
-        raise InputError(f"a PDF needs the package WeasyPrint: {remedy}")
-    try:
-        weasyprint = import_module("weasyprint")
-    except OSError as error:  # it loads Pango, a library of the system
-        raise InputError(
-            f"WeasyPrint cannot load Pango ({error}): on Debian and Ubuntu apt-get install libpango-1.0-0"
-            " libpangoft2-1.0-0; or print the HTML file with a browser."
-        ) from error
-    # Pictures stand in the page itself; nothing is fetched from outside.
-    fetcher = weasyprint.urls.URLFetcher(allowed_protocols=["data"])
-    data: bytes = weasyprint.HTML(string=html, url_fetcher=fetcher).write_pdf()
-    return data
+    return {given.name: print_pdf(page) if given.name.endswith(".pdf") else page.encode()}
 
 
 def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: Mapping[str, Path]) -> None:

@@ -161,11 +161,21 @@ def compute(
 
 
 def _known_of(session: Session) -> dict[str, Any]:
-    """Return what a report can take from its session: who, of which one, and the sensors' serial numbers."""
+    """Return what a report can take from its session: who, of which one, and with which sensor."""
     state = session.state
     known = {each.sensor: each.name for each in state.current_inputs.values() if each.sensor}
     named = {f"sensor of {name}" if len(known) > 1 else "sensor": serial for serial, name in known.items()}
-    return {"operator": session.records[-1].entry.by, "session": state.id, "serials": named}
+    # What is chosen on the page of devices, or for the bundle, is of the same sensor and the same people.
+    chosen = {key: state.setting(key) for key in ("devices.serial", "config.sensor", "config.operator")}
+    if not named and chosen["devices.serial"]:
+        named = {"sensor": str(chosen["devices.serial"])}
+    return {
+        "operator": chosen["config.operator"] or session.records[-1].entry.by,
+        "sensor": chosen["config.sensor"] or "",
+        "session": state.id,
+        "serials": named,
+        **settings_of(state, "report"),
+    }
 
 
 def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = None) -> dict[str, str]:

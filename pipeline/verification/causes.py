@@ -46,6 +46,7 @@ class TouchEvidence:
     # (n, 3) of these markers, S
     points: Array
     normals: Array
+    facets: Array  # (n, 3) normals where the touches were located, S
     heights: Array  # (n,) of these markers over the mesh, m
     wrenches: Array  # (n, 6) compensated means, S
     R_WS: Array  # (n, 3, 3)
@@ -56,7 +57,9 @@ class TouchEvidence:
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
-        fields = ("errors", "markers", "points", "normals", "heights", "wrenches", "R_WS", "torques")
+        fields = (
+            "errors", "markers", "points", "normals", "facets", "heights", "wrenches", "R_WS", "torques",
+        )  # fmt: skip
         rows: dict[str, Any] = {name: getattr(self, name)[kept] for name in fields}
         return replace(self, **rows)
 

@@ -7,6 +7,8 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from contactbench.pipeline.calibration.budget import BudgetRow, combined_mm
+
 SCHEMA, VERSION = "contactbench.verification", 1
 
 Vector = tuple[float, float, float]
@@ -235,6 +237,8 @@ class Verification:
         None: no touch settled.
     model_error : ModelError or None
         None: too few markers.
+    budget : tuple of BudgetRow
+        What the errors should come to; empty: no touch was accepted, or the file is of before.
     """
 
     touches: tuple[TouchFigure, ...]
@@ -258,6 +262,12 @@ class Verification:
     warnings: tuple[str, ...] = ()
     unresolved: Unresolved | None = None
     model_error: ModelError | None = None
+    budget: tuple[BudgetRow, ...] = ()
+
+    @property
+    def combined_mm(self) -> float | None:
+        """Combined standard uncertainty of the errors, mm; None: there is no budget."""
+        return combined_mm(self.budget) if self.budget else None
 
     @property
     def bias_mm(self) -> Vector | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -113,7 +114,7 @@ def verify_files(
     settings, R_ES = given.settings(), given.R_ES
     markers = load_markers(inputs["markers"])
     calibration = load_calibration(inputs["calibration"])
-    probe, said, aligned = _load_probe(inputs["probe"])
+    probe, said, aligned, deviation = _load_probe(inputs["probe"])
     faults = (
         [] if aligned else ["the probe was never aligned with the sensor: run `contactbench probe align`"]
     )
@@ -131,6 +132,7 @@ def verify_files(
         timed=timed,
         sources={role: sha256_of(path) for role, path in inputs.items()},
         faults=tuple(faults),
+        mesh_deviation=deviation,
     )
 
 
@@ -146,11 +148,13 @@ def load_surface(file: Path) -> Probe:
     return _load_probe(file)[0]
 
 
-def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
+def _load_probe(file: Path) -> tuple[Probe, list[str], bool, float | None]:
+    from contactbench.pipeline.config.runtime import ConfigError
+    from contactbench.pipeline.config.runtime.bench import mesh_deviation
     from contactbench.pipeline.mesh.load import probe_of, read_mesh
     from contactbench.pipeline.mesh.sidecar import load_probe_file
 
-    read, aligned = read_mesh(file), True
+    read, aligned, deviation = read_mesh(file), True, None
     probe = probe_of(file, read)
     said = [*read.notes, *probe.health.sentences]
     if read.guess is not None and not read.guess.certain:
@@ -159,4 +163,6 @@ def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
         known = load_probe_file(file)
         said += known.notes
         aligned = not known.history or known.frame == "S"
-    return probe, said, aligned
+        with suppress(ConfigError):  # its history does not say
+            deviation = mesh_deviation(known) if known.history else None
+    return probe, said, aligned, deviation

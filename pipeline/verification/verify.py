@@ -10,6 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
 from contactbench.pipeline.verification.figures import Times, TouchFigure, Verification, VerificationLimits
@@ -103,6 +104,7 @@ def verify(
     timed: bool = False,
     sources: dict[str, str] | None = None,
     faults: tuple[str, ...] = (),
+    mesh_deviation: float | None = None,
 ) -> Verification:
     """
     Find the touches of a recording, and judge the contact points.
@@ -127,6 +129,8 @@ def verify(
         SHA-256 of the inputs, by role: kept with the result.
     faults : tuple of str
         Why nothing verified with these inputs may pass, in sentences.
+    mesh_deviation : float, optional
+        Root mean square between the probe and the surface that it was made of, m; for the uncertainty budget.
 
     Raises
     ------
@@ -171,6 +175,7 @@ def verify(
         warnings=(*recording.warnings, *said),
         faults=faults,
         rate=rate,
+        mesh_deviation=mesh_deviation,
     )
 
 
@@ -186,6 +191,7 @@ def judge(
     warnings: tuple[str, ...] = (),
     faults: tuple[str, ...] = (),
     rate: float | None = None,
+    mesh_deviation: float | None = None,
 ) -> Verification:
     """
     Return the verification of touches; `rate` is in Hz.
@@ -223,6 +229,7 @@ def judge(
         dict(sorted(rejected.items())),
         settings.left_out,
     )
+    left = measure_model_error(evidence, placing.model)
     windows = [_span(window) for window in settings.protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
     return Verification(
@@ -250,7 +257,8 @@ def judge(
         sources=dict(sorted((sources or {}).items())),
         warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
         unresolved=case.unresolved,
-        model_error=measure_model_error(evidence, placing.model),
+        model_error=left,
+        budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation) if accepted else (),
     )
 
 
@@ -295,6 +303,7 @@ def _evidence(
         markers=places,
         points=markers.points[places],
         normals=markers.normals[places],
+        facets=np.array([each.normal for each, _ in pairs]).reshape(-1, 3),
         heights=heights[places],
         wrenches=np.array([each.wrench for each, _ in pairs]).reshape(-1, 6),
         R_WS=np.array([each.R_WS for each, _ in pairs]).reshape(-1, 3, 3),

@@ -11,6 +11,7 @@ from contactbench.assets import make
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions.region import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.report import ReportContent
 from contactbench.pipeline.verification.figures import (
     ErrorCause,
@@ -111,9 +112,8 @@ def content(*, passed: bool = True, markers: int = 9, facets: int = 1_500) -> Re
         verification(file.probe, passed=passed, markers=markers),
         file,
         created=CREATED,
-        operator="A. Technician",
+        details=ReportDetails("A. Technician", "M8128", "DKD-K-7", "2026-12-31", {"sensor M8128": "SN 7"}),
         session="bench 3",
-        serials={"sensor M8128": "SN 7"},
     )
 
 

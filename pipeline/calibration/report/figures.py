@@ -1,21 +1,15 @@
-"""The pictures of a calibration report, as SVG that takes its colours and its font from the page.
+"""
+The pictures of a calibration report, see `contactbench.pipeline.page.figures`.
 
-Matplotlib draws with fixed colours; these stand for roles (ink, grid, force, ...) and are replaced by the
-page's CSS variables, so that one picture serves light, dark and paper. Text stays text: it can be searched
-and copied. CalibrationFigures carry numbers of poses, never names: nothing from a file gets in here.
-
-Importing this module imports Matplotlib, which takes a while: import it when a report is made.
+They carry numbers of poses, never names: nothing from a file gets in here. Importing this module imports Matplotlib,
+which takes a while: import it when a report is made.
 """
 
 from __future__ import annotations
 
-import re
-from contextlib import contextmanager
 from dataclasses import dataclass
-from io import StringIO
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -31,9 +25,12 @@ from contactbench.pipeline.calibration.nuisance import REZERO
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
 from contactbench.pipeline.calibration.report.beside import taken_off
+from contactbench.pipeline.calibration.verdict import Limits
+from contactbench.pipeline.page.figures import FAINT, GRID, INK, PAPER, WIDTH, page_style, to_svg
+from contactbench.pipeline.page.palette import BLUE, VERMILION
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
@@ -43,42 +40,6 @@ if TYPE_CHECKING:
 EMPTY = 45.0  # degrees: an area further than this from every pose is shown as empty
 STEEPEST = 75.0  # degrees between force and normal, on the map of contact errors
 
-# Stand-ins for the page's variables; no picture has these colours otherwise.
-_INK, _FAINT, _GRID, _PAPER, _FORCE, _TORQUE = (
-    "#010101",
-    "#020202",
-    "#030303",
-    "#fdfefd",
-    "#0072b2",
-    "#d55e00",
-)
-_ROLES = {
-    _INK: "currentColor",
-    _FAINT: "var(--faint)",
-    _GRID: "var(--grid)",
-    _PAPER: "var(--paper)",
-    _FORCE: "var(--force)",
-    _TORQUE: "var(--torque)",
-}
-_STYLE: dict[Any, Any] = {
-    "svg.fonttype": "none",
-    "svg.hashsalt": "contactbench",
-    "font.family": ["DejaVu Sans"],  # comes with Matplotlib: the layout is the same on every machine
-    "font.size": 9.0,
-    "text.parse_math": False,
-    "text.color": _INK,
-    "axes.labelcolor": _INK,
-    "axes.edgecolor": _FAINT,
-    "axes.facecolor": "none",
-    "figure.facecolor": "none",
-    "xtick.color": _FAINT,
-    "ytick.color": _FAINT,
-    "xtick.labelcolor": _INK,
-    "ytick.labelcolor": _INK,
-    "xtick.minor.size": 0,
-    "ytick.minor.size": 0,
-}
-_WIDTH = 6.9  # inches: the width of the text on an A4 page
 _TURN = np.linspace(0, 2 * np.pi, 73)
 _ROOMY = 20  # poses that can have all their numbers
 CROWDED = 60  # poses: with more, only those that were left out have a number
@@ -111,16 +72,16 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
     R_WS, kept = upright(calibration), calibration.kept
     halves = ("sensor's +z half", "sensor's \N{MINUS SIGN}z half")
     ways = ("upper half: probe points up", "lower half: probe points down")
-    with _style():
+    with page_style():
         gravity = _coverage(-R_WS[:, 2], kept, halves)
         probe = _coverage(R_WS @ calibration.task.normal, kept, ways, lower_first=True)
         contact = None if sigmas is None else _contact(calibration, sigmas, noise)
         return CalibrationFigures(
-            _svg(_signed(calibration), "s", "Signed residuals of every channel over time"),
-            _svg(_residuals(calibration), "r", "Deviates of force and torque of every pose"),
-            _svg(gravity, "g", "Direction of gravity in the sensor frame in every pose"),
-            _svg(probe, "p", "Direction of the probe in the world in every pose"),
-            "" if contact is None else _svg(contact, "c", "Predicted contact error by force direction"),
+            to_svg(_signed(calibration), "s", "Signed residuals of every channel over time"),
+            to_svg(_residuals(calibration), "r", "Deviates of force and torque of every pose"),
+            to_svg(gravity, "g", "Direction of gravity in the sensor frame in every pose"),
+            to_svg(probe, "p", "Direction of the probe in the world in every pose"),
+            "" if contact is None else to_svg(contact, "c", "Predicted contact error by force direction"),
         )
 
 
@@ -154,7 +115,7 @@ def _signed(calibration: Calibration) -> Figure:
     band = np.sqrt(np.diagonal(V.mean(axis=0))) * _DISPLAYED
     lines = calibration.offsets * _DISPLAYED
     points = lines + calibration.residuals * _DISPLAYED
-    figure = Figure(figsize=(_WIDTH, 3.5))
+    figure = Figure(figsize=(WIDTH, 3.5))
     figure.subplots_adjust(left=0.105, right=0.99, bottom=0.125, top=0.93, hspace=0.26, wspace=0.08)
     rows = figure.subplots(2, 3, sharex=True, sharey="row")
     for part, row, unit_of in ((slice(3), rows[0], "N"), (slice(3, 6), rows[1], "mN·m")):
@@ -164,7 +125,7 @@ def _signed(calibration: Calibration) -> Figure:
         _band(axes, calibration, when, lines[:, channel], float(band[channel]))
         _points(axes, calibration.kept, when, points[:, channel], torque=channel >= 3)
         axes.set_title(_CHANNELS[channel], fontsize=9, pad=3)
-        axes.grid(axis="y", color=_GRID, linewidth=0.6)
+        axes.grid(axis="y", color=GRID, linewidth=0.6)
         axes.set_axisbelow(True)
     rows[1][1].set_xlabel(unit)
     figure.align_ylabels(rows[:, 0])
@@ -179,23 +140,23 @@ def _band(
     x, y = when[order], line[order]
     jumps = taken_off(calibration) == REZERO
     axes.fill_between(
-        x, y - half, y + half, step="mid" if jumps else None, color=_GRID, alpha=0.55, linewidth=0
+        x, y - half, y + half, step="mid" if jumps else None, color=GRID, alpha=0.55, linewidth=0
     )
-    axes.plot(x, y, color=_INK, linewidth=1, drawstyle="steps-mid" if jumps else "default")
+    axes.plot(x, y, color=INK, linewidth=1, drawstyle="steps-mid" if jumps else "default")
 
 
 def _points(
     axes: Axes, kept: NDArray[np.bool_], when: NDArray[np.float64], y: NDArray[np.float64], *, torque: bool
 ) -> None:
     """Draw one channel's poses, hollow if left out; what lies off the plot is a triangle at its edge."""
-    colour, shape = (_TORQUE, "D") if torque else (_FORCE, "o")
+    colour, shape = (VERMILION, "D") if torque else (BLUE, "o")
     style: dict[str, Any] = {"color": colour, "linestyle": "none", "clip_on": False, "zorder": 3}
     top = axes.get_ylim()[1]
-    for used, fill in ((kept, colour), (~kept, _PAPER)):
+    for used, fill in ((kept, colour), (~kept, PAPER)):
         shown = used & (np.abs(y) <= top)
         axes.plot(when[shown], y[shown], marker=shape, mfc=fill, markersize=3.6, **style)
     for beyond, edge, mark in ((y > top, 0.94 * top, "^"), (y < -top, -0.94 * top, "v")):
-        axes.plot(when[beyond], np.full(beyond.sum(), edge), marker=mark, mfc=_PAPER, markersize=5, **style)
+        axes.plot(when[beyond], np.full(beyond.sum(), edge), marker=mark, mfc=PAPER, markersize=5, **style)
 
 
 def _residuals(calibration: Calibration) -> Figure:
@@ -203,35 +164,35 @@ def _residuals(calibration: Calibration) -> Figure:
     far, kept = calibration.deviates, calibration.kept
     n, allowed = len(far), limit(len(far))
     top = min(max(1.3 * allowed, 1.1 * float(far.max())), 2 * allowed)
-    figure = Figure(figsize=(_WIDTH, 2.6))
+    figure = Figure(figsize=(WIDTH, 2.6))
     axes = figure.add_axes((0.06, 0.16, 0.92, 0.58 if (far > top).any() else 0.71))
     number = np.arange(1.0, n + 1)
     for column, name, colour, shape, size in (
-        (0, "force", _FORCE, "o", 5.5),
-        (1, "torque", _TORQUE, "D", 4.8),
+        (0, "force", BLUE, "o", 5.5),
+        (1, "torque", VERMILION, "D", 4.8),
     ):
         x, y = number + (0.16 if column else -0.16), far[:, column]
         style: dict[str, Any] = {"color": colour, "linestyle": "none", "clip_on": False, "zorder": 3}
-        for used, fill, words in ((kept, colour, name), (~kept, _PAPER, None)):
+        for used, fill, words in ((kept, colour, name), (~kept, PAPER, None)):
             shown = used & (y <= top)
             axes.plot(x[shown], y[shown], marker=shape, mfc=fill, markersize=size, label=words, **style)
         beyond = y > top
-        axes.plot(x[beyond], 0.96 * np.full(beyond.sum(), top), marker="^", mfc=_PAPER, markersize=6, **style)
+        axes.plot(x[beyond], 0.96 * np.full(beyond.sum(), top), marker="^", mfc=PAPER, markersize=6, **style)
         if n > _ROOMY:  # two numbers side by side would touch: the larger one stands for both
             x, beyond = number, beyond & (y == far.max(axis=1))
         for pose in np.flatnonzero(beyond) if n <= CROWDED else ():
             axes.text(x[pose], 1.03 * top, f"{y[pose]:.0f}", rotation=90, ha="center", va="bottom")
     if n >= FEWEST:  # fewer are not checked against one another
         axes.axhline(
-            allowed, color=_INK, linewidth=1, linestyle=(0, (5, 3)), label=f"limit {allowed:.1f} sigma"
+            allowed, color=INK, linewidth=1, linestyle=(0, (5, 3)), label=f"limit {allowed:.1f} sigma"
         )
     for rank, pose in enumerate(number[~kept]):
         words = None if rank else "pose left out (hollow marks)"
-        axes.axvspan(pose - 0.5, pose + 0.5, color=_GRID, alpha=0.45, linewidth=0, label=words)
+        axes.axvspan(pose - 0.5, pose + 0.5, color=GRID, alpha=0.45, linewidth=0, label=words)
     axes.set(xlim=(0.4, n + 0.6), ylim=(0, top), ylabel="deviate (sigma)", xlabel="pose")
     every = 1 if n <= _ROOMY else 5 if n <= 100 else 20 * (n // 200 + 1)
     axes.set_xticks(sorted({1, *range(every, n + 1, every)}))
-    axes.grid(axis="y", color=_GRID, linewidth=0.6)
+    axes.grid(axis="y", color=GRID, linewidth=0.6)
     axes.set_axisbelow(True)
     place: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0.045, 1.03), "ncols": 4}
     figure.legend(frameon=False, handletextpad=0.5, columnspacing=1.6, **place)
@@ -266,14 +227,14 @@ def _coverage(
     lower_first: bool = False,
 ) -> Figure:
     """Plot unit vectors (n, 3) on two discs of equal area; both are seen along -z, the lower one through the upper."""
-    figure = Figure(figsize=(_WIDTH, 3.5))
+    figure = Figure(figsize=(WIDTH, 3.5))
     at, upper = lambert(directions), directions[:, 2] >= 0
     halves = [(upper, 1.0, titles[0]), (~upper, -1.0, titles[1])]
     for column, (here, sign, name) in enumerate(halves[::-1] if lower_first else halves):
         axes = figure.add_axes((0.5 * column, 0.0, 0.5, 0.93))
         figure.text(0.5 * column + 0.25, 0.955, name, ha="center")
         taken = _globe(axes, directions[kept], sign)
-        for used, colour, shape in ((kept, _FORCE, "o"), (~kept, _TORQUE, "X")):
+        for used, colour, shape in ((kept, BLUE, "o"), (~kept, VERMILION, "X")):
             axes.plot(
                 *at[here & used].T, color=colour, marker=shape, markersize=6, linestyle="none", zorder=3
             )
@@ -317,17 +278,17 @@ def _globe(axes: Axes, kept: NDArray[np.float64], sign: float) -> list[_Box]:
     distance = np.degrees(np.arccos(np.clip((ball @ kept.T).max(axis=2), -1, 1)))
     if distance.max() > EMPTY:
         x, y = np.moveaxis(lambert(ball), -1, 0)
-        axes.contourf(x, y, distance, levels=[EMPTY, 181], colors=[_GRID], alpha=0.55)
+        axes.contourf(x, y, distance, levels=[EMPTY, 181], colors=[GRID], alpha=0.55)
     rings = {angle: np.sqrt(2) * np.sin(np.radians(angle) / 2) for angle in (30, 60)}
-    _rings(axes, [1.0], color=_INK, linewidth=1.0)
-    _rings(axes, list(rings.values()), color=_FAINT, linewidth=0.4)
-    axes.plot([-1, 1, np.nan, 0, 0], [0, 0, np.nan, -1, 1], color=_FAINT, linewidth=0.4)
+    _rings(axes, [1.0], color=INK, linewidth=1.0)
+    _rings(axes, list(rings.values()), color=FAINT, linewidth=0.4)
+    axes.plot([-1, 1, np.nan, 0, 0], [0, 0, np.nan, -1, 1], color=FAINT, linewidth=0.4)
     for one, mark in _SIGNS:
         axes.text(1.1 * one, 0, f"{mark}x", ha="center", va="center")
         axes.text(0, 1.08 * one, f"{mark}y", ha="center", va="center")
     boxes = [_Box(0.07, radius + 0.045, 0.06, 0.04) for radius in rings.values()]
     for angle, box in zip(rings, boxes, strict=True):
-        axes.text(box.x, box.y, f"{angle}°", color=_FAINT, fontsize=7, ha="center", va="center")
+        axes.text(box.x, box.y, f"{angle}°", color=FAINT, fontsize=7, ha="center", va="center")
     return boxes
 
 
@@ -369,6 +330,8 @@ def _label(axes: Axes, point: NDArray[np.float64], text: str, taken: list[_Box],
 # ---- contact error -----------------------------------------------------------------------------
 
 _FILLED = 24  # colours on the map
+_LIMITS, _DARKEST = Limits(), 20.0  # of the colours: the last one, and how many times less than good the first is
+_TICKS = [0.025, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5]
 _ON_FIELD = "#111111"  # lines and letters on colours that are the same in both themes
 _BACKED = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.7}
 
@@ -414,14 +377,15 @@ def _contact(calibration: Calibration, sigmas: NDArray[np.float64], noise: str) 
     angles, around, *errors = error_map(calibration, sigmas)
     share, total = (1e3 * np.maximum(error, 1e-7) for error in errors)
     low, high = float(share.min()), max(float(total.max()), 1.01 * float(share.min()))
-    fill = np.geomspace(low * (1 - 1e-9), high * (1 + 1e-9), _FILLED + 1)
+    # The same colour means the same error in every report: the scale ends at the limits of the verdict.
+    fill = np.geomspace(1e3 * _LIMITS.good_error / _DARKEST, 1e3 * _LIMITS.usable_error, _FILLED + 1)
     lines = steps(low, high)
     norm = LogNorm(fill[0], fill[-1])
     x, y = np.degrees(angles)[:, None] * np.cos(around), np.degrees(angles)[:, None] * np.sin(around)
-    figure = Figure(figsize=(_WIDTH, 3.55))
+    figure = Figure(figsize=(WIDTH, 3.55))
     for column, (error, name) in enumerate(((share, "calibration alone"), (total, f"with {noise}"))):
         axes = figure.add_axes((0.44 * column, 0.0, 0.43, 0.88))
-        filled = axes.contourf(x, y, error, levels=fill, cmap="cividis", norm=norm)
+        filled = axes.contourf(x, y, error, levels=fill, cmap="cividis", norm=norm, extend="both")
         filled.set(edgecolor="face", linewidth=0.4)  # else the page shines through between two colours
         inside = [level for level in lines if error.min() < level < error.max()]
         if inside:
@@ -434,7 +398,7 @@ def _contact(calibration: Calibration, sigmas: NDArray[np.float64], noise: str) 
     bar = figure.colorbar(
         filled,
         cax=figure.add_axes((0.905, 0.1, 0.022, 0.68)),
-        ticks=lines,
+        ticks=_TICKS,
         format="%g",
         spacing="proportional",
     )
@@ -475,46 +439,3 @@ def steps(low: float, high: float) -> list[float]:
         if len(found) >= 4:
             break
     return found
-
-
-# ---- from Matplotlib to the page ---------------------------------------------------------------
-
-
-@contextmanager
-def _style() -> Iterator[None]:
-    """Draw with Matplotlib's own defaults and ours, whatever the user's settings are.
-
-    How SVG is written is set for the whole process only; it is put back at the end.
-    """
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(_STYLE)
-        yield
-
-
-def _svg(figure: Figure, prefix: str, label: str) -> str:
-    """Return a figure as an element to put into HTML: with ids of its own, without namespace or fixed size."""
-    file = StringIO()
-    figure.savefig(file, format="svg", metadata={"Date": None})
-    _, _, text = file.getvalue().partition("<svg")
-    head, _, body = text.partition(">")
-    body = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", body, flags=re.DOTALL)
-    body = body.replace("xlink:href", "href")
-    used = dict.fromkeys(re.findall(r'(?:url\(|href=")#([^)"]+)', body))
-    names = {name: f"{prefix}{number}" for number, name in enumerate(used)}
-    body = re.sub(r' id="([^"]*)"', lambda m: f' id="{names[m[1]]}"' if m[1] in names else "", body)
-    body = re.sub(r'(url\(|href=")#([^)"]+)', lambda m: f"{m[1]}#{names[m[2]]}", body)
-    body = re.sub(r' (?:d|x|y|transform)="[^"]*"', _rounded, body)
-    body = re.sub(r"font: ([\d.]+px) [^;\"]*", r"font-size: \1", body)
-    body = re.sub(r' ?font-family: [^;"]*;?', "", body)
-    for colour, role in _ROLES.items():
-        body = body.replace(colour, role)
-    view = re.findall(r'viewBox="[^"]*"', head)[0]
-    body = re.sub(r"\n\s*", "\n", body).strip()
-    return f'<svg {view} role="img" aria-label="{label}">{body}'
-
-
-def _rounded(match: re.Match[str]) -> str:
-    """Keep a hundredth of a point, and no space that a letter replaces: half the size."""
-    short = re.sub(r"-?\d+\.\d{3,}", lambda n: f"{float(n[0]):.2f}".rstrip("0").rstrip("."), match[0])
-    return re.sub(r"\s*([MLCQz])\s*", r"\1", short)

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench import __version__
+from contactbench.pipeline.calibration.budget import BudgetSource, calibration_budget
 from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
 from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
@@ -22,9 +23,12 @@ from contactbench.pipeline.calibration.outliers import FEWEST, limit
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
-from contactbench.pipeline.calibration.verdict import Level
+from contactbench.pipeline.calibration.report.budget_table import budget_table
+from contactbench.pipeline.calibration.verdict import Level, Limits
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.page import moment, render
+from contactbench.pipeline.page.details import ReportDetails
+from contactbench.pipeline.page.printed import print_pdf
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,27 +73,30 @@ def write_report(
     title: str = "Gravity calibration",
     source: SourceFile | None = None,
     created: datetime | None = None,
+    details: ReportDetails | None = None,
 ) -> None:
-    """Write a calibration's report as one HTML file that needs nothing beside itself.
+    """Write a calibration's report as one HTML file that needs nothing beside itself, or as PDF.
 
     Parameters
     ----------
     file : path
-        Appears as a whole; what was there stays until then.
+        Appears as a whole; what was there stays until then. PDF if its name ends in ``.pdf``.
     title : str
         Heading of the page.
     source : SourceFile, optional
         The file of the poses, with its hash.
     created : datetime, optional
         When the calibration was made, with a time zone.
+    details : ReportDetails, optional
+        Who, and with which sensor.
 
     Raises
     ------
     InputError
-        The file cannot be written, or `created` has no time zone.
+        The file cannot be written, `created` has no time zone, or a PDF needs what is not installed.
     """
-    data = report_html(calibration, title=title, source=source, created=created).encode()
-    write_file(file, data)
+    page = report_html(calibration, title=title, source=source, created=created, details=details)
+    write_file(file, print_pdf(page) if file.suffix.lower() == ".pdf" else page.encode())
 
 
 def report_html(
@@ -98,6 +105,7 @@ def report_html(
     title: str = "Gravity calibration",
     source: SourceFile | None = None,
     created: datetime | None = None,
+    details: ReportDetails | None = None,
 ) -> str:
     """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""
     when = moment(created)
@@ -118,6 +126,10 @@ def report_html(
         word=_WORDS[level][0],
         meaning=_WORDS[level][1],
         reasons=calibration.verdict.reasons,
+        details=(details or ReportDetails()).table(created, _about(calibration, source, when)),
+        tiles=_tiles(calibration),
+        budget=None if lost else budget_table(calibration_budget(calibration), _NO_PART),
+        usable=f"{1e3 * Limits().usable_error:g}",
         shares=_shares(calibration),
         parameters=_parameters(calibration),
         down=_down(calibration),
@@ -140,6 +152,48 @@ def report_html(
         empty=f"{EMPTY:g}",
         steepest=STEEPEST,
     )
+
+
+_NO_PART = {
+    BudgetSource.MOUNT: "taken as exact",
+    BudgetSource.MODEL: "none found",
+}
+
+
+def _about(calibration: Calibration, source: SourceFile | None, when: str | None) -> list[tuple[str, str]]:
+    """Return what the head of the page says of the measurement."""
+    sigma = with_sigma(calibration.mass, calibration.model.mass_sigma)
+    known = not _unknown(calibration)[GRAVITY].any()
+    return [
+        ("Date", when or ""),
+        ("Poses", f"{int(calibration.kept.sum())} used of {len(calibration.poses)}"),
+        ("Mass of the load", f"{sigma[0]} ± {sigma[1]} kg" if known else _UNKNOWN),
+        ("Poses from", "" if source is None else source.name),
+        ("Software", f"contactbench {__version__}"),
+    ]
+
+
+def _tiles(calibration: Calibration) -> list[tuple[str, str, bool]]:
+    """Return the main numbers: what, in words, and whether it is beyond its limit."""
+    limits, shares = Limits(), _shares(calibration)
+    words = "What this calibration adds to the error of a contact: "
+    words += (
+        f"more than {shares['lost']} mm, which is no number to work with."
+        if shares["lost"]
+        else f"1 sigma, worst case; {1e3 * limits.good_error:g} mm is good, over {1e3 * limits.usable_error:g} mm is"
+        " refused."
+    )
+    if shares["model"]:
+        words += f" {shares['model']} of that is what the model leaves out: see the explanations below."
+    found = [(str(shares["share"]), words, calibration.contact_error > limits.usable_error)]
+    if shares["single"]:
+        words = f"What the noise of a single sample ({shares['single']} per axis) adds: a contact located from one."
+        found.append((str(shares["single_error"]), words, False))
+    words = (
+        f"What the noise of a pose's mean ({shares['mean']} per axis) adds: a contact located from a reading averaged"
+        " as long as a pose."
+    )
+    return [*found, (str(shares["mean_error"]), words, False)]
 
 
 # ---- numbers -----------------------------------------------------------------------------------
@@ -384,7 +438,7 @@ def _noise(calibration: Calibration) -> dict[str, Any]:
         "given": "" if calibration.plausible else _sizes(noise.sigmas / np.repeat(factors, 3)),
         "factors": [plain(factor) for factor in factors],
         "estimated": noise.estimated,
-        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom],
+        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom] if np.isfinite(noise.freedom).all() else [],
         "percent": [f"{100 / np.sqrt(2 * freedom):.0f}" for freedom in noise.freedom],
         "least": bool((np.isclose(noise.sigmas, noise.least) & (noise.least > 0)).any()),
         "chance": _chance(calibration),

@@ -1,0 +1,78 @@
+"""What the errors of verified touches should come to, source by source: the budget that they are compared with."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from contactbench.pipeline.calibration.budget import BudgetRow, BudgetSource, input_row, parameter_rows
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.verification.causes import across, sensitivities
+from contactbench.pipeline.verification.model_error import PLACEMENT_M
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.verification.causes import TouchEvidence
+    from contactbench.pipeline.verification.figures import ModelError
+
+    Array = NDArray[np.float64]
+
+
+def verification_budget(
+    evidence: TouchEvidence, covariance: Array, error: ModelError | None, mesh_deviation: float | None
+) -> tuple[BudgetRow, ...]:
+    """
+    Return the budget of the distance between located point and marker: root mean square over the touches.
+
+    Noise, bias, mass, centre of mass and their correlation together are the `predicted_mm` of the touches; the model's
+    error is the one that a bundle of this verification allows for.
+
+    Parameters
+    ----------
+    evidence : TouchEvidence
+        Accepted touches, at least one.
+    covariance : (12, 12)
+        Of the calibration's parameters.
+    error : ModelError or None
+        None: it was not measured, and the default is assumed.
+    mesh_deviation : float or None
+        Root mean square between the mesh and the surface that it was made of, m; None: nobody knows.
+    """
+    points = evidence.points + evidence.errors
+    J = sensitivities(points, evidence.facets, evidence.wrenches[:, :3])
+    by_parameter = J @ prediction_jacobian(evidence.R_WS.transpose(0, 2, 1), evidence.theta)
+    if error is None:
+        force, torque, kind = DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, "B"
+    else:
+        force, torque, kind = error.force_N, error.torque_Nm, "A"
+    sides = across(evidence.normals).transpose(0, 2, 1)
+    return (
+        *(
+            input_row(source, "A" if evidence.measured else "B", J[:, :, part], evidence.noise[part, part], unit, scale)
+            for source, part, unit, scale in (
+                (BudgetSource.NOISE_FORCE, _FORCE, "N", 1.0),
+                (BudgetSource.NOISE_TORQUE, _TORQUE, "mN·m", 1e3),
+            )
+        ),
+        *parameter_rows(by_parameter, covariance),
+        BudgetRow(BudgetSource.MOUNT, "", 0.0),
+        _mesh(evidence, mesh_deviation),
+        input_row(BudgetSource.MARKERS, "B", sides, PLACEMENT_M**2 * np.eye(2), "mm", 1e3),
+        input_row(BudgetSource.MODEL_FORCE, kind, J[:, :, _FORCE], force**2 * np.eye(3), "N", 1.0),
+        input_row(BudgetSource.MODEL_TORQUE, kind, J[:, :, _TORQUE], torque**2 * np.eye(3), "mN·m", 1e3),
+    )
+
+
+_FORCE, _TORQUE = slice(0, 3), slice(3, 6)
+
+
+def _mesh(evidence: TouchEvidence, deviation: float | None) -> BudgetRow:
+    """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
+    if deviation is None:
+        return BudgetRow(BudgetSource.MESH, "", 0.0)
+    F = evidence.wrenches[:, :3]
+    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
+    return input_row(BudgetSource.MESH, "B", along[:, :, None], np.array([[deviation**2]]), "mm", 1e3)

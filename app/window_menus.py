@@ -6,13 +6,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt
-from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtCore import QObject, Qt, QUrl
+from PySide6.QtGui import QAction, QActionGroup, QDesktopServices, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
 from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog
+from contactbench.app.documentation import start_page
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
@@ -120,6 +121,8 @@ class Menus(QObject):
         self.help_here.setIcon(icon("help"))
         self.help_here.setShortcut("F1")
         self._add(menu, self.tr("&Tutorial"), partial(self.show_help_page, TUTORIAL))
+        documentation = self._add(menu, self.tr("&Documentation"), self.show_documentation)
+        documentation.setVisible(start_page() is not None)
         self._add(menu, self.tr("&Shortcuts"), self.show_shortcuts, "Ctrl+/")
         self._add(menu, self.tr("&Log"), self.show_log)
         about = self._add(menu, self.tr("&About contactbench"), self.show_about)
@@ -149,6 +152,12 @@ class Menus(QObject):
     def show_help_page(self, name: str) -> None:
         """Show a page of the help beside the window."""
         HelpBook.beside(self._window, name)
+
+    def show_documentation(self) -> None:
+        """Open the documentation that came with this installation in the browser."""
+        page = start_page()
+        if page is not None:
+            QDesktopServices.openUrl(QUrl.fromLocalFile(str(page)))
 
     def show_shortcuts(self) -> None:
         """Show all keys."""

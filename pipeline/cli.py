@@ -54,6 +54,9 @@ ENTRIES = {
     "demo": Entry(
         "Begin", f"{_COMMANDS}.demo:demo_app", "Do the whole job on simulated probes, without files"
     ),
+    "tutorial": Entry(
+        "Begin", f"{_COMMANDS}.demo:tutorial_app", "Write sample data to follow the manual with"
+    ),
     "info": Entry(
         "Begin", f"{_COMMANDS}.info:info_app", "Show versions, the kernel in use and optional packages"
     ),

@@ -1,27 +1,70 @@
-"""What README and docs print can be typed, and where they point there is something."""
+"""What README and docs print can be typed, what can be run is run, and where they point there is something."""
 
+import json
+import os
 import re
 import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 import typer
 from benchmarks.__main__ import BENCHMARKS, function_of, options_of
+from waiting import until
 
 from contactbench import __version__
 from contactbench.app.cli import app
+from contactbench.pipeline.contact import Reason
 
 ROOT = Path(__file__).parents[1]
+README = ROOT / "README.md"
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)")
-BLOCK = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(
+    r"^(?P<indent> *)(?:<!-- (?P<mark>not run|exit code (?P<code>\d+)): (?P<why>.+?) -->\n *)?```sh\n(?P<text>.*?)^ *```",
+    re.MULTILINE | re.DOTALL,
+)
+HERE = re.compile(r"<<'END'\n.*?^END\n", re.MULTILINE | re.DOTALL)
+# Pages that are made by `packaging/pages.py` when the documentation is built.
+MADE = re.compile(r"reference/(commands/.*|modules)\.md$")
+
+
+@dataclass(frozen=True)
+class Block:
+    """Commands that a page prints."""
+
+    text: str
+    skipped: str | None  # why it is not run
+    code: int  # with which its last command ends
+
+
+def blocks(page):
+    """Return the blocks of a page, in its order."""
+    return [
+        Block(
+            re.sub(rf"^{found['indent']}", "", found["text"], flags=re.MULTILINE),
+            found["why"] if found["mark"] == "not run" else None,
+            int(found["code"] or 0),
+        )
+        for found in BLOCK.finditer(page.read_text("utf-8"))
+    ]
+
+
+def named(page):
+    return str(page.relative_to(ROOT))
+
+
+RUNNABLE = [page for page in PAGES if page != README and any(not b.skipped for b in blocks(page))]
 
 
 def commands():
     """Yield page and words of each command that is printed."""
     for page in PAGES:
-        for block in BLOCK.findall(page.read_text("utf-8")):
-            for line in block.replace("\\\n", " ").splitlines():
+        for block in blocks(page):
+            for line in HERE.sub("", block.text.replace("\\\n", " ")).splitlines():
                 words = shlex.split(line, comments=True)
                 for start in [0, *(n + 1 for n, word in enumerate(words) if word in {"&&", "|"})]:
                     stop = next(
@@ -33,15 +76,18 @@ def commands():
                         )
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+# ---- what is printed ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_every_link_leads_somewhere(page):
     for link in LINK.findall(page.read_text("utf-8")):
-        if "://" not in link:
+        if "://" not in link and not MADE.search(link):
             assert (page.parent / link).exists(), link
 
 
 def test_the_readme_can_be_read_in_a_minute():
-    assert len((ROOT / "README.md").read_text("utf-8").splitlines()) <= 150
+    assert len(README.read_text("utf-8").splitlines()) <= 150
 
 
 @pytest.mark.parametrize("words", list(commands()))
@@ -66,13 +112,115 @@ def test_every_command_that_is_printed_exists_with_its_options(words):
     else:
         assert (
             (ROOT / words[0]).exists()
-            or words[0] in {"cmake", "export", "pip", "sha256sum"}
+            or words[0] in {".", "cat", "cd", "cmake", "export", "pip", "sha256sum"}
+            or words[0].startswith("~/contactbench/")
             or "=" in words[0]
         ), words[0]
         return
     for word in rest:
         if word.startswith("--"):
             assert word.partition("=")[0] in known, word
+
+
+# ---- what is run -------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def shell(tmp_path_factory):
+    """Return what runs the blocks of a page in one shell, in their order; each has to end as the page says."""
+    pytest.importorskip("mujoco", reason="the sample data comes from the virtual bench (extra sim)")
+    folder = tmp_path_factory.mktemp("bin")
+    place, prompt = folder / "socket", ROOT / "tests" / "prompt.py"
+    (folder / "contactbench").write_text(f'#!/bin/sh\nexec {sys.executable} -S -E {prompt} {place} "$@"\n')
+    (folder / "contactbench").chmod(0o755)
+    path = f"{folder}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = os.environ | {"PATH": path, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    with subprocess.Popen([sys.executable, str(prompt), "serve", str(place)], env=environment) as server:
+        until(lambda: place.exists() or server.poll() is not None)
+
+        def run(page, folder, known=frozenset()):
+            done = subprocess.run(
+                ["bash"], input=script(page, known), cwd=folder, env=environment, capture_output=True, text=True
+            )
+            assert done.returncode == 0, f"{named(page)}:\n{done.stderr[-3000:]}"
+
+        yield run
+        server.kill()
+
+
+def script(page, known):
+    """Return the blocks of a page for a shell, without lines that are known to do what they say."""
+    lines = ["set -eo pipefail"]
+    for number, block in enumerate(blocks(page), 1):
+        if block.skipped is not None:
+            continue
+        assert "&&" not in block.text, "a failure before && would go unseen: write two lines"
+        text = "".join(line for line in block.text.splitlines(keepends=True) if line not in known)
+        lines.append(f"echo '=== block {number}' >&2")
+        lines += (
+            ["set +e", f"( set -e\n{text})", f"[ $? -eq {block.code} ] || exit 1", "set -e"]
+            if block.code
+            else [text]
+        )
+    return "\n".join(lines)
+
+
+@pytest.fixture(scope="module")
+def followed(shell, tmp_path_factory):
+    """Follow the README from nothing; return the folder of the sample data, with what its commands made."""
+    folder = tmp_path_factory.mktemp("readme")
+    shell(README, folder)
+    return folder / "sample"
+
+
+def test_the_readme_leads_from_nothing_to_contacts(followed):
+    lines = (followed / "contacts.jsonl").read_text("utf-8").splitlines()
+    accepted = sum(json.loads(line)["accepted"] for line in lines)
+    assert accepted > len(lines) / 2
+
+
+@pytest.mark.parametrize("page", RUNNABLE, ids=named)
+def test_every_command_of_a_page_runs_on_the_sample_data(page, shell, followed, tmp_path):
+    """A page begins where the README ends; what the README has too, word for word, is done."""
+    shutil.copytree(followed, tmp_path, dirs_exist_ok=True)
+    shell(page, tmp_path, {line for block in blocks(README) for line in block.text.splitlines(keepends=True)})
+
+
+# ---- what is built -----------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Build the documentation as `packaging/run docs` does: strictly, a warning ends it."""
+    folder = tmp_path_factory.mktemp("site")
+    words = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(folder)]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return folder
+
+
+def test_the_documentation_loads_nothing_from_elsewhere(site):
+    loaded = re.compile(r"<(?:script|img|iframe)[^>]*\ssrc=\"?https?:|<link[^>]*\shref=\"?https?:|url\(\s*[\"']?https?:")
+    for file in (*site.rglob("*.html"), *site.rglob("*.css")):
+        found = loaded.search(file.read_text("utf-8"))
+        assert found is None, f"{file.relative_to(site)}: {found and found[0]}"
+
+
+def test_the_documentation_is_small_enough_to_ship_and_can_be_searched(site):
+    assert sum(file.stat().st_size for file in site.rglob("*") if file.is_file()) < 10e6
+    assert "calibrate captures" in (site / "search" / "search_index.js").read_text("utf-8")
+
+
+def test_the_reference_has_every_option_and_every_public_name(site):
+    probe = (site / "reference" / "commands" / "probe.html").read_text("utf-8")
+    assert "--max-contact-error" in probe
+    assert "contactbench.pipeline.contact.ContactSolver" in (site / "reference" / "modules.html").read_text("utf-8")
+
+
+def test_every_reason_is_explained():
+    page = (ROOT / "docs" / "reference" / "reasons.md").read_text("utf-8")
+    for reason in Reason:
+        assert f"`{reason.name.lower()}`" in page, reason
 
 
 def test_a_citation_has_the_version_that_is_installed():

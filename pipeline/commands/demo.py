@@ -1,4 +1,4 @@
-"""``contactbench demo``: the main job on bundled probes."""
+"""``contactbench demo`` and ``tutorial``: the main job on bundled probes, and sample data to do it with by hand."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 demo_app = Noun()
+tutorial_app = Noun()
 
 _WIDE = 250  # a number that is cut short is wrong
 
@@ -80,3 +81,21 @@ def _days(out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed
     answer(report.to_json())
     if not report.passed:
         raise typer.Exit(1)
+
+
+@tutorial_app.command(example="tutorial my-first-probe")
+def tutorial(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to write, new or empty.")],
+    seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same bytes.")] = 0,
+) -> None:
+    """Write sample data for the tutorials: poses, recordings, a housing, touches, markers, and the truth.
+
+    Simulated on the virtual bench, in seconds; README.md in the folder says what each file is.
+    """
+    from contactbench.pipeline.demo.tutorial import write_tutorial
+
+    data = write_tutorial(folder, seed, say)
+    say(f"{folder}: {len(data.files)} files; README.md says what they are. Go there with: cd {folder}", "green")
+    answer(
+        {"out": str(folder), "files": list(data.files), "place": data.place, "bumped": list(data.bumped)}
+    )

@@ -85,7 +85,7 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
         A file cannot be written.
     """
     design, T_SP = _design(name)
-    write_file(folder / "housing.stl", _housing(name))
+    write_file(folder / "housing.stl", _housing(name, _CAD_FACETS))
     try:
         # From here on only the file counts: what works here works for files from elsewhere.
         content, openings = _prepare(folder / "housing.stl", name, T_SP)
@@ -100,7 +100,7 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
     return _result(content, openings, name)
 
 
-def housing_of(name: str) -> tuple[bytes, NDArray[np.float64], float]:
+def housing_of(name: str, facets: int | None = None) -> tuple[bytes, NDArray[np.float64], float]:
     """
     Return what a technician gets of a bundled probe.
 
@@ -108,6 +108,8 @@ def housing_of(name: str) -> tuple[bytes, NDArray[np.float64], float]:
     ----------
     name : str
         One of assets.PROBE_NAMES.
+    facets : int, optional
+        Of the whole outside, before it is hollow; as many as a CAD program makes where it is left out.
 
     Returns
     -------
@@ -118,7 +120,7 @@ def housing_of(name: str) -> tuple[bytes, NDArray[np.float64], float]:
     alpha : float
         Size of the facets with which its outer surface is well made, m.
     """
-    return _housing(name), _design(name)[1], _ALPHA
+    return _housing(name, facets or _CAD_FACETS), _design(name)[1], _ALPHA
 
 
 @cache
@@ -130,9 +132,9 @@ def _design(name: str) -> tuple[Probe, NDArray[np.float64]]:
 
 
 @cache
-def _housing(name: str) -> bytes:
+def _housing(name: str, facets: int) -> bytes:
     """Make a binary STL file: the outside without its back, an inner wall and the edge between; millimetres in P."""
-    vertices, faces = assets.make(name, _CAD_FACETS)
+    vertices, faces = assets.make(name, facets)
     outside = Probe.from_arrays(vertices, faces)
     tip = float(vertices[:, 2].max())
     front = faces[vertices[faces][:, :, 2].min(axis=1) > _BACK]

@@ -52,6 +52,13 @@ class DemoTape:
             self.readings.append(moment.reading)
             self.R_WS.append(moment.R_WS)
 
+    def rest(self, reading: NDArray[np.float64], R_WS: NDArray[np.float64], seconds: float) -> None:
+        """Record that nothing happens: the same reading (6,) and orientation (3, 3), after the last sample."""
+        for _ in range(round(seconds / STEP_S)):
+            self.times.append(self.end + STEP_S if self.times else 0.0)
+            self.readings.append(reading)
+            self.R_WS.append(R_WS)
+
     def write(self, file: Path, tool: DemoTool, rng: np.random.Generator) -> None:
         """
         Write what the tool's sensor made of it, and the robot's poses in its base, as an MCAP file.

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 FACE, HEAD = "face", "head"
 
-_HELD_S = 0.5  # seven time constants of the filter
+HELD_S = 0.5  # seven time constants of the filter
 _PAUSE_S = 1.5
 
 _FACE_SHARE = 0.7
@@ -70,13 +70,25 @@ class LocatedTouches:
 
 
 def press_markers(
-    folder: Path, name: str, tool: DemoTool, truth: TrueSurface, rng: np.random.Generator
+    folder: Path,
+    name: str,
+    tool: DemoTool,
+    truth: TrueSurface,
+    rng: np.random.Generator,
+    *,
+    rests: bool = False,
 ) -> Pressed:
     """
     Press every marker of a probe, straight and at 30 degrees: touches.mcap, recording.csv and truth.csv.
 
     Each touch has 8 to 10 N in a direction around the normal that is drawn, and is recorded for half a second once the
     tip rests.
+
+    Parameters
+    ----------
+    rests : bool
+        Also record half a second of nothing before each touch and at the end, as somebody who records a bench does;
+        otherwise a touch follows a gap.
 
     Raises
     ------
@@ -91,10 +103,14 @@ def press_markers(
         scene.press(draw_press(rng, tilt))
         if scene.settle() is None:
             continue
-        start = tape.end + _PAUSE_S if tape.times else 0.0
-        tape.run(scene, _HELD_S, start)
+        if rests:
+            tape.rest(tool.weight(R_WS[None])[0], R_WS, HELD_S)
+        start = tape.end + (STEP_S if rests else _PAUSE_S) if tape.times else 0.0
+        tape.run(scene, HELD_S, start)
         moments.append(scene.moment())
         rows.append((tape.end, number, tilt))
+    if rests:
+        tape.rest(tool.weight(R_WS[None])[0], R_WS, HELD_S)
     tape.write(folder / "touches.mcap", tool, rng)
     convert_to_csv(folder / "recording.csv", read_recording(folder / "touches.mcap"))
     write_marked(folder / "truth.csv", rows, moments)

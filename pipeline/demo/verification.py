@@ -151,7 +151,7 @@ def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
         A file cannot be read or written.
     """
     clear(folder)
-    write_file(folder / "markers.csv", _marked(name).to_bytes())
+    write_file(folder / "markers.csv", marker_set(name).to_bytes())
     try:
         found = _verify(folder)
     except MarkerError as error:  # the mesh is somewhere else: that is a finding too
@@ -189,7 +189,7 @@ _INPUTS = {
 }
 
 
-def _marked(name: str) -> MarkerSet:
+def marker_set(name: str) -> MarkerSet:
     """Return the points that are pressed, named as in truth.csv."""
     unknown = np.full(3, np.nan)
     return MarkerSet(

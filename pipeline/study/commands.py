@@ -315,11 +315,11 @@ def _sweep(place: Path) -> Results:
 def page(
     studies: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders with results.parquet.")],
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Put them together as results.md in this folder.")
+        Path | None, typer.Option(metavar="DIR", help="Put the pages here, each under its study's name.")
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Make tables and plots of studies from their Parquet files alone: page.md in each, and one page of all.
+    """Make tables and plots of studies from their Parquet files alone: page.md in each, and all of them in one folder.
 
     Exit code 1: a sweep misses a target.
     """
@@ -333,7 +333,7 @@ def page(
             make_page(folder)
         pages = [folder / PAGE for folder in studies]
     else:
-        pages = [gather(studies, out)]
+        pages = gather(studies, out)
     sweeps = [results for results in map(read_results, studies) if results.kind == KIND]
     judged = [target for results in sweeps for target in targets(results.rows)]
     missed = [target for target in judged if not target.met]

@@ -1,9 +1,10 @@
 """
-The results page: a chapter for each study, made from the study's Parquet file alone.
+The results pages: one for each study, made from the study's Parquet file alone.
 
 A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.results`). Its module in `CHAPTERS` has
 ``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them by
-their bare file names and begins with a heading of the second level. Here they are put together as one page.
+their bare file names and begins with a heading of the second level. Here they become pages of the documentation, one
+for each study.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.results import Results
 
-PAGE, TOGETHER = "page.md", "results.md"
+PAGE = "page.md"
 # Kind of a study -> the module that makes its chapter.
 CHAPTERS = {
     "sweep": "sweep.page",
@@ -107,7 +108,7 @@ def number(value: float | None, digits: str = ".3g") -> str:
 
 def make_page(folder: Path) -> str:
     """
-    Write a study's chapter, ``page.md``, and its pictures into its folder.
+    Write a study's page, ``page.md``, and its pictures into its folder.
 
     Parameters
     ----------
@@ -117,7 +118,7 @@ def make_page(folder: Path) -> str:
     Returns
     -------
     str
-        The chapter, Markdown.
+        The page, Markdown.
 
     Raises
     ------
@@ -159,9 +160,9 @@ def publish(folder: Path, kind: str, command: str, rows: Sequence[Mapping[str, A
     return folder / PAGE
 
 
-def gather(folders: Sequence[Path], out: Path) -> Path:
+def gather(folders: Sequence[Path], out: Path) -> list[Path]:
     """
-    Write one page of several studies, with their pictures.
+    Put the pages of several studies into one folder, each under its study's name, with their pictures.
 
     Parameters
     ----------
@@ -172,8 +173,8 @@ def gather(folders: Sequence[Path], out: Path) -> Path:
 
     Returns
     -------
-    Path
-        Of the page.
+    list of Path
+        The pages.
 
     Raises
     ------
@@ -184,30 +185,20 @@ def gather(folders: Sequence[Path], out: Path) -> Path:
     if len(set(names)) < len(names):
         raise InputError(f"{', '.join(names)}: two folders have the same name: rename one.")
     make_folder(out)
-    chapters = []
+    pages = []
     for folder, name in zip(folders, names, strict=True):
-        chapter = make_page(folder)
-        for picture in {found.group(2)[:-1] for found in _PICTURE.finditer(chapter)}:
+        text = make_page(folder)
+        for picture in {found.group(2)[:-1] for found in _PICTURE.finditer(text)}:
             write_file(out / f"{name}-{picture}", _read(folder / picture))
-        chapters.append(_PICTURE.sub(rf"\g<1>{name}-\g<2>", chapter))
-    page = out / TOGETHER
-    write_file(page, "\n".join([_HEAD, _contents(chapters), *chapters]).encode())
-    return page
+        pages.append(out / f"{name}.md")
+        write_file(pages[-1], _PICTURE.sub(rf"\g<1>{name}-\g<2>", _alone(text)).encode())
+    return pages
 
 
-def _contents(chapters: Sequence[str]) -> str:
-    """Return links to the chapters, as GitHub and others name headings."""
-    titles = [line[3:] for chapter in chapters for line in chapter.splitlines() if line.startswith("## ")]
-    anchors = [re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles]
-    return "\n".join(f"- [{title}](#{anchor})" for title, anchor in zip(titles, anchors, strict=True)) + "\n"
-
-
-_HEAD = """# Results
-
-Made by `contactbench study page` from the Parquet files of the studies below; each says how to repeat it. Times are
-those of the machine that is named with them: only ratios travel to another one. Errors are the same on every machine,
-whatever the number of workers.
-"""
+def _alone(chapter: str) -> str:
+    """Return a chapter as a page of its own: headings a level higher, and Markdown in what can be folded away."""
+    raised = re.sub(r"^#(#+ )", r"\1", chapter, flags=re.MULTILINE)
+    return raised.replace("<details>", '<details markdown="1">')
 
 
 def _origin(results: Results) -> str:

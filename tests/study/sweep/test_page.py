@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.pages import PAGE, TOGETHER, gather, make_page
+from contactbench.pipeline.study.pages import PAGE, gather, make_page
 from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
 from contactbench.pipeline.study.sweep.pictures import astray, draw
 from contactbench.pipeline.study.sweep.plan import preset_plan
@@ -61,22 +61,21 @@ def test_tables_say_what_the_rows_say(rows):
     assert "Steep touches, without noise" not in few
 
 
-def test_several_studies_make_one_page(small, tmp_path):
+def test_pages_of_several_studies_go_into_one_folder(small, tmp_path):
     results = read_results(small)
     rows = [row | {"worst_reason": []} for row in results.rows if row["angle"] == 0]  # no pictures of touches
     folders = [tmp_path / "moved", tmp_path / "other"]
     for folder in folders:
         folder.mkdir()
         write_results(folder, results.kind, results.command, rows, environment(), results.about)
-    page = gather(folders, tmp_path / "docs")
-    text = page.read_text(encoding="utf-8")
-    assert page == tmp_path / "docs" / TOGETHER
-    assert text.count("## Sweep: small") == 2
-    assert "- [Sweep: small](#sweep-small)" in text
-    for name in re.findall(r"\]\(([\w.-]+\.png)\)", text):
-        assert (tmp_path / "docs" / name).is_file()
-    assert "(moved-growth.png)" in text
-    assert "(other-growth.png)" in text
+    pages = gather(folders, tmp_path / "docs")
+    assert pages == [tmp_path / "docs" / "moved.md", tmp_path / "docs" / "other.md"]
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        assert text.startswith("# Sweep: small\n")
+        assert f"({page.stem}-growth.png)" in text
+        for name in re.findall(r"\]\(([\w.-]+\.png)\)", text):
+            assert (tmp_path / "docs" / name).is_file()
     twin = tmp_path / "twin" / "other"
     twin.mkdir(parents=True)
     with pytest.raises(InputError, match="two folders have the same name"):

@@ -1,0 +1,12 @@
+"""Where the built documentation is, if it came with this installation."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+
+def start_page() -> Path | None:
+    """Return the first page of the documentation; None where `packaging/run docs` never built it."""
+    page = Path(str(files("contactbench") / "documentation" / "index.html"))
+    return page if page.is_file() else None

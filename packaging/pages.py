@@ -1,0 +1,95 @@
+"""Pages of the documentation that are made of the code: the command line, and the modules. A hook of MkDocs."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TYPE_CHECKING, Any
+
+import typer
+from mkdocs.structure.files import File
+
+from contactbench.app.cli import app
+from contactbench.pipeline.cli import ENTRIES
+from contactbench.pipeline.console import summary
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.files import Files
+
+_COMMANDS = "reference/commands"
+# What other programs may import; the rest may change without notice.
+MODULES = (
+    "contactbench.pipeline.mesh",
+    "contactbench.pipeline.contact",
+    "contactbench.pipeline.calibration",
+    "contactbench.pipeline.verification",
+    "contactbench.pipeline.recording",
+    "contactbench.pipeline.streams",
+    "contactbench.pipeline.config.runtime",
+    "contactbench.pipeline.filtering",
+    "contactbench.pipeline.errors",
+)
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Put the pages of the commands into the navigation."""
+    reference = next(part["Reference"] for part in config.nav or () if "Reference" in part)
+    reference[0] = {"Command line": [f"{_COMMANDS}/{name}.md" for name in ("index", *ENTRIES)]}
+    return config
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages that are made."""
+    for name, text in pages().items():
+        files.append(File.generated(config, name, content=text))
+    return files
+
+
+def pages() -> dict[str, str]:
+    """Return all of them: path -> Markdown."""
+    made = {f"{_COMMANDS}/{name}.md": _noun(name) for name in ENTRIES}
+    rows = "\n".join(f"| [`{name}`]({name}.md) | {ENTRIES[name].text} |" for name in ENTRIES)
+    about = f"{app.info.help} Every command has `--help`, and nearly every one `--json` and `--quiet`."
+    exits = "Exit codes: 0 good, 1 the result is not good enough, 2 wrong input, 130 interrupted."
+    made[f"{_COMMANDS}/index.md"] = f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
+    listed = "\n\n".join(f"::: {module}" for module in MODULES)
+    made["reference/modules.md"] = f"# Modules\n\n{listed}\n"
+    return made
+
+
+def _noun(name: str) -> str:
+    root: Any = typer.main.get_command(app)
+    command = root.get_command(None, name)
+    told = [text for words, each in _commands(command, ("contactbench", name)) for text in _page(words, each)]
+    return f"# {name}\n\n{summary(command)}.\n\n" + "\n".join(told) + "\n"
+
+
+def _commands(command: Any, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
+    if not hasattr(command, "list_commands"):
+        yield words, command
+        return
+    for name in command.list_commands(None):
+        below = command.get_command(None, name)
+        if not below.hidden:
+            yield from _commands(below, (*words, name))
+
+
+def _page(words: tuple[str, ...], command: Any) -> Iterator[str]:
+    context = command.make_context(" ".join(words), [], resilient_parsing=True)
+    yield f"## {' '.join(words[1:])}\n"
+    usage = " ".join(command.collect_usage_pieces(context))
+    yield f"```text\n{' '.join(words)} {usage}\n```\n"
+    yield f"{inspect.cleandoc(command.help or '')}\n"
+    rows = [record for each in command.get_params(context) if (record := each.get_help_record(context))]
+    if rows:
+        yield "| | |\n|---|---|"
+        yield from (f"| `{_cell(left)}` | {_cell(right)} |" for left, right in rows)
+        yield ""
+    for line in (command.epilog or "").splitlines():
+        yield f"```text\n{line.removeprefix('Example: ')}\n```\n"
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|")

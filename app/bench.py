@@ -67,6 +67,7 @@ class Bench(QObject):
     changed = Signal()  # the session's state; in the GUI thread
     told = Signal(object)  # Message
     go_to = Signal(object)  # Step that a page wants to be shown
+    paint_asked = Signal(object)  # PaintRequest, for the page with the regions
     mended = Signal()  # the disk takes writes again: what is not kept yet can be
     _stirred = Signal()
 

@@ -27,6 +27,7 @@ class Recent:
     opened: str = ""  # When, ISO 8601, UTC
     page: str = ""  # The step that was shown
     done: str = ""  # How far it was, for people
+    camera: str = ""  # How the scene was looked at, JSON
 
 
 @dataclass(frozen=True)
@@ -85,10 +86,10 @@ class WindowSettings:
             except OSError:
                 return
 
-    def opened(self, folder: Path, page: str, done: str, *, write: bool = True) -> None:
+    def opened(self, folder: Path, page: str, done: str, camera: str = "", *, write: bool = True) -> None:
         """Put a session first among the recent ones."""
         place = str(folder.absolute())
-        new = Recent(place, datetime.now(UTC).isoformat(timespec="seconds"), page, done)
+        new = Recent(place, datetime.now(UTC).isoformat(timespec="seconds"), page, done, camera)
         others = [each for each in self.now.recent if each.folder != place]
         self.change(write=write, recent=(new, *others)[:_MOST_RECENT])
 
@@ -98,8 +99,15 @@ class WindowSettings:
 
     def page_of(self, folder: Path) -> str:
         """Return the step that was shown when this session was open, or nothing."""
+        return self._recent_of(folder).page
+
+    def camera_of(self, folder: Path) -> str:
+        """Return how the scene was looked at when this session was open, or nothing."""
+        return self._recent_of(folder).camera
+
+    def _recent_of(self, folder: Path) -> Recent:
         place = str(folder.absolute())
-        return next((each.page for each in self.now.recent if each.folder == place), "")
+        return next((each for each in self.now.recent if each.folder == place), Recent(place))
 
 
 def _read(file: Path) -> Remembered:
@@ -117,4 +125,4 @@ def _read(file: Path) -> Remembered:
 
 
 def _recent(row: dict[str, Any]) -> Recent:
-    return Recent(*(str(row.get(name, "")) for name in ("folder", "opened", "page", "done")))
+    return Recent(*(str(row.get(name, "")) for name in ("folder", "opened", "page", "done", "camera")))

@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication, QDateTime, QLocale, Qt, Signal
+from PySide6.QtCore import QCoreApplication, Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from contactbench.app.opening import holds_session
 from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.numbers import date_and_time
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -148,9 +149,7 @@ class StartPage(QWidget):
             moment = datetime.fromisoformat(text)
         except ValueError:
             return ""
-        return QLocale.system().toString(
-            QDateTime.fromSecsSinceEpoch(round(moment.timestamp())), QLocale.FormatType.ShortFormat
-        )
+        return date_and_time(moment)
 
     def _open_recent(self, item: QListWidgetItem) -> None:
         self.chosen.emit(Path(item.data(Qt.ItemDataRole.UserRole)))

@@ -48,9 +48,7 @@ def load(application: QCoreApplication, language: str = "") -> str:
     code = locale.name().partition("_")[0]
     if code not in LANGUAGES:
         code = _SOURCE
-    # Numbers have a decimal point in every language, as in files and reports: a comma in a spin box beside a point
-    # in a sentence would be read as another number.
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedStates))
+    QLocale.setDefault(_readers(code))
     application.setProperty(_IN_USE, _SOURCE)
     phrases.use(None)
     if code == _SOURCE:
@@ -65,6 +63,12 @@ def load(application: QCoreApplication, language: str = "") -> str:
     phrases.use(phrases.PhraseBook(sentences(code)))
     application.setProperty(_IN_USE, code)
     return code
+
+
+def _readers(code: str) -> QLocale:
+    """Return how those who read a language write numbers and dates: as on this computer, where it speaks it too."""
+    system = QLocale.system()
+    return system if system.name().partition("_")[0] == code else QLocale(code)
 
 
 def sentences(language: str) -> dict[str, str]:

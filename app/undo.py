@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QUndoCommand
 
-from contactbench.pipeline.workbench.undo_history import Deed, write_history
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, write_history
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -144,6 +146,64 @@ def push_done(bench: Bench, deed: Deed, again: Callable[[], None] | None = None)
         command.resting = False
 
 
+@dataclass
+class PaintRequest:
+    """
+    That a step of painting be taken back or done again, by the page that has the regions.
+
+    Attributes
+    ----------
+    way : str
+        "undo" or "redo".
+    key : str
+        Of the step.
+    refused : bool
+        It is not the step that is next there: another surface is worked on by now.
+    """
+
+    way: str
+    key: str
+    refused: bool = False
+
+
+class PaintCommand(QUndoCommand):
+    """
+    A step of painting that was made already: the regions' own history takes it back, and both go in step.
+
+    Parameters
+    ----------
+    bench : Bench
+    step : PaintedStep
+    """
+
+    def __init__(self, bench: Bench, step: PaintedStep) -> None:
+        super().__init__(step.text)
+        self._bench, self.deed, self.resting = bench, step, True
+
+    def redo(self) -> None:
+        """Do it again."""
+        self._ask("redo")
+
+    def undo(self) -> None:
+        """Take it back."""
+        self._ask("undo")
+
+    def _ask(self, way: str) -> None:
+        if self.resting:
+            return
+        self._bench.go_to.emit(Step.REGIONS)  # where it is seen; after it, the page is there
+        request = PaintRequest(way, self.deed.key)
+        self._bench.paint_asked.emit(request)
+        self.setObsolete(request.refused)
+
+
+def push_painted(bench: Bench, step: PaintedStep) -> None:
+    """Let a step of painting be undone."""
+    command = PaintCommand(bench, step)
+    bench.undo.push(command)
+    command.resting = False
+
+
 class UndoMemory(QObject):
     """
     Keeps what can be undone in the session's folder, and puts it there again; belongs to its bench.
@@ -158,7 +218,10 @@ class UndoMemory(QObject):
     def __init__(self, bench: Bench, history: UndoHistory) -> None:
         super().__init__(bench)
         self._bench, stack = bench, bench.undo
-        commands = [DoneCommand(bench, deed) for deed in history.deeds]
+        commands = [
+            PaintCommand(bench, deed) if isinstance(deed, PaintedStep) else DoneCommand(bench, deed)
+            for deed in history.deeds
+        ]
         for command in commands:
             stack.push(command)
         stack.setIndex(history.done)
@@ -174,7 +237,7 @@ class UndoMemory(QObject):
         known = [
             (number, each.deed)
             for number, each in enumerate(commands)
-            if isinstance(each, Exchange | SessionCommand)
+            if isinstance(each, Exchange | SessionCommand | PaintCommand)
         ]
         deeds, done = [deed for _, deed in known], sum(number < index for number, _ in known)
         # In the desk's order: what was just pushed is done by then.

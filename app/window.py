@@ -20,6 +20,7 @@ from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.turns import Turns
+from contactbench.app.window_camera import SceneMemory
 from contactbench.app.window_docks import SMALLEST, Docks, first_size, geometry_text, restore_geometry
 from contactbench.app.window_header import HeaderBar
 from contactbench.app.window_live import LiveView
@@ -93,7 +94,7 @@ class MainWindow(QMainWindow):
         self.steps, self.messages = self.docks.steps, self.docks.messages
         self._router = MessageRouter(self.docks, lambda: None if self._ending else self.bench, self)
         self.pages, self.live = Pages(self.docks.pages, self), LiveView(self)
-        self._probe = SessionProbe(self)
+        self._probe, self._camera = SessionProbe(self), SceneMemory(self, self._remember_now)
         self.pages.judged.connect(self.steps.show_statuses)
         self.pages.complete.connect(self.garbage.settle)
         self.gone.connect(
@@ -184,6 +185,7 @@ class MainWindow(QMainWindow):
             self.scene = Scene()
             self.scene.set_dark(is_dark())
             self._middle.addWidget(self.scene)
+            self._camera.watch(self.scene)
 
     def _show_scene(self) -> None:
         assert self.scene is not None  # noqa: S101 - just made
@@ -212,7 +214,9 @@ class MainWindow(QMainWindow):
         if bench is None:
             return
         self.start.set_busy(False)
+        camera = self.settings.camera_of(bench.desk.folder)
         self.show_step(step or self.pages.first())
+        self._camera.restore(camera)
         self.live.reopen()
         for note in notes:
             self.tell(Weight.INFO, note)
@@ -264,6 +268,8 @@ class MainWindow(QMainWindow):
             return
         bench, self._ending = self.bench, True
         self._remember(bench)
+        self._camera.stop()
+        self._camera.release()
         self._tick.stop()
         self._slow.stop()
         self.setEnabled(False)  # nothing may be begun any more
@@ -314,7 +320,16 @@ class MainWindow(QMainWindow):
         done = [each for each, status in self.pages.statuses.items() if status.state is StepState.DONE]
         words = ", ".join(self.steps.name_of(each) for each in done)
         words = self.tr("done: {}").format(words) if words else self.tr("started")
-        self.settings.opened(bench.desk.folder, "" if step is None else step.value, words, write=False)
+        page = "" if step is None else step.value
+        self.settings.opened(bench.desk.folder, page, words, self._camera.text(), write=False)
+
+    def _remember_now(self) -> None:
+        """Remember the page and how the scene is looked at, at once: after a crash the window comes back to it."""
+        if self.bench is not None and not self._ending:
+            self._remember_page(self.bench)
+            self.jobs.start(
+                self.tr("Saving the current page"), lambda _progress, _cancelled: self.settings.write()
+            )
 
     # ---- steps -------------------------------------------------------------------------------------
 
@@ -325,12 +340,9 @@ class MainWindow(QMainWindow):
         self.docks.page_dock.show()
         if step is self.pages.step:
             return
+        self._camera.release()
         self.pages.show(step)
-        # At once: after a crash the window comes back to this page.
-        self._remember_page(self.bench)
-        self.jobs.start(
-            self.tr("Saving the current page"), lambda _progress, _cancelled: self.settings.write()
-        )
+        self._remember_now()
         self.steps.show_step(step)
         self.docks.page_dock.setWindowTitle(
             self.tr("Step {} of {}: {}").format(
@@ -356,6 +368,8 @@ class MainWindow(QMainWindow):
         self.departure.look()
         if self._trouble is not None:
             self._trouble.look()
+        if not bench.jobs.running:
+            self._camera.release()
         if bench.connected != self._connected:
             self._connected = not self._connected
             self.pages.read_statuses()

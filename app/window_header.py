@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QToolBar, QWidget
 
 from contactbench.app.start import session_name
 from contactbench.widgets.controls import ElidedLabel
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
@@ -64,7 +65,7 @@ class HeaderBar(QToolBar):
         if numbers is None:
             return self.tr("{} · not connected").format(name)
         rate, lost = numbers
-        return self.tr("{} · {:.0f} Hz · {} lost").format(name, rate, lost)
+        return filled(self.tr("{} · {:.0f} Hz · {} lost"), name, rate, lost)
 
     def _short(self, address: str) -> str:
         if address.startswith("virtual:"):

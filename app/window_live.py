@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -104,4 +105,4 @@ class LiveView(QObject):
         return " · ".join(words)
 
     def _hertz(self, rate: float | None) -> str:
-        return self.tr("waiting") if rate is None else self.tr("{:.0f} Hz").format(rate)
+        return self.tr("waiting") if rate is None else filled(self.tr("{:.0f} Hz"), rate)

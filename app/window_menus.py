@@ -20,6 +20,7 @@ from contactbench.app.translation import LANGUAGES
 from contactbench.app.window_docks import first_size
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -168,7 +169,7 @@ class Menus(QObject):
         log = self._window.log
         stalls = self._window.heartbeat.stalls()
         words = self.tr("Longest UI stall {:.0f} ms; 99th percentile {:.0f} ms.")
-        head = words.format(1000 * stalls.longest, 1000 * stalls.p99)
+        head = filled(words, 1000 * stalls.longest, 1000 * stalls.p99)
         text = self.tr("Logging is off.") if log is None else f"{log.file}\n\n{log.read()}"
         dialog = TextDialog(self.tr("Log"), f"{head}\n{text}", self._window)
         dialog.view.moveCursor(dialog.view.textCursor().MoveOperation.End)

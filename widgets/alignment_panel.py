@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QFileDialog,
     QLabel,
     QWidget,
@@ -25,6 +24,7 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -218,8 +218,8 @@ class AlignmentPanel(QWidget):
         if name:
             signal.emit(Path(name))  # type: ignore[attr-defined]
 
-    def _number(self, largest: float, unit: str, decimals: int, name: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit)
+    def _number(self, largest: float, unit: str, decimals: int, name: str) -> NumberBox:
+        field = NumberBox(decimals=decimals, minimum=-largest, maximum=largest, suffix=unit)
         return named(field, name)
 
 

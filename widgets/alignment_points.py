@@ -17,6 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from contactbench.widgets.numbers import number
+
 FEWEST = 3
 _ROW_PX, _ROWS = 30, 4
 
@@ -61,7 +63,7 @@ class PointTable(QWidget):
         self._points.append(np.array(point_P, dtype=np.float64))
         row = self.table.rowCount()
         self.table.insertRow(row)
-        shown = QTableWidgetItem(", ".join(f"{1e3 * value:.1f}" for value in point_P))
+        shown = QTableWidgetItem("  ".join(number(1e3 * value, ".1f") for value in point_P))
         shown.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
         self.table.setItem(row, 0, shown)
         for column in (1, 2, 3):
@@ -72,7 +74,7 @@ class PointTable(QWidget):
     def type_in(self, row: int, millimetres: tuple[float, float, float]) -> None:
         """Write where a place lies in the sensor frame."""
         for column, value in enumerate(millimetres, 1):
-            self._item(row, column).setText(f"{value:g}")
+            self._item(row, column).setText(number(value, "g"))
 
     def pairs(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         """Return places on the mesh and in the sensor frame, m."""

@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import colours, is_dark
 
 CAPTURED, ASKED = "captured", "asked"
@@ -86,7 +87,7 @@ class CaptureState(QWidget):
         }
         word, line = words[state]
         if state is StillState.SETTLING and seconds is not None:
-            word = self.tr("settling {seconds:.1f} s").format(seconds=seconds)
+            word = filled(self.tr("settling {seconds:.1f} s"), seconds=seconds)
         self._show(state.value, word, line, share if state is StillState.STILL else 0.0)
 
     def _show(self, shape: str, word: str, line: str, share: float) -> None:

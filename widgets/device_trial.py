@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ class DeviceTrial(QFrame):
         self._icon.show_icon(icon(name, colour))
         self._state.setText(words)
         rate = None if trial is None else trial.rate
-        self._rate.setText(self.tr("– Hz") if rate is None else self.tr("{rate:.0f} Hz").format(rate=rate))
+        self._rate.setText(self.tr("– Hz") if rate is None else filled(self.tr("{rate:.0f} Hz"), rate=rate))
         self._facts.setText("" if trial is None else self._counted(trial))
         self._facts.setVisible(trial is not None)
         self._findings.setText(
@@ -80,14 +81,20 @@ class DeviceTrial(QFrame):
     def _counted(self, trial: ConnectionTrial) -> str:
         gaps = self.tr("no gaps")
         if trial.gaps:
-            gaps = self.tr("{count} gaps in 5 s, longest {longest:.0f} ms").format(
-                count=trial.gaps, longest=1e3 * trial.longest_gap
+            gaps = filled(
+                self.tr("{count} gaps in 5 s, longest {longest:.0f} ms"),
+                count=trial.gaps,
+                longest=1e3 * trial.longest_gap,
             )
         poses = self.tr("no poses")
         if trial.pose_rate is not None:
-            poses = self.tr("poses {rate:.0f} Hz").format(rate=trial.pose_rate)
-        return self.tr("{samples:,} readings, {lost:,} lost, {gaps}; {poses}").format(
-            samples=trial.samples, lost=trial.lost, gaps=gaps, poses=poses
+            poses = filled(self.tr("poses {rate:.0f} Hz"), rate=trial.pose_rate)
+        return filled(
+            self.tr("{samples:,} readings, {lost:,} lost, {gaps}; {poses}"),
+            samples=trial.samples,
+            lost=trial.lost,
+            gaps=gaps,
+            poses=poses,
         )
 
 
@@ -135,6 +142,6 @@ class DeviceChannels(QWidget):
         noise = np.nan if trial is None else trial.noise[index]
         largest = np.nan if trial is None else trial.largest[index]
         used = np.nan if trial is None or trial.range_used is None else trial.range_used[index]
-        cells[0].setText(f"{noise:.{digits}f} {unit}" if np.isfinite(noise) else "–")
-        cells[1].setText(f"{largest:.{digits - 1}f} {unit}" if np.isfinite(largest) else "–")
-        cells[2].setText(f"{100 * used:.0f} %" if np.isfinite(used) else self.tr("unknown"))
+        cells[0].setText(filled("{:.{}f} {}", noise, digits, unit) if np.isfinite(noise) else "–")
+        cells[1].setText(filled("{:.{}f} {}", largest, digits - 1, unit) if np.isfinite(largest) else "–")
+        cells[2].setText(filled("{:.0f} %", 100 * used) if np.isfinite(used) else self.tr("unknown"))

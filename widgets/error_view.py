@@ -9,6 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -61,8 +62,8 @@ class ErrorView(QWidget):
         """The mean with its scatter."""
         if self.mean_mm is None:
             return "–"
-        spread = "" if self.sd_mm is None else f" ± {self.sd_mm:.2f}"
-        return self.tr("{mean}{spread} mm").format(mean=f"{self.mean_mm:.2f}", spread=spread)
+        spread = "" if self.sd_mm is None else filled(" ± {:.2f}", self.sd_mm)
+        return self.tr("{mean}{spread} mm").format(mean=number(self.mean_mm, ".2f"), spread=spread)
 
     # ---- drawing -----------------------------------------------------------------------------
 
@@ -126,7 +127,7 @@ class ErrorView(QWidget):
         painter.drawText(
             QRectF(box.left() - 16, box.bottom() - 2, box.width() + 20, 16),
             Qt.AlignmentFlag.AlignCenter,
-            self.tr("last {size} mm").format(size=f"{math.hypot(x, y, z):.2f}"),
+            self.tr("last {size} mm").format(size=number(math.hypot(x, y, z), ".2f")),
         )
 
     def _trend(self, painter: QPainter, box: QRectF) -> None:

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.widgets.controls import StretchedColumn
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled, number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -112,9 +113,9 @@ class MarkerTable(QTableWidget):
         x, y, z = marker.point_mm
         error = ""
         if marker.mean_mm is not None and marker.max_mm is not None:
-            error = f"{marker.mean_mm:.2f}"
+            error = number(marker.mean_mm, ".2f")
             if marker.touches > 1:
-                error += f" / {marker.max_mm:.2f}"
+                error += filled(" / {:.2f}", marker.max_mm)
         word = self.word(marker.state)
         texts = (
             marker.name,
@@ -135,7 +136,7 @@ class MarkerTable(QTableWidget):
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             item.setToolTip(
                 self.tr("{name}: x {x} mm, y {y} mm, z {z} mm").format(
-                    name=marker.name, x=f"{x:.2f}", y=f"{y:.2f}", z=f"{z:.2f}"
+                    name=marker.name, x=number(x, ".2f"), y=number(y, ".2f"), z=number(z, ".2f")
                 )
             )
         first = self.item(row, _STATE)

@@ -32,6 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import time_of_day
 from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
 
@@ -247,7 +248,7 @@ class MessageList(QWidget):
 
     def _write(self, item: QListWidgetItem, told: _Told) -> None:
         again = self.tr(" ({} times)").format(told.times) if told.times > 1 else ""
-        item.setText(f"{told.at:%H:%M:%S}  {self.word_of(told.weight)}: {told.text}{again}")
+        item.setText(f"{time_of_day(told.at)}  {self.word_of(told.weight)}: {told.text}{again}")
         item.setIcon(icon(*_ICONS[told.weight]))
         item.setData(_ROW, told)
 

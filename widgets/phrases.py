@@ -3,7 +3,7 @@ What `pipeline` says, in the language of the window.
 
 `pipeline` speaks English and knows of no other language. Whoever shows one of its sentences asks for it with `said`,
 which looks for the template it was made from, and fills what was filled in into that of the other language. A sentence
-that is in no book is shown as it is.
+that is in no book is shown as it is. Numbers in it are written as the reader does.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ import re
 from collections import defaultdict
 from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING
+
+from contactbench.widgets.numbers import local_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -128,7 +130,7 @@ def use(book: PhraseBook | None) -> None:
 
 def said(text: str) -> str:
     """Return what `pipeline` says in the language of the window."""
-    return text if _book is None else _book.say(text)
+    return local_numbers(text if _book is None else _book.say(text))
 
 
 def _fill(said: dict[str, str], hole: re.Match[str]) -> str:

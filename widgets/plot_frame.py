@@ -6,8 +6,20 @@ from typing import TYPE_CHECKING, Any
 
 import pyqtgraph as pg
 
+from contactbench.widgets.numbers import local
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from PySide6.QtWidgets import QWidget
+
+
+class LocalAxis(pg.AxisItem):  # type: ignore[misc]
+    """An axis whose numbers are as the reader writes them."""
+
+    def tickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
+        """Return what is written at the ticks."""
+        return [local(each) for each in super().tickStrings(values, scale, spacing)]
 
 
 class PlotFrame(pg.GraphicsView):  # type: ignore[misc]
@@ -28,8 +40,8 @@ class PlotFrame(pg.GraphicsView):  # type: ignore[misc]
         super().__init__(parent)
         self.box: Any = pg.ViewBox(enableMenu=False, defaultPadding=0.0)
         self.box.disableAutoRange()
-        self.left: Any = pg.AxisItem("left")
-        self.bottom: Any = pg.AxisItem("bottom")
+        self.left: Any = LocalAxis("left")
+        self.bottom: Any = LocalAxis("bottom")
         frame = pg.GraphicsLayout()
         frame.setContentsMargins(0, 0, 0, 0)
         frame.setSpacing(0)

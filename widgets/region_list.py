@@ -29,6 +29,7 @@ from PySide6.QtWidgets import (
 from contactbench.pipeline.mesh.regions import PALETTE
 from contactbench.widgets.controls import FoldRow, add_key, column, push_button, row
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -115,7 +116,9 @@ class RegionRows(QAbstractTableModel):
         row, column = self.rows[index.row()], index.column()
         if role == Qt.ItemDataRole.DisplayRole:
             name = self.tr("✕ {0} (untouchable)").format(row.name) if row.untouchable else row.name
-            return (str(index.row() + 1), name, f"{1e4 * row.area:.2f}", f"{row.facets:,}")[column]
+            return (str(index.row() + 1), name, number(1e4 * row.area, ".2f"), number(row.facets, ","))[
+                column
+            ]
         if role == Qt.ItemDataRole.EditRole and column == NAME:
             return row.name
         if role == Qt.ItemDataRole.DecorationRole and column == PRIORITY:
@@ -132,7 +135,7 @@ class RegionRows(QAbstractTableModel):
                 if row.untouchable
                 else self.tr("{0}, priority {1}, {2:.2f} cm²")
             )
-            return words.format(row.name, index.row() + 1, 1e4 * row.area)
+            return filled(words, row.name, index.row() + 1, 1e4 * row.area)
         return None
 
     def _tip(self, row: int, column: int) -> str:
@@ -142,8 +145,8 @@ class RegionRows(QAbstractTableModel):
             )
         if column == NAME:
             return self.tr("Double-click to rename. Drag or press Alt+Up or Alt+Down to change the priority.")
-        return self.tr("Area: {0:.1f} mm²; facets: {1:,}.").format(
-            1e6 * self.rows[row].area, self.rows[row].facets
+        return filled(
+            self.tr("Area: {0:.1f} mm²; facets: {1:,}."), 1e6 * self.rows[row].area, self.rows[row].facets
         )
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:

@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
 from contactbench.widgets.controls import StretchedColumn
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
 
@@ -111,8 +112,10 @@ class PoseModel(QAbstractTableModel):
         parts = [said(row.reason)]
         if not math.isnan(row.sigmas):
             parts.append(
-                self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma").format(
-                    force=row.force_sigmas, torque=row.torque_sigmas
+                filled(
+                    self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma"),
+                    force=row.force_sigmas,
+                    torque=row.torque_sigmas,
                 )
             )
         if row.earlier:
@@ -120,7 +123,7 @@ class PoseModel(QAbstractTableModel):
         return "\n".join(part for part in parts if part)
 
     def _sigmas(self, row: PoseRow) -> str:
-        return "-" if math.isnan(row.sigmas) else f"{row.sigmas:.1f} σ"
+        return "-" if math.isnan(row.sigmas) else filled("{:.1f} σ", row.sigmas)
 
     def _state(self, row: PoseRow) -> str:
         return {

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.strip_chart_pane import Curves, Pane
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class StripChart(QWidget):
         self.kind.activated.connect(self._choose_kind)
         self.span = QComboBox()
         for seconds in _SPANS:
-            self.span.addItem(self.tr("{seconds:g} s").format(seconds=seconds), seconds)
+            self.span.addItem(filled(self.tr("{seconds:g} s"), seconds=seconds), seconds)
         self.span.setCurrentIndex(1)
         self.span.setAccessibleName(self.tr("Time range of the charts"))
         self.span.setToolTip(self.tr("Time range in seconds"))

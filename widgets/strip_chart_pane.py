@@ -11,6 +11,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QFont
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout, QWidget
 
+from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
 from contactbench.widgets.strip_chart_legend import Legend, LegendEntry
@@ -157,7 +158,7 @@ class Pane(QWidget):
     def read_out(self) -> str:
         """What is written above the lines, without its looks."""
         parts = [f"{name} {value}" for name, value in zip(self.curves.names, self._numbers(), strict=True)]
-        when = "" if self._moment is None else f", {self._moment:+.2f} s"
+        when = "" if self._moment is None else filled(", {:+.2f} s", self._moment)
         return f"{self.curves.title}: {'  '.join(parts)} {self.curves.unit}{when}"
 
     def _numbers(self) -> list[str]:
@@ -165,7 +166,7 @@ class Pane(QWidget):
         if row is None:
             return ["–"] * len(self.curves.names)
         digits = self.curves.digits - (self.width() < _NARROW_PX)
-        return [f"{value:z.{digits}f}" if np.isfinite(value) else "–" for value in self._values[row]]
+        return [number(value, f"z.{digits}f") if np.isfinite(value) else "–" for value in self._values[row]]
 
     def _write(self) -> None:
         entries = [
@@ -173,7 +174,7 @@ class Pane(QWidget):
             for parts in zip(_SIGNS, self.curves.names, self._colours(), self._numbers(), strict=False)
         ]
         self._legend.show_entries(entries, tight=self.width() < _NARROW_PX)
-        when = "" if self._moment is None else f"   {self._moment:+.2f} s"
+        when = "" if self._moment is None else filled("   {:+.2f} s", self._moment)
         unit = f"{self.curves.unit}{when}"
         if unit != self._unit.text():
             self._unit.setText(unit)

@@ -9,6 +9,7 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.range_slider import RangeSlider
 
 if TYPE_CHECKING:
@@ -47,13 +48,13 @@ class TimeBar(QWidget):
         self.whole.setToolTip(self.tr("Stop and show the whole time window."))
         self.speed, self.last = QComboBox(self), QComboBox(self)
         for each in SPEEDS:
-            self.speed.addItem(self.tr("{speed:g}x").format(speed=each), each)
+            self.speed.addItem(filled(self.tr("{speed:g}x"), speed=each), each)
         self.speed.setCurrentIndex(SPEEDS.index(1.0))
         self.speed.setAccessibleName(self.tr("Speed"))
         self.speed.setToolTip(self.tr("Recorded seconds per second of playback."))
         self.last.addItem(self.tr("keep touches"), None)
         for seconds in WINDOWS:
-            self.last.addItem(self.tr("last {seconds:g} s").format(seconds=seconds), seconds)
+            self.last.addItem(filled(self.tr("last {seconds:g} s"), seconds=seconds), seconds)
         self.last.setAccessibleName(self.tr("Contacts shown during playback"))
         self.last.setToolTip(
             self.tr("During playback: show all contacts from the start, or only the last seconds.")
@@ -178,7 +179,7 @@ class TimeBar(QWidget):
         self.label.setText(
             ""
             if not self.isEnabled()
-            else self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s").format(
-                start=low, end=high, whole=most
+            else filled(
+                self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s"), start=low, end=high, whole=most
             )
         )

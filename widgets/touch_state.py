@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import number
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -186,9 +187,11 @@ class TouchState(QWidget):
         painter.setFont(self._font(9.5))
         for force in (low, high):
             side = QRectF(box.left() - 6, height(force) - 9, 28, 18)
-            painter.drawText(side, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, f"{force:g}")
+            painter.drawText(
+                side, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, number(force, "g")
+            )
         painter.setFont(self._font(11, bold=True))
-        known = "–" if math.isnan(self.force) else f"{self.force:.1f}"
+        known = "–" if math.isnan(self.force) else number(self.force, ".1f")
         painter.drawText(
             QRectF(box.left() - 10, bar.bottom() + 4, box.width() + 16, 24),
             Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignVCenter,

@@ -9,6 +9,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.plot_frame import PlotFrame
 from contactbench.widgets.theme import colours, is_dark
 
@@ -158,7 +159,7 @@ class TradeoffChart(QWidget):
                 item.setData([x for x, _ in at], [y for _, y in at])
             limit = math.log10(max(self._trade.allowed_mm, _LEAST_MM))
             self._allowed.setValue(limit)
-            self._allowed.label.setFormat(self.tr("limit {:.2g} mm").format(self._trade.allowed_mm))
+            self._allowed.label.setFormat(filled(self.tr("limit {:.2g} mm"), self._trade.allowed_mm))
             self._fit([x for x, _ in at], [*(y for _, y in at), limit])
         if knee is not None:
             x, y = self._at(knee)
@@ -213,9 +214,12 @@ class TradeoffChart(QWidget):
         if known is None:
             words = self.tr("Choose a point with a click or the arrow keys.") if self._points else ""
         else:
-            words = self.tr(
-                "{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs."
-            ).format(known.facets, known.error_mm, known.solve_us)
+            words = filled(
+                self.tr("{:,} facets: contacts shift by up to {:.2g} mm; one solve takes {:.2g} µs."),
+                known.facets,
+                known.error_mm,
+                known.solve_us,
+            )
         self._words.setText(words)
         self._words.setVisible(bool(words))
         self.setAccessibleDescription(words)
@@ -267,8 +271,8 @@ def _ticks(low: float, high: float) -> list[tuple[float, str]]:
     found: list[tuple[float, str]] = []
     for power in range(math.floor(low), math.ceil(high) + 1):
         for step in (1, 2, 5):
-            number = step * 10.0**power
-            at = math.log10(number)
+            value = step * 10.0**power
+            at = math.log10(value)
             if low - 0.05 <= at <= high + 0.05 and (not found or at - found[-1][0] >= apart):
-                found.append((at, f"{number:,.6g}"))
+                found.append((at, number(value, ",.6g")))
     return found

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
-    QDoubleSpinBox,
     QFormLayout,
     QLabel,
     QProgressBar,
@@ -32,6 +31,7 @@ from contactbench.widgets.controls import (
     set_role,
     show_value,
 )
+from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.phrases import said
 from contactbench.widgets.range_slider import RangeSlider
 
@@ -80,7 +80,7 @@ class HeatmapControls(QWidget):
             self.tr("Density normalisation"),
             tip=self.tr("The integral of the density over the whole surface."),
         )
-        self.bandwidth = QDoubleSpinBox(
+        self.bandwidth = NumberBox(
             decimals=1, minimum=_LEAST_MM, maximum=_MOST_MM, singleStep=0.5, suffix=" mm", value=2.0
         )
         self.bandwidth.setMinimumSize(112, HIGH)
@@ -107,7 +107,7 @@ class HeatmapControls(QWidget):
                 "Whether both times count from where the probe was touched first, or from where each file begins."
             ),
         )
-        self.later = QDoubleSpinBox(decimals=1, minimum=-3600.0, maximum=3600.0, singleStep=0.1, suffix=" s")
+        self.later = NumberBox(decimals=1, minimum=-3600.0, maximum=3600.0, singleStep=0.1, suffix=" s")
         self.later.setMinimumSize(112, HIGH)
         self.later.setAccessibleName(self.tr("How much later the second one is shown, s"))
         self.later.setToolTip(self.tr("Moves the second one against the first in time."))
@@ -271,7 +271,7 @@ class HeatmapControls(QWidget):
             self.force_words.setText(self.tr("Forces unknown."))
             return
         low, high = self.force.values()
-        self.force_words.setText(self.tr("{low:.1f} to {high:.1f} N").format(low=low, high=high))
+        self.force_words.setText(filled(self.tr("{low:.1f} to {high:.1f} N"), low=low, high=high))
 
     def _quantity_changed(self) -> None:
         density = self.quantity.currentData() == "density"

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGroupBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QGroupBox, QWidget
 
 from contactbench.widgets.controls import HIGH, form, named, row
+from contactbench.widgets.numbers import NumberBox
 
 _PATIENCE = 600  # ms without a change before recordings are read again
 
@@ -60,8 +61,8 @@ class ReadingBox(QGroupBox):
         self._patience.timeout.connect(self._tell)
         self._show_mount(False)
 
-    def _field(self, low: float, high: float, prefix: str, suffix: str, name: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox(decimals=1, minimum=low, maximum=high, prefix=prefix, suffix=suffix)
+    def _field(self, low: float, high: float, prefix: str, suffix: str, name: str) -> NumberBox:
+        field = NumberBox(decimals=1, minimum=low, maximum=high, prefix=prefix, suffix=suffix)
         named(field, name).setMinimumSize(84, HIGH)
         return field
 

@@ -9,6 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.pipeline.errors import InputError
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
 
 if TYPE_CHECKING:
@@ -133,7 +134,7 @@ class Side(QWidget):
             if touches
             else self.tr("Samples: {count:,} of {all:,}; grey: no data")
         )
-        return text.format(count=frame.contacts, all=len(contacts.points))
+        return filled(text, count=frame.contacts, all=len(contacts.points))
 
     def _title(self, selection: Selection) -> str:
         return {
@@ -166,14 +167,14 @@ class Side(QWidget):
         else:
             self.value.setText(number_with_unit(said.value, said.plus_minus, said.unit))
         x, y, z = (1e3 * pick.point).tolist()
-        self.place.setText(self.tr("at {x:.1f}, {y:.1f}, {z:.1f} mm").format(x=x, y=y, z=z))
+        self.place.setText(filled(self.tr("at {x:.1f}, {y:.1f}, {z:.1f} mm"), x=x, y=y, z=z))
 
 
 def number_with_unit(value: float, plus_minus: float, unit: str) -> str:
     """Return a number as people read it: no more digits than its uncertainty allows."""
     if math.isnan(plus_minus) or plus_minus <= 0:
-        return f"{value:.3g} {unit}"
+        return filled("{:.3g} {}", value, unit)
     digits = max(0, 1 - math.floor(math.log10(plus_minus)))
     if digits > 6:
-        return f"{value:.3g} ± {plus_minus:.1g} {unit}"
-    return f"{value:.{digits}f} ± {plus_minus:.{digits}f} {unit}"
+        return filled("{:.3g} ± {:.1g} {}", value, plus_minus, unit)
+    return filled("{:.{digits}f} ± {:.{digits}f} {}", value, plus_minus, unit, digits=digits)

@@ -7,7 +7,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QFrame, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QVBoxLayout, QWidget
 
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.controls import (
@@ -23,6 +23,7 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
+from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ class MotionControls(QWidget):
             tip=self.tr("Motion of the soft phantom under the probe."),
         )
         self.period = choice(
-            [(self.tr("{seconds:g} s").format(seconds=each), each) for each in _PERIODS_S],
+            [(filled(self.tr("{seconds:g} s"), seconds=each), each) for each in _PERIODS_S],
             self.tr("Period"),
             tip=self.tr("Period T of the phantom's motion."),
         )
@@ -102,7 +103,7 @@ class MotionControls(QWidget):
                 "Predictive: estimates the phantom's motion and leads it. Basic: force and position only."
             ),
         )
-        self.size_of = QDoubleSpinBox(decimals=0, minimum=0.0, maximum=20.0, value=10.0)
+        self.size_of = NumberBox(decimals=0, minimum=0.0, maximum=20.0, value=10.0)
         tip = self.tr("Amplitude of the phantom's motion to each side.")
         named(self.size_of, self.tr("Amplitude"), tip=tip)
         self.bar, self.bundle = ActionBar(), sentence_label(role="muted")
@@ -226,8 +227,8 @@ class MotionControls(QWidget):
             self.angle.setText("–")
         else:
             largest = max(abs(math.degrees(each)) for each in frame.angles_rad)
-            self.force.setText(self.tr("{:z.1f} N").format(frame.force_N))
-            self.angle.setText(self.tr("{:.1f}°").format(largest))
+            self.force.setText(filled(self.tr("{:z.1f} N"), frame.force_N))
+            self.angle.setText(filled(self.tr("{:.1f}°"), largest))
         if pace is None:
             self.pace.setText(self.tr("Pace: –"))
             return
@@ -236,14 +237,17 @@ class MotionControls(QWidget):
             if pace > _REAL
             else self.tr("Pace: {pace:.2f} of real time: this computer is too slow")
         )
-        self.pace.setText(words.format(pace=pace))
+        self.pace.setText(filled(words, pace=pace))
 
     def show_changes(self, changes: Sequence[MotionChange]) -> None:
         """Show the newest changes of state, newest first."""
         names = {key: name for key, (name, _) in self._words().items()}
         lines = [
-            self.tr("{time:.1f} s  {state}: {why}").format(
-                time=each.time_s, state=names.get(each.state, each.state), why=said(each.reason)
+            filled(
+                self.tr("{time:.1f} s  {state}: {why}"),
+                time=each.time_s,
+                state=names.get(each.state, each.state),
+                why=said(each.reason),
             )
             for each in reversed(changes[-_SHOWN:])
         ]

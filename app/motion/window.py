@@ -16,6 +16,7 @@ from contactbench.app.jobs import Jobs
 from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.app.motion.picture import Picture
 from contactbench.widgets.controls import add_key
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -163,14 +164,14 @@ class MotionWindow(QWidget):
 
     def _words_on(self, config: RuntimeConfig, name: str) -> str:
         model = config.model
-        words = self.tr("{name}: {facets:,} facets.").format(name=name, facets=model.probe.facets)
+        words = filled(self.tr("{name}: {facets:,} facets."), name=name, facets=model.probe.facets)
         if not model.verified:
             words += " " + self.tr("Not verified: for trials only.")
         if model.frames.quaternion_ES is None:
             words += " " + self.tr("The bundle does not state the sensor's mounting; no rotation is assumed.")
         if model.controller is None:
             return words + " " + self.tr("The bundle has no gains; the defaults for its probe are used.")
-        gains = self.tr("Contact force {force:g} N.").format(force=model.controller.desired_force_N)
+        gains = filled(self.tr("Contact force {force:g} N."), force=model.controller.desired_force_N)
         return f"{words} {gains}"
 
     def _ask(self) -> None:
@@ -251,10 +252,17 @@ class MotionWindow(QWidget):
     def _summary(self, outcome: dict[str, Any]) -> str:
         low, high = outcome["force_N"]
         within, out = outcome["angle_error_deg"]
-        return self.tr(
-            "Tracked for {seconds:.0f} s at {low:.1f} to {high:.1f} N; mean angle error {within:.1f}°"
-            " along the face and {out:.1f}° across it."
-        ).format(seconds=outcome["tracked_s"], low=low, high=high, within=within, out=out)
+        return filled(
+            self.tr(
+                "Tracked for {seconds:.0f} s at {low:.1f} to {high:.1f} N; mean angle error {within:.1f}°"
+                " along the face and {out:.1f}° across it."
+            ),
+            seconds=outcome["tracked_s"],
+            low=low,
+            high=high,
+            within=within,
+            out=out,
+        )
 
     # ---- work and end ------------------------------------------------------------------------------
 

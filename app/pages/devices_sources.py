@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QComboBox,
-    QDoubleSpinBox,
     QFileDialog,
     QGroupBox,
     QLineEdit,
@@ -21,6 +20,7 @@ from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
+from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -321,9 +321,9 @@ class PoseSource(DeviceChoice):
         self.kind.setCurrentIndex(self.kind.findData(kind))
 
 
-def angle_field(axis: str) -> QDoubleSpinBox:
+def angle_field(axis: str) -> NumberBox:
     """Return a field for an angle about an axis, degrees."""
-    field = QDoubleSpinBox(decimals=1, minimum=-360.0, maximum=360.0, singleStep=90.0, suffix="°")
+    field = NumberBox(decimals=1, minimum=-360.0, maximum=360.0, singleStep=90.0, suffix="°")
     field.setPrefix(f"{axis} ")
     field.setMinimumHeight(HIGH)
     return field

@@ -37,6 +37,7 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -329,6 +330,6 @@ def _boxed(title: str, *widgets: QWidget) -> QGroupBox:
 
 
 def _size(count: int) -> str:
-    return (
-        f"{count} B" if count < 1_000 else f"{count / 1e3:.0f} kB" if count < 1e6 else f"{count / 1e6:.1f} MB"
-    )
+    if count < 1_000:
+        return f"{count} B"
+    return filled("{:.0f} kB", count / 1e3) if count < 1e6 else filled("{:.1f} MB", count / 1e6)

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFileDialog, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QFileDialog, QLineEdit, QToolButton, QWidget
 
 from contactbench.widgets.controls import check_box, form, named, push_button, row, show_quietly
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import NumberBox, filled
 
 if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.options import ExportOptions
@@ -110,8 +111,8 @@ class ExportSettingsPanel(QWidget):
         field.editingFinished.connect(lambda: self._say(option, field.text().strip() or None, name))
         return field
 
-    def _number(self, most: float, unit: str, name: str, otherwise: str, option: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox(decimals=1, minimum=0.0 if otherwise else 0.1, maximum=most, suffix=unit)
+    def _number(self, most: float, unit: str, name: str, otherwise: str, option: str) -> NumberBox:
+        field = NumberBox(decimals=1, minimum=0.0 if otherwise else 0.1, maximum=most, suffix=unit)
         field.setSpecialValueText(otherwise)
         field.valueChanged.connect(
             lambda value: self._say(option, None if otherwise and value == 0.0 else value, name)
@@ -144,7 +145,8 @@ class ExportSettingsPanel(QWidget):
         self.gains.setText(
             self.tr("left out")
             if part is None
-            else self.tr("{force:g} N, {variant}").format(
+            else filled(
+                self.tr("{force:g} N, {variant}"),
                 force=part.desired_force_N,
                 variant=self.tr("predictive") if part.variant == "aware" else self.tr("basic"),
             )

@@ -34,6 +34,7 @@ from contactbench.widgets.controls import (
     show_quietly,
 )
 from contactbench.widgets.coverage import Coverage
+from contactbench.widgets.numbers import filled, local, number
 from contactbench.widgets.phrases import said
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
@@ -87,9 +88,9 @@ class GravityFigures(QWidget):
         self.count.setText(text)
         known = [error for error in errors if error < _UNDETERMINED]
         determined = bool(errors) and errors[-1] < _UNDETERMINED
-        self.error.setText(f"{plain(1e3 * known[-1])} mm" if determined else "\N{EN DASH} mm")
+        self.error.setText(f"{local(plain(1e3 * known[-1]))} mm" if determined else "\N{EN DASH} mm")
         arrow = determined and len(known) > 1
-        self.before.setText(f"{plain(1e3 * known[-2])} \N{RIGHTWARDS ARROW}" if arrow else "")
+        self.before.setText(f"{local(plain(1e3 * known[-2]))} \N{RIGHTWARDS ARROW}" if arrow else "")
         self.before.setVisible(arrow)
         self.curve.setVisible(len(known) > 1)
         self.curve.show_values(known, Limits().good_error)
@@ -257,7 +258,7 @@ class GravityPanel(PanelScroll):
             (
                 (self.tr("from the poses"), None),
                 *(
-                    (names[key].format(degrees=f"{degrees:g}"), degrees)
+                    (names[key].format(degrees=number(degrees, "g")), degrees)
                     for key, degrees in ORIENTATION_NOISE_DEG.items()
                 ),
             ),
@@ -302,4 +303,4 @@ class GravityPanel(PanelScroll):
             return
         angle = float(np.degrees(np.arccos(np.clip(R_WS[2] @ goal[2], -1, 1))))
         words = self.tr("In position: keep still.") if angle < _THERE else self.tr("{angle:.0f}° to go.")
-        self.away.setText(words.format(angle=angle))
+        self.away.setText(filled(words, angle=angle))

@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtWidgets import QDoubleSpinBox, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from contactbench.app.pages.known_check import KnownCheckPanel
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.known_checks import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -36,8 +37,8 @@ class WeightPanel(KnownCheckPanel):
                 " poses alone cannot show."
             )
         )
-        self.mass = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=500.0, value=1.0, suffix=" kg")
-        self.sigma = QDoubleSpinBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
+        self.mass = NumberBox(decimals=3, minimum=0.001, maximum=500.0, value=1.0, suffix=" kg")
+        self.sigma = NumberBox(decimals=2, minimum=0.0, maximum=10_000.0, value=0.5, suffix=" g")
         self.certificate = QLineEdit(maxLength=200)
         self.certificate.setPlaceholderText(self.tr("Number (optional)"))
         rows = form()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QFormLayout,
     QGroupBox,
     QLabel,
@@ -28,6 +27,7 @@ from contactbench.widgets.controls import (
     show_quietly,
 )
 from contactbench.widgets.mesh_report import MeshReport
+from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class MeshSection(QGroupBox):
         self.question.setText(self.tr("How long is the probe? The file does not state its unit."))
         for unit in (guess.units, *guess.alternatives):
             length = mesh.inspection.size_m * _metres(unit) / _metres(guess.units)
-            words = self.tr("{:.4g} mm long ({})").format(1e3 * length, NAMES[unit])
+            words = filled(self.tr("{:.4g} mm long ({})"), 1e3 * length, NAMES[unit])
             button = push_button(words, partial(self.unit_said.emit, unit), high=_HIGH)
             self._units.addWidget(button)
             self.unit_buttons[unit] = button
@@ -228,7 +228,7 @@ class FacetsSection(QGroupBox):
 
     def show_result(self, facets: int | None, meaning: str) -> None:
         """Show how many facets there are now, and what that means; None: nothing yet."""
-        self.number.setText("" if facets is None else self.tr("{:,} facets").format(facets))
+        self.number.setText("" if facets is None else filled(self.tr("{:,} facets"), facets))
         self.number.setVisible(facets is not None)
         self.meaning.setText(meaning)
         self.meaning.setVisible(bool(meaning))
@@ -236,8 +236,8 @@ class FacetsSection(QGroupBox):
             each.setEnabled(facets is not None)
 
 
-def _number(low: float, high: float, unit: str, decimals: int, name: str, tip: str) -> QDoubleSpinBox:
-    field = QDoubleSpinBox(decimals=decimals, minimum=low, maximum=high, suffix=unit)
+def _number(low: float, high: float, unit: str, decimals: int, name: str, tip: str) -> NumberBox:
+    field = NumberBox(decimals=decimals, minimum=low, maximum=high, suffix=unit)
     return named(field, name, tip=tip)
 
 

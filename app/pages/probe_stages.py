@@ -18,6 +18,7 @@ from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_dr
 from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -444,7 +445,7 @@ class ProbeStages(QObject):
         count = len(preview.done.content.probe.faces)
         self.bench.tell(
             Weight.GOOD,
-            self.tr("The probe with {:,} facets is in use. Next: regions or verification.").format(count),
+            filled(self.tr("The probe with {:,} facets is in use. Next: regions or verification."), count),
         )
         self.bench.set_failed(Step.PROBE, "")
         self.changed.emit()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from contactbench.app.bench import Weight
-from contactbench.pipeline.workbench.regions_session import keep
+from contactbench.pipeline.workbench.regions_session import keep_with_steps
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -68,7 +68,7 @@ class RegionAutosave(QObject):
         if work is None or not self.dirty:
             return
         work.abort()
-        revision, regions, shell = work.revision, work.model.snapshot(), work.shell
+        revision, regions, shell, steps = work.revision, work.model.snapshot(), work.shell, work.model.steps
         self._kept_at = revision
         bench, title = self._bench, self.tr("Saving regions")
 
@@ -84,4 +84,4 @@ class RegionAutosave(QObject):
             else:
                 bench.tell(Weight.ERROR, str(error))
 
-        bench.do(title, lambda session: keep(session, regions, shell), done, wrong)
+        bench.do(title, lambda session: keep_with_steps(session, regions, shell, steps), done, wrong)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QButtonGroup,
-    QDoubleSpinBox,
     QGroupBox,
     QLabel,
     QLayout,
@@ -35,6 +34,7 @@ from contactbench.widgets.controls import (
     show_quietly,
 )
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ class ToolPanel(QWidget):
         self.crease_slider = QSlider(Qt.Orientation.Horizontal)
         self.crease_slider.setRange(1, 90)
         self.crease_slider.setAccessibleName(self.tr("Sharpest edge to cross"))
-        self.crease = QDoubleSpinBox(minimum=1, maximum=90, decimals=0, suffix=" °")
+        self.crease = NumberBox(minimum=1, maximum=90, decimals=0, suffix=" °")
         self.crease.setMinimumHeight(HIGH)
         self.crease.setAccessibleName(self.tr("Sharpest edge to cross, degrees"))
         self.crease.setToolTip(self.tr("The fill stops at edges sharper than this, degrees"))
@@ -212,8 +212,8 @@ class ToolPanel(QWidget):
     def _make_box(self) -> QWidget:
         self.box_hint, self.box_plan = sentence_label(self._box_words(), "muted"), sentence_label("", "muted")
         lines = []
-        self.lows: list[QDoubleSpinBox] = []
-        self.highs: list[QDoubleSpinBox] = []
+        self.lows: list[NumberBox] = []
+        self.highs: list[NumberBox] = []
         for name in _AXES:
             for fields, end in ((self.lows, self.tr("low")), (self.highs, self.tr("high"))):
                 words = self.tr("{0} {1}, mm in the sensor frame S").format(name, end)
@@ -318,13 +318,13 @@ class ShapePanel(QGroupBox):
         return Mirror(_along(axis, self.at.value() / 1000), _along(axis, 1.0))
 
 
-def _length(least: float, most: float, words: str) -> QDoubleSpinBox:
+def _length(least: float, most: float, words: str) -> NumberBox:
     """Return a field for a length in mm."""
-    field = QDoubleSpinBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm")
+    field = NumberBox(decimals=1, minimum=least, maximum=most, singleStep=0.5, suffix=" mm")
     return named(field, words)
 
 
-def _labelled(words: str, slider: QSlider, field: QDoubleSpinBox) -> FoldRow:
+def _labelled(words: str, slider: QSlider, field: NumberBox) -> FoldRow:
     label = QLabel(words)
     label.setBuddy(field)
     return row(label, slider, field)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import weakref
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from PySide6.QtCore import QEvent
-from PySide6.QtGui import QUndoCommand
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from contactbench.app.bench import Weight
@@ -16,14 +14,16 @@ from contactbench.app.page import Page
 from contactbench.app.pages.region_autosave import RegionAutosave
 from contactbench.app.pages.region_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
 from contactbench.app.pages.regions_panel import Mode, RegionsPanel, RegionsView
-from contactbench.app.undo import SessionCommand
+from contactbench.app.undo import SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
 from contactbench.pipeline.workbench.regions import Clear
 from contactbench.pipeline.workbench.regions_session import apply, open_work, standing, surface_key
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.region_brush import STEP, RegionBrush
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
+    from contactbench.app.undo import PaintRequest
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
@@ -40,48 +41,6 @@ if TYPE_CHECKING:
 
     Progress = Callable[[float], None]
     Stop = Callable[[], bool]
-
-
-class RegionStep(QUndoCommand):
-    """
-    A step that was made already: the model's own history undoes and redoes it, and both go in step.
-
-    Parameters
-    ----------
-    text : str
-        Such as "paint Lens".
-    work : RegionsWork
-        That it was made on.
-    shown : callable
-        A method that brings that to view and returns True, or returns False: something else is worked on by now,
-        and the step cannot be undone any more.
-    """
-
-    # The stack belongs to Qt: what its commands held, Python could never see to be a circle, and never free.
-
-    def __init__(self, text: str, work: RegionsWork, shown: Callable[[RegionsWork], bool]) -> None:
-        super().__init__(text)
-        self._work, self._shown = weakref.ref(work), weakref.WeakMethod(shown)
-        self._new = True
-
-    def undo(self) -> None:
-        """Take it back."""
-        work = self._found()
-        if work is None or not work.undo():
-            self.setObsolete(True)
-
-    def redo(self) -> None:
-        """Do it again; the first time it is done already."""
-        if self._new:
-            self._new = False
-            return
-        work = self._found()
-        if work is None or not work.redo():
-            self.setObsolete(True)
-
-    def _found(self) -> RegionsWork | None:
-        work, shown = self._work(), self._shown()
-        return work if work is not None and shown is not None and shown(work) else None
 
 
 class RegionsPage(Page):
@@ -112,6 +71,7 @@ class RegionsPage(Page):
         self.brush = RegionBrush(bench.scene, self)
         self.job: Job | None = None
         self._planned: Tool | None = None
+        self._asked: list[PaintRequest] = []  # before the regions were there
         self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel(self.bar)
         self.fill(self.panel)
         self._connect()
@@ -126,6 +86,7 @@ class RegionsPage(Page):
         self.keeper.kept.connect(self._kept)
         self.keeper.failed.connect(self._not_kept)
         bench.scene.picked.connect(self._picked)
+        bench.paint_asked.connect(self._put)
         listed = panel.regions
         listed.chosen.connect(self._choose)
         listed.renamed.connect(lambda rank, name: self.edit(lambda model: model.rename(rank, name)))
@@ -248,6 +209,7 @@ class RegionsPage(Page):
             if self._key == key:
                 self._loading = None
                 self._watch(work)
+                self._put_asked()
                 for note in work.notes:
                     self.bench.tell(Weight.WARNING, note)
 
@@ -255,6 +217,7 @@ class RegionsPage(Page):
             if self._key == key:
                 self._loading = None
                 self._failure = self.tr("Cancelled.") if isinstance(error, Cancelled) else str(error)
+                self._put_asked()
                 self.show_all()
 
         self._loading = self.bench.jobs.start(
@@ -334,15 +297,31 @@ class RegionsPage(Page):
 
     def push(self, text: str | None) -> None:
         """Let the window undo a step that was made; None: none was."""
-        if text is not None and self.work is not None:
-            self.bench.undo.push(RegionStep(text, self.work, self._bring_up))
+        key = None if self.work is None else self.work.model.undo_key
+        if text is not None and key is not None:
+            push_painted(self.bench, PaintedStep(text, key))
 
-    def _bring_up(self, work: RegionsWork) -> bool:
-        if work is not self.work:
-            return False
-        if not self.shown:
-            self.bench.go_to.emit(Step.REGIONS)
-        return work is self.work  # entering the page may have found another probe
+    def _put(self, request: PaintRequest) -> None:
+        """Take a step back or do it again, if it is the next one; as soon as the regions are there."""
+        if self._loading is not None:
+            self._asked.append(request)
+            return
+        work = self.work
+        if work is None:
+            request.refused = True
+        elif request.way == "undo":
+            request.refused = work.model.undo_key != request.key or not work.undo()
+        else:
+            request.refused = work.model.redo_key != request.key or not work.redo()
+
+    def _put_asked(self) -> None:
+        """Do what was asked for before the regions were there."""
+        asked, self._asked = self._asked, []
+        for request in asked:
+            self._put(request)
+        if any(request.refused for request in asked):
+            words = self.tr("What was painted cannot be undone any more: the probe's surface has changed.")
+            self.bench.tell(Weight.WARNING, words)
 
     def add_region(self) -> None:
         """Add a region with the next free name and colour, and choose it."""
@@ -430,8 +409,8 @@ class RegionsPage(Page):
                 self.bench.scene.paint(None, work.colours)
             return
         found = work.finder(tool, rank)()
-        text = self.tr("Facets: {0:,}; area: {1:.2f} cm²").format(
-            int(found.mask.sum()), 1e4 * work.area(found.mask)
+        text = filled(
+            self.tr("Facets: {0:,}; area: {1:.2f} cm²"), int(found.mask.sum()), 1e4 * work.area(found.mask)
         )
         self.panel.tools.show_plan(text)
         self.bench.scene.paint(None, work.planned(found))

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QFileDialog,
     QLabel,
     QSpinBox,
@@ -23,6 +22,7 @@ from contactbench.pipeline.workbench.markers import Markers, grid, imported, kee
 from contactbench.widgets.controls import HIGH, choice, column, named, push_button, row, sentence_label
 from contactbench.widgets.icons import icon
 from contactbench.widgets.marker_table import MarkerTable
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,7 +72,7 @@ class MarkersPanel(QWidget):
         self.show_regions()
         self.count = QSpinBox(minimum=1, maximum=1000, value=12)
         named(self.count, self.tr("Number of markers"))
-        self.pitch = QDoubleSpinBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
+        self.pitch = NumberBox(minimum=0.5, maximum=200.0, value=10.0, suffix=" mm")
         named(self.pitch, self.tr("Grid spacing, mm"))
         self.spread = push_button(self.tr("Distribute evenly"), self._spread, "add")
         self.grid = push_button(self.tr("Create grid"), self._grid, "add")
@@ -105,7 +105,7 @@ class MarkersPanel(QWidget):
         self.coordinates = []
         for axis in ("x", "y", "z"):
             name = self.tr("Marker {axis} in the sensor frame S, mm").format(axis=axis)
-            field = QDoubleSpinBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
+            field = NumberBox(minimum=-2000.0, maximum=2000.0, decimals=1, prefix=f"{axis} ")
             self.coordinates.append(named(field, name))
         self.add_button = QToolButton()
         self.add_button.setIcon(icon("add"))

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from contactbench.pipeline.verification.model_error import model_error_words
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.numbers import number
 from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
@@ -65,14 +66,14 @@ class ResultPanel(QWidget):
         else:
             self._put(self.tr("Not passed"), "failed", "bad")
         mean = outcome.mean_mm
-        number = (
+        size = (
             self.tr("no accepted touches")
             if mean is None
-            else self.tr("{mean} mm").format(mean=f"{mean:.2f}")
+            else self.tr("{mean} mm").format(mean=number(mean, ".2f"))
         )
         found = outcome.found
         self._texts(
-            number,
+            size,
             self._range(outcome),
             self._figures(found),
             self._why(outcome),
@@ -103,7 +104,7 @@ class ResultPanel(QWidget):
             return self.tr("mean error of {count} touches").format(count=outcome.touches)
         low, high = ci.mean_mm
         return self.tr("mean error of {count} touches; 95 % CI {low}–{high} mm").format(
-            count=outcome.touches, low=f"{low:.2f}", high=f"{high:.2f}"
+            count=outcome.touches, low=number(low, ".2f"), high=number(high, ".2f")
         )
 
     def _figures(self, found: Verification) -> str:
@@ -112,14 +113,14 @@ class ResultPanel(QWidget):
             return ""
         lines = [
             self.tr("Largest error: {size} mm (limit {limit} mm)").format(
-                size=f"{overall.max_mm:.2f}", limit=f"{1e3 * limits.max_m:g}"
+                size=number(overall.max_mm, ".2f"), limit=number(1e3 * limits.max_m, "g")
             ),
-            self.tr("95 % of touches within {size} mm").format(size=f"{overall.p95_mm:.2f}"),
-            self.tr("Limit of the mean error: {limit} mm").format(limit=f"{1e3 * limits.mean_m:g}"),
+            self.tr("95 % of touches within {size} mm").format(size=number(overall.p95_mm, ".2f")),
+            self.tr("Limit of the mean error: {limit} mm").format(limit=number(1e3 * limits.mean_m, "g")),
         ]
         if found.ratio is not None:
             words = self.tr("{ratio} times the expected error (noise and calibration)")
-            lines.append(words.format(ratio=f"{found.ratio:.1f}"))
+            lines.append(words.format(ratio=number(found.ratio, ".1f")))
         return "\n".join(lines)
 
     def _why(self, outcome: VerifyOutcome) -> str:

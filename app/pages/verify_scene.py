@@ -12,6 +12,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
 from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import Reason
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import TouchErrors
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ class VerifyScene:
         top = 0.0 if touches is None else 1e3 * touches.top
         for name in markers.names:
             each = judged.get(name)
-            names.append(name if each is None else f"{name}  {each.max_mm:.2f} mm")
+            names.append(name if each is None else filled("{}  {:.2f} mm", name, each.max_mm))
             states.append(
                 "open" if each is None else "failed" if each.max_mm > 1e3 * found.limits.max_m else "done"
             )
@@ -144,7 +145,7 @@ class VerifyScene:
         self._contact = contact
         two = contact.reason is Reason.TWO_TOUCHES  # the force is that of both: it acts at neither
         covariance = None if two else contact.covariance
-        sure = "" if two else f"{min(100 * contact.confidence, 99.9):.3g} %"
+        sure = "" if two else filled("{:.3g} %", min(100 * contact.confidence, 99.9))
         self._scene.show_contact(contact.point, covariance, contact.normal, _others(contact), captions, sure)
         self._scene.show_force(None if two else reading.compensated[:3], contact.point)
         if contact.accepted and len(self._points) < _MOST:
@@ -211,10 +212,7 @@ def located(found: Verification) -> TouchErrors | None:
 
 
 def _live(view: TouchView) -> TouchErrors | None:
-    pairs = view.contacts
-    if not pairs:
-        return None
-    return TouchErrors(np.array([start for start, _ in pairs]), np.array([end for _, end in pairs]))
+    return TouchErrors(*map(np.array, zip(*view.contacts, strict=True))) if view.contacts else None
 
 
 def _worst(found: Verification) -> str | None:

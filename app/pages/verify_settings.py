@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox, QWidget
+from PySide6.QtWidgets import QLabel, QSpinBox, QWidget
 
 from contactbench.widgets.controls import choice, form, named, row, show_quietly
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from contactbench.pipeline.verification.result import VerificationParameters
@@ -59,8 +60,8 @@ class VerifySettingsPanel(QWidget):
                 lambda value, name=name, words=words: self.changed.emit({name: value}, words)
             )
 
-    def _number(self, low: float, high: float, unit: str, name: str) -> QDoubleSpinBox:
-        field = QDoubleSpinBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit)
+    def _number(self, low: float, high: float, unit: str, name: str) -> NumberBox:
+        field = NumberBox(decimals=2, minimum=low, maximum=high, singleStep=0.5, suffix=unit)
         return named(field, name)
 
     def _set_window(self) -> None:

@@ -16,6 +16,7 @@ from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
+from contactbench.widgets.numbers import number
 from contactbench.widgets.phrases import said
 from contactbench.widgets.sounds import Sounds
 from contactbench.widgets.touch_state import TouchState
@@ -223,19 +224,19 @@ class TouchPanel(QWidget):
             ProtocolState.ACCEPTED: self.tr("Release."),
             ProtocolState.REJECTED: self.tr("Release."),
         }[view.state]
-        return words.format(low=f"{low:g}", high=f"{high:g}")
+        return words.format(low=number(low, "g"), high=number(high, "g"))
 
     def _said(self, touch: TouchOf, free: bool) -> str:
         if touch.why:
             why = said(touch.why)
             return self.tr("{why} ({force} N). Release, then touch again.").format(
-                why=f"{why[0].upper()}{why[1:]}", force=f"{touch.force:.1f}"
+                why=f"{why[0].upper()}{why[1:]}", force=number(touch.force, ".1f")
             )
         words = (
             self.tr("{marker}: error {size} mm.") if free else self.tr("{marker}: error {size} mm. Release.")
         )
         return words.format(
-            marker=touch.marker, size="–" if touch.size_mm is None else f"{touch.size_mm:.2f}"
+            marker=touch.marker, size="–" if touch.size_mm is None else number(touch.size_mm, ".2f")
         )
 
     def _contact(self, contact: Contact | None) -> str:
@@ -260,7 +261,9 @@ class TouchPanel(QWidget):
                 return self.tr(
                     "No single touch explains this wrench (residual {sigmas} sigma, moment arm {arm} mm)."
                     " Check for two simultaneous touches, and check units, mount and compensation."
-                ).format(sigmas=f"{math.sqrt(contact.misfit):.1f}", arm=f"{1e3 * abs(contact.arm):.0f}")
+                ).format(
+                    sigmas=number(math.sqrt(contact.misfit), ".1f"), arm=number(1e3 * abs(contact.arm), ".0f")
+                )
             case Reason.TANGENTIAL:
                 return self.tr("The force is almost parallel to the surface. Press more directly into it.")
             case Reason.OUTSIDE_REGION:
@@ -290,10 +293,12 @@ class TouchPanel(QWidget):
         if view.last is None or view.last.ratio is None or view.max_mm is None:
             return self.tr("of accepted touches")
         return self.tr("largest {largest} mm; last: {ratio} times the expected noise").format(
-            largest=f"{view.max_mm:.2f}", ratio=f"{view.last.ratio:.1f}"
+            largest=number(view.max_mm, ".2f"), ratio=number(view.last.ratio, ".1f")
         )
 
 
 def _percent(confidence: float) -> str:
     """Return a share of one in per cent; what is not certain is never said to be 100."""
-    return f"{min(100 * confidence, 99.9):.1f}" if confidence > 0.99 else f"{100 * confidence:.0f}"
+    return (
+        number(min(100 * confidence, 99.9), ".1f") if confidence > 0.99 else number(100 * confidence, ".0f")
+    )

@@ -101,8 +101,8 @@ def model_error_words(found: ModelError | None) -> str:
     remedy = "No action needed."
     if max(force, torque) > _LARGE:
         remedy = (
-            "That is much: contacts will often be ambiguous. Find what pulls at the probe or the sensor (cable, hose,"
-            " cover), warm the sensor up and tighten the mount, then calibrate and verify again."
+            "That is a lot: contacts are located less precisely. Find what pulls at the probe or the sensor (cable,"
+            " hose, cover), warm the sensor up and tighten the mount, then calibrate and verify again."
         )
     return f"{size} {meaning} {remedy}"
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+from contextlib import suppress
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
+from contactbench.pipeline.mesh.regions.history import RegionSteps
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.shell_regions import painted_regions
 from contactbench.pipeline.session.recompute import laid_out, recomputed
@@ -18,6 +20,11 @@ from contactbench.pipeline.workbench.probe_shell import (
     REGIONS_FILE,
     recipe_of,
     shell_file_of,
+)
+from contactbench.pipeline.workbench.region_history import (
+    read_region_steps,
+    regions_digest,
+    write_region_steps,
 )
 from contactbench.pipeline.workbench.regions import RegionsWork
 
@@ -90,15 +97,20 @@ def open_work(
         desk, None if progress is None else lambda share: progress(_SURFACE * share), cancelled
     )
     notes: list[str] = []
+    steps = RegionSteps()
     try:
         regions, carried = regions_on(desk, shell)
-        if carried:
+        if not carried:
+            steps = read_region_steps(desk.folder, regions_digest(desk.state))
+        else:
             notes.append("The probe has changed since the regions were painted: they were carried over.")
             notes += [each.sentence for each in carried if each.vanished]
     except InputError as error:
         regions = shell.regions
         notes.append(f"The regions that were painted before are not shown: {error}")
     work = RegionsWork(shell, regions, tuple(notes))
+    with suppress(InputError):  # they are of another surface: nothing of it can be undone
+        work.model.put_steps(steps)
     work.warm_up()
     if progress is not None:
         progress(1.0)
@@ -166,6 +178,15 @@ def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | Non
     return session.add_input(
         painted, REGIONS, name=REGIONS_FILE, companions=encode_probe_file(shell, _PAINTED)
     )
+
+
+def keep_with_steps(
+    session: Session, regions: RegionSet, shell: ProbeFile, steps: RegionSteps
+) -> Record | None:
+    """Add the regions to a session as `keep` does, and write beside it the steps that led to them."""
+    record = keep(session, regions, shell)
+    write_region_steps(session.folder, steps, regions_digest(session.state))
+    return record
 
 
 def apply(

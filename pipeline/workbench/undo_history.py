@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.session.state import fold
+from contactbench.pipeline.workbench.region_history import read_region_steps, regions_digest
 from contactbench.pipeline.workbench.session_change import change_between
 
 if TYPE_CHECKING:
@@ -72,28 +73,37 @@ class Deed:
 
 
 @dataclass(frozen=True)
+class PaintedStep:
+    """One step of painting, which the regions' own history takes back and does again."""
+
+    text: str
+    key: str  # Of its `RegionEdit`
+
+
+@dataclass(frozen=True)
 class UndoHistory:
     """The steps of a session, oldest first."""
 
-    deeds: tuple[Deed, ...] = ()
+    deeds: tuple[Deed | PaintedStep, ...] = ()
     done: int = 0  # How many of them are done; the others were taken back, and can be done again
 
 
-def write_history(folder: Path, deeds: Sequence[Deed], done: int) -> None:
+def write_history(folder: Path, deeds: Sequence[Deed | PaintedStep], done: int) -> None:
     """
     Write the steps of a session into its folder; those that left nothing are left out.
 
     A disk that takes nothing loses the steps, and nothing else: the journal is not touched.
     """
     left = max(0, len(deeds) - _MOST)
-    kept = [(number, each) for number, each in enumerate(deeds) if each.happened and number >= left]
+    kept = [
+        (number, each)
+        for number, each in enumerate(deeds)
+        if number >= left and (isinstance(each, PaintedStep) or each.happened)
+    ]
     content = {
         "version": _VERSION,
         "done": sum(number < done for number, _ in kept),
-        "steps": [
-            {"text": each.text, "first": each.first, "last": each.last, "chain": each.chain}
-            for _, each in kept
-        ],
+        "steps": [vars(each) for _, each in kept],
     }
     try:
         write_durably(folder / UNDO_FILE, json.dumps(content, ensure_ascii=False).encode())
@@ -116,9 +126,27 @@ def read_history(session: Session) -> UndoHistory:
     known = all(
         0 < each.first < each.last <= len(records) and records[each.last - 1].hash == each.chain
         for each in deeds
+        if isinstance(each, Deed)
     )
-    return UndoHistory(deeds, min(max(done, 0), len(deeds))) if known else UndoHistory()
+    return _with_painting(session, deeds, done) if known else UndoHistory()
 
 
-def _deed(value: dict[str, Any]) -> Deed:
+def _with_painting(session: Session, deeds: Sequence[Deed | PaintedStep], done: int) -> UndoHistory:
+    """Leave out what was painted and is not in the session: after a kill, this file may be ahead of it."""
+    steps = read_region_steps(session.folder, regions_digest(session.state))
+    painted = {each.key: True for each in steps.done} | {each.key: False for each in steps.undone}
+    kept = [
+        (each, number < done if isinstance(each, Deed) else painted[each.key])
+        for number, each in enumerate(deeds)
+        if isinstance(each, Deed) or each.key in painted
+    ]
+    there = [is_done for _, is_done in kept]
+    if there != sorted(there, reverse=True):  # what was done after something that was taken back
+        kept = [(each, number < done) for number, each in enumerate(deeds) if isinstance(each, Deed)]
+    return UndoHistory(tuple(each for each, _ in kept), sum(is_done for _, is_done in kept))
+
+
+def _deed(value: dict[str, Any]) -> Deed | PaintedStep:
+    if "key" in value:
+        return PaintedStep(str(value["text"]), str(value["key"]))
     return Deed(str(value["text"]), int(value["first"]), int(value["last"]), str(value["chain"]))

@@ -111,8 +111,10 @@ class TouchView:
     accepted: int
     wanted: int
     notice: str  # What is in the way; empty: nothing
-    # (start, end); Places of markers and where they were found, m, for the accepted touches
-    contacts: tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...] = field(default=())
+    # For the accepted touches, S: where the marker is and where it was found, m, and the covariance of that, m²
+    contacts: tuple[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], ...] = field(
+        default=()
+    )
 
 
 def point_mm(marker: Marker) -> tuple[float, float, float]:
@@ -311,7 +313,7 @@ class LiveTouches:
                 wanted=sum(row.wanted for row in rows if row.state != "skipped"),
                 notice=self._notice(),
                 contacts=tuple(
-                    (self.markers[touch.placed.marker].point_S, touch.located.point)
+                    (self.markers[touch.placed.marker].point_S, touch.located.point, touch.located.covariance)
                     for touch in self._accepted()
                     if touch.placed is not None and touch.located is not None
                 ),

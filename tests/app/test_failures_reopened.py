@@ -7,7 +7,9 @@ import signal
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
 from workbench.touch_session import make_session
@@ -16,6 +18,8 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.workbench.gravity_results import finish
 from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.scene.scene import Pick
+from contactbench.widgets.scene.views import SceneLook, turned
 
 from .failures import whole
 from .test_failures_results import close, force, leave_out, plain, same, spread, use_devices
@@ -72,6 +76,104 @@ def test_undone_and_done_again_after_the_session_was_opened_again(qtbot, calibra
         assert not made.unexpected
         close(made)
     assert not check(folder).problems
+
+
+def paint(made, *faces):
+    """Draw a stroke over facets of the newest region."""
+    page, scene = made.window.pages.current, made.window.scene
+    picks = [Pick(face, page.work.graph.centroids[face]) for face in faces]
+    scene.brush_began.emit(picks[0], Qt.KeyboardModifier.NoModifier)
+    for each in picks[1:]:
+        scene.brush_moved.emit(each)
+    scene.brush_ended.emit()
+
+
+def labels(made):
+    return made.window.pages.current.work.model.labels.copy()
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_strokes_are_taken_back_one_by_one_after_the_session_was_opened_again(
+    qtbot, calibrated, tmp_path, elsewhere
+):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
+    with whole(qtbot, tmp_path) as made:
+        made.open(folder)
+        page = made.page(Step.REGIONS)
+        made.wait(lambda: page.work is not None)
+        page.panel.regions.add_button.click()
+        painted = [labels(made)]
+        for faces in ((0, 1), (200, 201), (400, 401)):
+            paint(made, *faces)
+            painted.append(labels(made))
+        made.window.menus.undo.trigger()  # the last one is taken back before the window is closed
+        assert len({each.tobytes() for each in painted}) == 4
+        if elsewhere:
+            made.page(Step.DEVICES)
+        close(made)
+    with whole(qtbot, tmp_path) as made:
+        bench, menus = made.open(folder), made.window.menus
+        made.idle()
+        assert bench.undo.undoText() == "paint Region 1"
+        menus.undo.trigger()
+        menus.undo.trigger()  # at once: the surface may still be being prepared
+        assert made.window.pages.step is Step.REGIONS
+        page = made.window.pages.current
+        made.wait(lambda: page.work is not None and np.array_equal(labels(made), painted[0]))
+        for expected in painted[1:]:
+            menus.redo.trigger()
+            assert np.array_equal(labels(made), expected)
+        assert not menus.redo.isEnabled()
+        for expected in reversed(painted[:-1]):
+            menus.undo.trigger()
+            assert np.array_equal(labels(made), expected)
+        menus.undo.trigger()  # the region itself
+        assert page.work.model.regions == ()
+        assert not made.unexpected
+        close(made)
+    assert not check(folder).problems
+
+
+def test_strokes_on_a_surface_that_is_gone_are_refused_in_words(qtbot, calibrated, tmp_path):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
+    with whole(qtbot, tmp_path) as made:
+        made.open(folder)
+        page = made.page(Step.REGIONS)
+        made.wait(lambda: page.work is not None)
+        page.panel.regions.add_button.click()
+        paint(made, 0, 1)
+        close(made)
+    with whole(qtbot, tmp_path) as made:
+        bench = made.open(folder)
+        made.idle()
+        page = made.page(Step.REGIONS)
+        made.wait(lambda: page.work is not None)
+        page.work.undo()  # as if somebody else had: the window's step is not the next one any more
+        before = labels(made)
+        made.window.menus.undo.trigger()
+        assert np.array_equal(labels(made), before)
+        assert bench.undo.undoText() != "paint Region 1"
+        assert not made.unexpected
+
+
+def test_the_scene_is_looked_at_as_it_was(qtbot, calibrated, tmp_path):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
+    with whole(qtbot, tmp_path) as made:
+        made.open(folder)
+        made.page(Step.PROBE)
+        made.idle()
+        scene = made.window.scene
+        scene.move_camera(turned(SceneLook.of(scene.camera(), None), 0.7, -0.3))
+        left = scene.camera()
+        close(made)
+    with whole(qtbot, tmp_path) as made:
+        bench, scene = made.open(folder), made.window.scene
+        made.wait(lambda: not bench.jobs.running and scene.probe_layer.probe is not None)
+        assert np.allclose(scene.camera(), left)
+        made.wait(lambda: not scene._held)  # from now on a page may choose the view
+        made.page(Step.GRAVITY)
+        assert not np.allclose(scene.camera(), left)
+        assert not made.unexpected
 
 
 # ---- killed amid the preparation of a probe ------------------------------------------------------

@@ -10,6 +10,7 @@ from PySide6.QtGui import QBrush, QColor, QLinearGradient, QPainter, QPen, QPoly
 from PySide6.QtWidgets import QWidget
 
 from contactbench.pipeline.colour_ramp import colour_ramp
+from contactbench.widgets.numbers import filled, number
 from contactbench.widgets.scene.fields import ticks
 
 if TYPE_CHECKING:
@@ -61,9 +62,9 @@ class ColourBar(LegendPart):
         """Show a title, with its unit, the values of both ends, and the largest if that is beyond the end."""
         self.title, self.limits = title, limits
         beyond = largest is not None and largest > limits[1] * (1.0 + 1e-6)
-        self.over = self.tr("darkest: up to {largest:.3g}").format(largest=largest) if beyond else ""
-        words = self.tr("{title}: from {low:.3g} to {high:.3g}").format(
-            title=title, low=limits[0], high=limits[1]
+        self.over = filled(self.tr("darkest: up to {largest:.3g}"), largest=largest) if beyond else ""
+        words = filled(
+            self.tr("{title}: from {low:.3g} to {high:.3g}"), title=title, low=limits[0], high=limits[1]
         )
         self.setAccessibleName("; ".join(filter(None, (words, self.over))))
         self.update()
@@ -90,8 +91,8 @@ class ColourBar(LegendPart):
     def _paint_upright(self, painter: QPainter) -> None:
         painter.setPen(QColor(self._text))
         lines = self._lines()
-        for number, line in enumerate(lines):
-            self._write(painter, QRectF(8, 4 + number * _LINE, self.width() - 12, _LINE), line)
+        for row, line in enumerate(lines):
+            self._write(painter, QRectF(8, 4 + row * _LINE, self.width() - 12, _LINE), line)
         top = 8 + len(lines) * _LINE
         if self.over:
             painter.setPen(QColor(self._muted))
@@ -235,4 +236,4 @@ class SceneKey(LegendPart):
 
 
 def _said(value: float) -> str:
-    return f"{value:.4g}".replace("-", "\u2212")
+    return number(value, ".4g").replace("-", "\u2212")

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPen
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QToolButton, QWidget
 
+from contactbench.widgets.controls import FoldRow
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene.fields import round_length
 
 if TYPE_CHECKING:
@@ -28,9 +30,9 @@ class ViewButtons(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("viewButtons")
-        self._row = row = QHBoxLayout(self)
+        self._row = row = FoldRow(2)
         row.setContentsMargins(3, 3, 3, 3)
-        row.setSpacing(2)
+        self.setLayout(row)
         self.buttons: dict[str, QToolButton] = {}
         for name, text, tip in (
             ("front", self.tr("Front"), self.tr("View from the front: x right, z up")),
@@ -56,8 +58,15 @@ class ViewButtons(QFrame):
         button.setAccessibleName(tip)
         button.setMinimumSize(46, _BUTTON_HEIGHT)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self._row.addWidget(button)
+        self._row.add(button)
         return button
+
+    def wanted(self, width: int) -> QSize:
+        """Return the size for a width, px: in one line where there is room."""
+        whole = self.sizeHint()
+        if whole.width() <= width:
+            return whole
+        return QSize(width, self._row.heightForWidth(width))
 
     def dress(self, colours: Colours) -> None:
         """Take the theme's colours."""
@@ -109,7 +118,7 @@ class ScaleBar(QWidget):
     @property
     def text(self) -> str:
         """What is written over it."""
-        return self.tr("{length:g} mm").format(length=round(self.length * 1e3, 6))
+        return filled(self.tr("{length:g} mm"), length=round(self.length * 1e3, 6))
 
     def paintEvent(self, _event: QPaintEvent) -> None:
         """Draw it."""

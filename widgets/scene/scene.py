@@ -10,6 +10,7 @@ from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
+from contactbench.widgets.numbers import number
 from contactbench.widgets.scene.ahead import Ahead
 from contactbench.widgets.scene.brush_layer import BrushLayer
 from contactbench.widgets.scene.contact_layer import ContactLayer
@@ -71,7 +72,7 @@ class Scene(QWidget):
         super().__init__(parent)
         self.setAccessibleName(self.tr("3D view of the probe"))
         self._closed = False
-        self._fitted = False
+        self._fitted = self._held = False
         self._rough = False  # the picture that is kept has edges that are not smoothed
         self.view = SceneView(self)
         self._live = vtkRenderer()
@@ -114,7 +115,7 @@ class Scene(QWidget):
     def _children(self) -> None:
         self.buttons = ViewButtons(self)
         self.scale_bar, self.colour_bar, self.key = ScaleBar(self), ColourBar(self), SceneKey(self)
-        self.buttons.chosen.connect(self.look)
+        self.buttons.chosen.connect(self._look_as_asked)
         self.buttons.perspective.connect(self.set_perspective)
         self.view.dropped.connect(self.dropped)
         self.mouse = Mouse(self)
@@ -257,7 +258,8 @@ class Scene(QWidget):
 
     def bring_into_view(self, point: NDArray[np.float64]) -> None:
         """Look at all of the probe from where a point of its surface is seen best; z stays up."""
-        self.move_camera(self._eye.facing(point))
+        if not self._held:
+            self.move_camera(self._eye.facing(point))
 
     # ---- how it stands -----------------------------------------------------------------------------
 
@@ -287,10 +289,24 @@ class Scene(QWidget):
     # ---- how it is looked at ----------------------------------------------------------------------
 
     def look(self, view: str) -> None:
-        """Look from "front", "side", "top" or "fit" (only fits the size)."""
+        """Look from "front", "side", "top" or "fit" (only fits the size), unless the view is held."""
         if view not in (*VIEWS, "fit"):
             raise ValueError(f"There is no view {view!r}: choose one of {', '.join((*VIEWS, 'fit'))}.")
-        self.move_camera(self._eye.fit(None if view == "fit" else view))
+        if not self._held:
+            self.move_camera(self._eye.fit(None if view == "fit" else view))
+
+    def hold(self, camera: tuple[tuple[float, float, float], ...]) -> None:
+        """Look as `camera` said, whatever is shown, until it is released or somebody moves the view."""
+        self.set_camera(camera)
+        self._held = True
+
+    def release(self) -> None:
+        """Let pages choose the view again."""
+        self._held = False
+
+    def _look_as_asked(self, view: str) -> None:
+        self.release()
+        self.look(view)
 
     def set_perspective(self, perspective: bool) -> None:
         """Choose between the parallel view, in which lengths are true, and the perspective one."""
@@ -369,6 +385,7 @@ class Scene(QWidget):
 
     def move_camera(self, look: SceneLook) -> None:
         """Look otherwise, and tell it."""
+        self._held = False
         self._set_look(look)
         self._moves()
         self.camera_moved.emit()
@@ -493,7 +510,7 @@ class Scene(QWidget):
         touches = self._errors.touches
         if touches is None:
             return []
-        times = f"{self._errors.times:g}"
+        times = number(self._errors.times, "g")
         signs = [KeySign("arrow", self.tr("error, {times} times").format(times=times))]
         if touches.covariances is not None and np.isfinite(touches.covariances).any():
             signs.append(KeySign("ellipse", self.tr("95 % of noise, {times} times").format(times=times)))
@@ -523,7 +540,7 @@ class Scene(QWidget):
                 top += size.height()
         if self.view.geometry() != room:
             self.view.setGeometry(room)
-        size, bar = self.buttons.sizeHint(), self.scale_bar
+        size, bar = self.buttons.wanted(room.width() - 2 * _MARGIN), self.scale_bar
         self.buttons.setGeometry(
             QRect(_MARGIN, room.height() - size.height() - _MARGIN, size.width(), size.height())
         )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import uuid
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,6 +34,8 @@ class RegionEdit:
         Ascending: those whose label is not what the table alone makes of it, or could not be made back.
     old, new : (c,) int32
         Their labels before and after.
+    key : str
+        Tells it from every other edit, also after the program was started again.
     """
 
     text: str
@@ -42,6 +45,7 @@ class RegionEdit:
     faces: Ints
     old: Ints
     new: Ints
+    key: str = field(default_factory=lambda: uuid.uuid4().hex)
 
     def redo(self, labels: Ints) -> None:
         """Change labels (m,) in place."""
@@ -57,6 +61,14 @@ class RegionEdit:
             back[self.table[kept]] = kept
             labels[:] = back[labels]
         labels[self.faces] = self.old
+
+
+@dataclass(frozen=True)
+class RegionSteps:
+    """Edits that were done, and those that were undone; the newest last: the next to be undone, and to be redone."""
+
+    done: tuple[RegionEdit, ...] = ()
+    undone: tuple[RegionEdit, ...] = ()
 
 
 class RegionHistory:
@@ -93,11 +105,20 @@ class RegionHistory:
         return self._done[-1]
 
     @property
-    def undo_text(self) -> str | None:
+    def next_undo(self) -> RegionEdit | None:
         """What would be undone, or None."""
-        return self._done[-1].text if self._done else None
+        return self._done[-1] if self._done else None
 
     @property
-    def redo_text(self) -> str | None:
+    def next_redo(self) -> RegionEdit | None:
         """What would be redone, or None."""
-        return self._undone[-1].text if self._undone else None
+        return self._undone[-1] if self._undone else None
+
+    @property
+    def steps(self) -> RegionSteps:
+        """All of them."""
+        return RegionSteps(tuple(self._done), tuple(self._undone))
+
+    def put(self, steps: RegionSteps) -> None:
+        """Have these instead."""
+        self._done, self._undone = deque(steps.done, self._done.maxlen), list(steps.undone)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.history import RegionEdit, RegionHistory
+from contactbench.pipeline.mesh.regions.history import RegionEdit, RegionHistory, RegionSteps
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionSet,
@@ -249,12 +249,50 @@ class RegionModel:
     @property
     def undo_text(self) -> str | None:
         """What `undo` would undo, or None."""
-        return self._history.undo_text
+        step = self._history.next_undo
+        return None if step is None else step.text
 
     @property
     def redo_text(self) -> str | None:
         """What `redo` would do again, or None."""
-        return self._history.redo_text
+        step = self._history.next_redo
+        return None if step is None else step.text
+
+    @property
+    def undo_key(self) -> str | None:
+        """The `RegionEdit.key` of what `undo` would undo, or None."""
+        step = self._history.next_undo
+        return None if step is None else step.key
+
+    @property
+    def redo_key(self) -> str | None:
+        """The `RegionEdit.key` of what `redo` would do again, or None."""
+        step = self._history.next_redo
+        return None if step is None else step.key
+
+    @property
+    def steps(self) -> RegionSteps:
+        """What can be undone and redone."""
+        return self._history.steps
+
+    def put_steps(self, steps: RegionSteps) -> None:
+        """
+        Have steps that led to these very regions be undone and redone.
+
+        Raises
+        ------
+        RegionError
+            They lead to other regions, or are for another mesh.
+        """
+        regions = self._regions
+        for step in reversed(steps.done):
+            self._check_fits(step, step.after, regions)
+            regions = step.before
+        regions = self._regions
+        for step in reversed(steps.undone):
+            self._check_fits(step, step.before, regions)
+            regions = step.after
+        self._history.put(steps)
 
     def undo(self) -> bool:
         """Undo the last step; returns whether there was one."""
@@ -284,6 +322,22 @@ class RegionModel:
                 f"there is no region of rank {rank}: there are {len(self._regions)}, numbered from 1."
             )
         return self._regions[rank - 1]
+
+    def _check_fits(self, step: RegionEdit, side: tuple[Region, ...], regions: tuple[Region, ...]) -> None:
+        ranks = np.array([len(step.before), len(step.after)], dtype=np.int64)
+        least, most = np.array([[0, 0, 0], [len(self._labels) - 1, *ranks]])
+        known = all(
+            array.ndim == 1
+            and len(array) == len(step.faces)
+            and (not len(array) or (array.min() >= low and array.max() <= high))
+            for array, low, high in zip((step.faces, step.old, step.new), least, most, strict=True)
+        )
+        table = step.table
+        renumbers = table is None or (
+            table.shape == (ranks[0] + 1,) and table.min() >= 0 and table.max() <= ranks[1]
+        )
+        if side != regions or not (known and renumbers):
+            raise RegionError(f"the step {step.text!r} does not belong to these regions.")
 
     def _with(self, rank: int, region: Region) -> tuple[Region, ...]:
         return (*self._regions[: rank - 1], region, *self._regions[rank:])

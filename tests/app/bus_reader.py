@@ -1,0 +1,62 @@
+"""
+Reads a window through the accessibility bus, as a screen reader does; run by the system's Python, which has pyatspi.
+
+``bus_reader.py PID`` prints what is on the screen as JSON, [role, name, description, actions] each;
+``bus_reader.py PID press NAME`` presses the button of a name.
+"""
+
+import json
+import sys
+import time
+
+import pyatspi
+
+_PATIENCE_S = 30.0
+
+
+def application(pid):
+    """Return the application of a process, as soon as it is on the bus."""
+    end = time.monotonic() + _PATIENCE_S
+    while time.monotonic() < end:
+        for each in pyatspi.Registry.getDesktop(0):
+            if each is not None and each.get_process_id() == pid:
+                return each
+        time.sleep(0.1)
+    raise SystemExit(f"process {pid} is not on the accessibility bus")
+
+
+def walk(node):
+    """Yield what is shown, from the outside to the inside."""
+    for each in node:
+        if each is None or not each.getState().contains(pyatspi.STATE_SHOWING):
+            continue
+        yield each
+        if each.getRole() not in (pyatspi.ROLE_TABLE, pyatspi.ROLE_LIST, pyatspi.ROLE_TREE_TABLE):
+            yield from walk(each)
+
+
+def actions(node):
+    """Return what can be done with something."""
+    try:
+        found = node.queryAction()
+    except NotImplementedError:
+        return []
+    return [found.getName(number) for number in range(found.nActions)]
+
+
+def main(pid, *asked):
+    """Do what is asked."""
+    found = walk(application(int(pid)))
+    if asked:
+        _, name = asked
+        for each in found:
+            if each.name == name and actions(each):
+                each.queryAction().doAction(0)
+                return
+        raise SystemExit(f"nothing that can be pressed is called {name!r}")
+    rows = [[each.getRoleName(), each.name, each.description, actions(each)] for each in found]
+    sys.stdout.write(json.dumps(rows))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,89 @@
+"""
+Numbers, dates and times as the reader writes them: 0,73 mm in German.
+
+Only what is shown goes through here. Files, logs and what is copied from the window have points and ISO 8601.
+"""
+
+from __future__ import annotations
+
+import numbers
+import re
+import string
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QDateTime, QLocale
+from PySide6.QtWidgets import QDoubleSpinBox
+
+if TYPE_CHECKING:
+    from datetime import datetime
+
+    from PySide6.QtGui import QValidator
+
+# A decimal number, or one in groups of three, that stands alone: no part of a version, an address or a file's name.
+_IN_WORDS = re.compile(r"(?<![\w.,:/\\])(\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d+\.\d+)(?![\w/\\]|[.,:]\w)")
+
+
+def number(value: float, spec: str) -> str:
+    """Return a number by a format specification such as ".2f"."""
+    return local(format(value, spec))
+
+
+def filled(template: str, *values: Any, **named: Any) -> str:
+    """Return a template filled as by `str.format`, with its numbers as the reader writes them."""
+    return _FORMATTER.vformat(template, values, named)
+
+
+def local(text: str) -> str:
+    """Return the text of one number, as Python writes it, with the reader's marks."""
+    locale = QLocale()
+    return text.translate({ord("."): locale.decimalPoint(), ord(","): locale.groupSeparator()})
+
+
+def local_numbers(sentence: str) -> str:
+    """Return a sentence with the numbers in it as the reader writes them."""
+    if QLocale().decimalPoint() == "." and QLocale().groupSeparator() == ",":
+        return sentence
+    return _IN_WORDS.sub(lambda found: local(found[0]), sentence)
+
+
+def date_and_time(moment: datetime) -> str:
+    """Return a date with its time."""
+    return QLocale().toString(
+        QDateTime.fromSecsSinceEpoch(round(moment.timestamp())), QLocale.FormatType.ShortFormat
+    )
+
+
+def time_of_day(moment: datetime) -> str:
+    """Return a time to the second."""
+    locale = QLocale()
+    without_zone = locale.timeFormat(QLocale.FormatType.LongFormat).replace("t", "").strip()
+    return locale.toString(QDateTime.fromSecsSinceEpoch(int(moment.timestamp())), without_zone)
+
+
+class _Local(string.Formatter):
+    def format_field(self, value: Any, format_spec: str) -> str:
+        text: str = super().format_field(value, format_spec)
+        return local(text) if format_spec and isinstance(value, numbers.Real) else text
+
+
+_FORMATTER = _Local()
+
+
+class NumberBox(QDoubleSpinBox):
+    """
+    A field for a number, which shows the reader's decimal mark and takes a point as well.
+
+    Qt takes a point for the mark of groups where that is one: of 0.5, typed in German, it would make 5.
+    """
+
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
+        """Look at what was typed."""
+        found: tuple[QValidator.State, str, int] = super().validate(self._marked(text), position)
+        return found
+
+    def valueFromText(self, text: str) -> float:
+        """Return what was typed."""
+        return super().valueFromText(self._marked(text))
+
+    def _marked(self, text: str) -> str:
+        return text.replace(".", self.locale().decimalPoint())

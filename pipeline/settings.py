@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from datetime import date
+from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -106,6 +107,16 @@ def mount_rotation(degrees: Three | None) -> NDArray[np.float64] | None:
 
 
 # ---- orientations ------------------------------------------------------------------------------
+
+
+class RobotMaker(StrEnum):
+    """Whose robot is told what it carries."""
+
+    UR = "ur"
+    FRANKA = "franka"
+    KUKA = "kuka"
+    ABB = "abb"
+    DOOSAN = "doosan"
 
 
 class MountSettings(Settings):

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
-from contactbench.pipeline.settings import MountSettings
+from contactbench.pipeline.console import Noun, answer, as_json, numbers, say, show_tables
+from contactbench.pipeline.settings import MountSettings, RobotMaker
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -188,6 +188,76 @@ def diff(
     found = differences(RuntimeConfig.load(one), RuntimeConfig.load(other))
     _show_differences(found)
     answer(found.to_json())
+
+
+@bundle_app.command(
+    example="bundle payload runtime.zip --robot ur --sensor-at 0,0,37.5 --sensor-body 0.29,0,0,18"
+)
+def payload(
+    bundle: BundleArgument,
+    turned: MountSettings,
+    robot: Annotated[RobotMaker, typer.Option(help="Whose controller is to be told.")],
+    sensor_at: Annotated[
+        str, typer.Option(metavar="X,Y,Z", help="The sensor's origin in the flange's frame, mm.")
+    ],
+    sensor_body: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KG,X,Y,Z",
+            help="Mass of the sensor with its adapters, kg, and its centre of mass in the flange's frame, mm: the"
+            " sensor does not feel it [nothing].",
+        ),
+    ] = None,
+    index: Annotated[int, typer.Option(min=1, max=16, help="Number of the tool, for KUKA and ABB.")] = 1,
+    out: Annotated[Path | None, typer.Option(help="Text file to write [standard output].")] = None,
+) -> None:
+    """Print mass and centre of mass of the payload as a robot's own controller takes them.
+
+    Poses at rest do not show the inertia, which is written as zero, or left out for UR. Nothing is sent to the robot.
+
+    Exit code 1: the mass is not known within 10 %, or the centre of mass not within 10 mm (one standard deviation).
+    """
+    from contactbench.pipeline.config.payload import payload_of
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.values import rotation_ES
+    from contactbench.pipeline.durable import write_file
+
+    found = RuntimeConfig.load(bundle)
+    R_ES = rotation_ES(found.model.frames.quaternion_ES) if turned.R_ES is None else turned.R_ES
+    if R_ES is None:
+        raise typer.BadParameter(
+            f"{bundle} does not say how the sensor is turned on the flange: give --mount, 0,0,0 if it is not."
+        )
+    at = numbers(sensor_at, 3, "--sensor-at")
+    mass, *centre = (0.0, 0.0, 0.0, 0.0) if sensor_body is None else numbers(sensor_body, 4, "--sensor-body")
+    made = payload_of(
+        found.gravity, R_ES, [1e-3 * each for each in at], mass, [1e-3 * each for each in centre]
+    )
+    text = made.text(robot, index)
+    if sensor_body is None:
+        say(
+            "The sensor's own body and its adapters are not in it: give --sensor-body, unless the robot counts them as"
+            " part of its arm.",
+            "yellow",
+        )
+    spread = " ± ".join(
+        ", ".join(f"{1e3 * each:.1f}" for each in part) for part in (made.centre_E, made.centre_sigma_E)
+    )
+    say(
+        f"{made.mass:.3f} ± {made.mass_sigma:.3f} kg at ({spread}) mm in the flange's frame (one standard deviation)."
+    )
+    if out is not None:
+        write_file(out, f"{text}\n".encode())
+        say(f"{out}: {robot}.")
+    elif not as_json():
+        typer.echo(text)
+    answer({
+        "robot": str(robot), "text": text, "mass_kg": made.mass, "mass_sigma_kg": made.mass_sigma,
+        "centre_E_m": made.centre_E.tolist(), "centre_sigma_E_m": made.centre_sigma_E.tolist(),
+    })  # fmt: skip
+    if not made.is_known:
+        say("That is too unsure to tell a robot: calibrate with poses that tilt farther.", "red")
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
 @bundle_app.command(example="bundle schema > runtime-config.schema.json")

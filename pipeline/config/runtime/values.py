@@ -149,7 +149,7 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
     streams = model.streams
     motion = streams.motion
     return {
-        "R_ES": _mount_rotation(model.frames.quaternion_ES),
+        "R_ES": rotation_ES(model.frames.quaternion_ES),
         "pose_gap": streams.pose_gap_s,
         "pose_ahead": streams.pose_ahead_s,
         "silence": streams.silence_s,
@@ -175,7 +175,7 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
     }
 
 
-def _mount_rotation(quaternion_ES: Sequence[float] | None) -> NDArray[np.float64] | None:
+def rotation_ES(quaternion_ES: Sequence[float] | None) -> NDArray[np.float64] | None:
     """Return R_ES (3, 3) with the bits of the C library; None: poses are of the sensor itself."""
     if quaternion_ES is None:
         return None

@@ -427,6 +427,35 @@ def test_the_mount_of_a_calibration_is_exported(bench):
     assert RuntimeConfig.load(bench / "b").model.frames.quaternion_ES == pytest.approx([half, 0, 0, half])
 
 
+def test_a_robot_is_told_its_payload_in_the_mount_of_the_bundle(bench, tmp_path):
+    mounted(bench, (0, 0, 90))
+    verification(bench)
+    invoke("export", *files_of(bench), "--out", bench / "b")
+    asked = ("payload", bench / "b", "--robot", "ur", "--sensor-at", "0,0,40")
+    made = invoke(*asked, "--json")
+    assert made.exit_code == 0, made.stderr
+    answer = json.loads(made.stdout)
+    load = RuntimeConfig.load(bench / "b").gravity
+    x, y, z = load.centre_of_mass_S
+    assert answer["mass_kg"] == pytest.approx(load.mass)
+    assert answer["centre_E_m"] == pytest.approx([-y, x, z + 0.04])
+    assert "own body and its adapters are not in it" in made.stderr
+    assert invoke(*asked).stdout == f"{answer['text']}\n"
+    file = tmp_path / "payload.txt"
+    with_body = invoke(*asked, "--sensor-body", "0.3,0,0,20", "--out", file)
+    assert with_body.exit_code == 0
+    assert "not in it" not in with_body.stderr
+    assert file.read_text() != f"{answer['text']}\n"
+
+
+def test_a_bundle_without_a_mount_asks_for_one(bench):
+    verification(bench)
+    invoke("export", *files_of(bench), "--out", bench / "b")
+    made = invoke("payload", bench / "b", "--robot", "kuka", "--sensor-at", "0,0,40")
+    assert made.exit_code == 2
+    assert "--mount" in made.stderr
+
+
 def test_another_mount_than_the_calibrations_is_a_reason_against(bench):
     mounted(bench, (0, 0, 90))
     for verified, options, words in (

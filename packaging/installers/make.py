@@ -164,12 +164,22 @@ def application() -> Path:
         "--distpath", fresh(folder.parent), "--workpath", WORK / "pyinstaller",
     )  # fmt: skip
     shutil.copy(ROOT / "LICENSE", folder / "LICENSE")
+    strip(folder)
     try_application(folder)
     _made.add(folder)
     return folder
 
 
 _made: set[Path] = set()
+
+
+def strip(folder: Path) -> None:
+    """Take the names for debuggers out of libraries, where there is `strip`: VTK alone has 100 MB of them."""
+    if _SYSTEM != "linux" or (program := shutil.which("strip")) is None:
+        return
+    # Not the folders *.libs: what was moved about by patchelf does not survive it.
+    files = [each for each in sorted(folder.rglob("*.so*")) if not each.is_symlink() and ".libs" not in str(each)]
+    run(program, "--strip-unneeded", *files)
 
 
 def try_application(folder: Path) -> None:

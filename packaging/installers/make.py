@@ -39,6 +39,7 @@ _MACHINE = platform.machine().lower().replace("amd64", "x86_64")
 _DEB_MACHINES = {"x86_64": "amd64", "aarch64": "arm64"}
 _WINDOWS = sys.platform == "win32"
 _SECTION = "science"
+_XZ = os.environ.get("CONTACTBENCH_XZ", "6")  # 1 is six times as fast and gives files a seventh larger
 _MAINTAINER = "The contactbench developers <noreply@contactbench.invalid>"
 # What only a checkout needs: nobody installs it.
 _STRANGERS = re.compile(
@@ -163,12 +164,22 @@ def application() -> Path:
         "--distpath", fresh(folder.parent), "--workpath", WORK / "pyinstaller",
     )  # fmt: skip
     shutil.copy(ROOT / "LICENSE", folder / "LICENSE")
+    strip(folder)
     try_application(folder)
     _made.add(folder)
     return folder
 
 
 _made: set[Path] = set()
+
+
+def strip(folder: Path) -> None:
+    """Take the names for debuggers out of libraries, where there is `strip`: VTK alone has 100 MB of them."""
+    if _SYSTEM != "linux" or (program := shutil.which("strip")) is None:
+        return
+    # Not the folders *.libs: what was moved about by patchelf does not survive it.
+    files = [each for each in sorted(folder.rglob("*.so*")) if not each.is_symlink() and ".libs" not in str(each)]
+    run(program, "--strip-unneeded", *files)
 
 
 def try_application(folder: Path) -> None:
@@ -208,7 +219,7 @@ def _packed(folder: Path, name: Path) -> Path:
         return Path(shutil.make_archive(str(name), "zip", folder.parent, folder.name))
     file = name.with_name(f"{name.name}.tar.xz")
     owner = ("--owner=0", "--group=0") if _SYSTEM == "linux" else ("--uid", "0", "--gid", "0")
-    env = os.environ | {"XZ_OPT": "-6 -T0"}
+    env = os.environ | {"XZ_OPT": f"-{_XZ} -T0"}
     run("tar", "-cJf", file, *owner, "-C", folder.parent, folder.name, env=env)
     return file
 
@@ -338,7 +349,7 @@ def _deb(
     ]
     (place / "md5sums").write_text("".join(sums), "utf-8")
     file = out / f"{name}_{VERSION}_{machine}.deb"
-    run(tool("dpkg-deb", "dpkg"), "--root-owner-group", "-Zxz", "--build", root, file)
+    run(tool("dpkg-deb", "dpkg"), "--root-owner-group", "-Zxz", f"-z{_XZ}", "--build", root, file)
     return file
 
 

@@ -241,8 +241,7 @@ class Child:
 
     def _missing(self, answer: WireMessage) -> EngineError:
         return EngineError(
-            f"{self.library} cannot be loaded ({answer.fields.get('reason')}): install it with"
-            f" {self.library.install}."
+            f"{self.library} cannot be loaded ({answer.fields.get('reason')}): {self.library.install}."
         )
 
     def _death(self, request: WireMessage) -> EngineError:

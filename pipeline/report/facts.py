@@ -66,7 +66,7 @@ def about(content: ReportContent, when: str | None) -> list[tuple[str, str]]:
     calibrated = ""
     if record is not None:
         facts = calibration_facts(record)
-        calibrated = f"{facts['word']}, {facts['created'] or 'time not given'}"
+        calibrated = ", ".join(filter(None, (facts["word"], facts["created"])))
     return [
         ("Report made", when or ""),
         ("Probe", content.probe.probe.name),
@@ -93,14 +93,14 @@ def budget_facts(verification: Verification) -> dict[str, Any] | None:
     )
     if table is None or u is None or overall is None:
         return None
-    measured = verification.model_error is not None
+    largest = max(verification.budget, key=lambda row: row.variance_mm2).source
     return {
         **table,
         "observed": f"{length_mm(overall.rms_mm)} mm",
         "ratio": _times(overall.rms_mm / u) if u > 0 else NOTHING,
         "beyond": overall.rms_mm > COVERAGE * u,
-        "measured": measured,
-        "noise_measured": verification.budget[0].kind == "A",
+        "measured": verification.model_error is not None,
+        "unsure": f"{largest}" if COVERAGE * u > 1e3 * verification.limits.max_m else "",
     }
 
 

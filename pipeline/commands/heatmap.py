@@ -193,8 +193,8 @@ def draw(
     out: Annotated[
         Path,
         typer.Option(
-            help="File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film: .mp4"
-            " or .gif."
+            help="File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film:"
+            " .mp4 or .gif."
         ),
     ],
     turned: MountSettings,

@@ -243,9 +243,9 @@ def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: floa
     axes.tick_params(colors=_INK, labelsize=10, length=3)
     over = f" (darkest above; up to {heatmap.largest:.3g})" if largest < heatmap.largest else ""
     axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
-    key = figure.add_axes((0.72, 0.84 / size[1], 0.03, 0.16 / size[1]))
+    key = figure.add_axes((0.68, 0.84 / size[1], 0.025, 0.16 / size[1]))
     key.set(xticks=[], yticks=[], facecolor=NO_DATA)
-    figure.text(0.76, 0.92 / size[1], "no data, or 0", va="center", color=_INK, fontsize=10)
+    figure.text(0.712, 0.92 / size[1], "no data, or 0", va="center", color=_INK, fontsize=9)
 
 
 def _note(heatmap: Heatmap) -> str:

@@ -70,7 +70,10 @@ def about(content: ReportContent, when: str | None) -> list[tuple[str, str]]:
     return [
         ("Report made", when or ""),
         ("Probe", content.probe.probe.name),
-        ("Touches", f"{len(accepted)} used of {len(verification.touches)}, on {markers} marker{'s' * (markers != 1)}"),
+        (
+            "Touches",
+            f"{len(accepted)} used of {len(verification.touches)}, on {markers} marker{'s' * (markers != 1)}",
+        ),
         ("Gravity calibration", calibrated or "not in this report: add --calibration"),
         ("Session", content.session or "none: made from files"),
         ("Software", f"contactbench {__version__}"),
@@ -109,7 +112,9 @@ def ratio_rows(verification: Verification, record: CalibrationRecord | None) -> 
     rows = []
     u, overall = verification.combined_mm, verification.overall
     if u and overall is not None:
-        rows.append((_times(overall.rms_mm / u), "errors of the touches (rms) over the whole uncertainty budget"))
+        rows.append(
+            (_times(overall.rms_mm / u), "errors of the touches (rms) over the whole uncertainty budget")
+        )
     if verification.ratio is not None:
         words = "errors of the touches (rms) over noise and calibration alone, without model error, markers and mesh"
         rows.append((_times(verification.ratio), words))

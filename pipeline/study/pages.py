@@ -178,7 +178,6 @@ def _inside(picture: Path) -> str:
     return "data:image/png;base64," + base64.b64encode(_read(picture)).decode()
 
 
-
 def publish(folder: Path, kind: str, command: str, rows: Sequence[Mapping[str, Any]]) -> Path:
     """
     Write a study's results, its page and its pictures; returns the page.

@@ -181,10 +181,12 @@ def test_a_unit_never_stands_on_another_line_than_its_number(name, request):
         assert "number" in cell or "±" in cell or "facts" not in cell
 
 
-def test_the_first_page_is_one_sheet(given, record, calibrated_page):
+def test_the_first_page_is_one_sheet(given, calibrated_page):
     weasyprint = pytest.importorskip("weasyprint")
     v = given.verification
-    reasons = tuple(f"the mean error is {1000 + n}.25 mm, over 1 mm, and so on for reason {n}" for n in range(9))
+    reasons = tuple(
+        f"the mean error is {1000 + n}.25 mm, over 1 mm, and so on for reason {n}" for n in range(9)
+    )
     crowded = replace(
         given,
         details=replace(DETAILS, operator=LONG, certificate=LONG, due="2026-01-01"),

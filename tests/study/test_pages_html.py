@@ -22,7 +22,7 @@ def test_a_page_is_one_file_with_tables_and_pictures(tmp_path):
     assert '<img src="data:image/png;base64,' in page
     assert "<img src=x" not in page
     assert "<h3>All</h3>" in page
-    assert 'grid-template-columns' in page  # of the shared style sheet
+    assert "grid-template-columns" in page  # of the shared style sheet
 
 
 def test_a_picture_that_is_gone_is_named(tmp_path):

@@ -233,7 +233,7 @@ def _nice(length: float) -> float:
     return float(power * _NICE[_NICE * power <= length * (1 + 1e-12)].max())
 
 
-def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None) -> None:
+def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None = None) -> None:
     """Draw the colours with numbers, and the grey of no data beside them."""
     axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
     largest = limit or heatmap.top or 1.0

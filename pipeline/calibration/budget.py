@@ -59,7 +59,7 @@ class BudgetRow:
 
     @property
     def contribution_mm(self) -> float:
-        """c u(x); negative where it takes from the sum of squares."""
+        """C u(x); negative where it takes from the sum of squares."""
         return float(np.copysign(np.sqrt(abs(self.variance_mm2)), self.variance_mm2))
 
 

@@ -158,6 +158,7 @@ def _is_json(file: Path) -> bool:
 heatmap_app = Noun("Show where on the probe it was touched: as a picture, a mesh or a film, or in a window.")
 
 _SUFFIXES = (".png", ".ply", ".glb")
+_PAGES = (".html", ".pdf")
 _FILMS = (".mp4", ".gif")
 
 
@@ -192,7 +193,8 @@ def draw(
     out: Annotated[
         Path,
         typer.Option(
-            help="File to write: .png, .ply or .glb with the value at each vertex, or a film: .mp4 or .gif."
+            help="File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film:"
+            " .mp4 or .gif."
         ),
     ],
     turned: MountSettings,
@@ -261,8 +263,10 @@ def draw(
     goes by.
     """
     kind = out.suffix.lower()
-    if kind not in (*_SUFFIXES, *_FILMS):
-        raise typer.BadParameter(f"--out {out}: name a file that ends in .png, .ply, .glb, .mp4 or .gif.")
+    if kind not in (*_SUFFIXES, *_PAGES, *_FILMS):
+        raise typer.BadParameter(
+            f"--out {out}: name a file that ends in .png, .html, .pdf, .ply, .glb, .mp4 or .gif."
+        )
     if last is not None and kind not in _FILMS:
         raise typer.BadParameter(
             "--last is for a film: name a file that ends in .mp4 or .gif, or give --from."
@@ -286,6 +290,8 @@ def draw(
         say(f"warning: {sentence}", "yellow")
     if kind in _FILMS:
         _write_film(found, content, selection, markers, marker_distance, out, speed, last)
+    elif kind in _PAGES:
+        _write_page(made, out, left_out, notes)
     else:
         _write(made, out)
     _say(made, out, left_out)
@@ -432,6 +438,15 @@ def _errors(
 def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None:
     if count := int(which.sum()):
         left_out[why] = left_out.get(why, 0) + count
+
+
+def _write_page(made: Heatmap, out: Path, left_out: dict[str, int], notes: list[str]) -> None:
+    from contactbench.pipeline.calibration.files.calibration_file import creation_time
+    from contactbench.pipeline.heatmap.page import heatmap_html
+    from contactbench.pipeline.page.printed import print_pdf
+
+    page = heatmap_html(made, left_out, notes, created=creation_time())
+    write_file(out, print_pdf(page) if out.suffix.lower() == ".pdf" else page.encode())
 
 
 def _write(made: Heatmap, out: Path) -> None:

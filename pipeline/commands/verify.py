@@ -194,7 +194,8 @@ def report(
     """Write what a verification found as a report that anybody can read: HTML, or PDF on A4.
 
     Its first page says who, what, when and with which sensor, the verdict and the uncertainty budget, with room for a
-    signature; the details follow. The HTML file needs nothing beside itself. A PDF needs WeasyPrint: pip install 'contactbench[pdf]'.
+    signature; the details follow. The HTML file needs nothing beside itself. A PDF needs WeasyPrint:
+    pip install 'contactbench[pdf]'.
     """
     if out.suffix.lower() not in (".html", ".pdf"):
         raise typer.BadParameter(f"--out {out}: name a file that ends in .html or .pdf.")

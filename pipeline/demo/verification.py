@@ -160,7 +160,9 @@ def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
     created = creation_time()
     made = {role: folder / file for role, file in _INPUTS.items() if role in ("probe", "calibration")}
     inputs = {"verification": folder / "verification.json", **made}
-    page = report(inputs, {"name": "report.html", "operator": OPERATOR, "sensor": SENSOR_MODEL}, created.isoformat())
+    page = report(
+        inputs, {"name": "report.html", "operator": OPERATOR, "sensor": SENSOR_MODEL}, created.isoformat()
+    )
     write_file(folder / "report.html", page["report.html"])
     judged = _judged(found)
     if judged.failed:

@@ -233,7 +233,7 @@ def _nice(length: float) -> float:
     return float(power * _NICE[_NICE * power <= length * (1 + 1e-12)].max())
 
 
-def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None) -> None:
+def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: float | None = None) -> None:
     """Draw the colours with numbers, and the grey of no data beside them."""
     axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
     largest = limit or heatmap.top or 1.0
@@ -243,9 +243,9 @@ def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float], limit: floa
     axes.tick_params(colors=_INK, labelsize=10, length=3)
     over = f" (darkest above; up to {heatmap.largest:.3g})" if largest < heatmap.largest else ""
     axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
-    key = figure.add_axes((0.72, 0.84 / size[1], 0.03, 0.16 / size[1]))
+    key = figure.add_axes((0.68, 0.84 / size[1], 0.025, 0.16 / size[1]))
     key.set(xticks=[], yticks=[], facecolor=NO_DATA)
-    figure.text(0.76, 0.92 / size[1], "no data, or 0", va="center", color=_INK, fontsize=10)
+    figure.text(0.712, 0.92 / size[1], "no data, or 0", va="center", color=_INK, fontsize=9)
 
 
 def _note(heatmap: Heatmap) -> str:

@@ -69,7 +69,8 @@ def page_style(**more: Any) -> Iterator[None]:
         # The text stays text in the SVG: whoever shows it has the letters, whatever the font here lacks.
         warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
         mpl.rcdefaults()
-        mpl.rcParams.update({**_STYLE, **more})
+        mpl.rcParams.update(_STYLE)
+        mpl.rcParams.update(more)
         yield
 
 

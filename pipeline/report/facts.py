@@ -66,11 +66,14 @@ def about(content: ReportContent, when: str | None) -> list[tuple[str, str]]:
     calibrated = ""
     if record is not None:
         facts = calibration_facts(record)
-        calibrated = f"{facts['word']}, {facts['created'] or 'time not given'}"
+        calibrated = ", ".join(filter(None, (facts["word"], facts["created"])))
     return [
         ("Report made", when or ""),
         ("Probe", content.probe.probe.name),
-        ("Touches", f"{len(accepted)} used of {len(verification.touches)}, on {markers} marker{'s' * (markers != 1)}"),
+        (
+            "Touches",
+            f"{len(accepted)} used of {len(verification.touches)}, on {markers} marker{'s' * (markers != 1)}",
+        ),
         ("Gravity calibration", calibrated or "not in this report: add --calibration"),
         ("Session", content.session or "none: made from files"),
         ("Software", f"contactbench {__version__}"),
@@ -93,14 +96,14 @@ def budget_facts(verification: Verification) -> dict[str, Any] | None:
     )
     if table is None or u is None or overall is None:
         return None
-    measured = verification.model_error is not None
+    largest = max(verification.budget, key=lambda row: row.variance_mm2).source
     return {
         **table,
         "observed": f"{length_mm(overall.rms_mm)} mm",
         "ratio": _times(overall.rms_mm / u) if u > 0 else NOTHING,
         "beyond": overall.rms_mm > COVERAGE * u,
-        "measured": measured,
-        "noise_measured": verification.budget[0].kind == "A",
+        "measured": verification.model_error is not None,
+        "unsure": f"{largest}" if COVERAGE * u > 1e3 * verification.limits.max_m else "",
     }
 
 
@@ -109,7 +112,9 @@ def ratio_rows(verification: Verification, record: CalibrationRecord | None) -> 
     rows = []
     u, overall = verification.combined_mm, verification.overall
     if u and overall is not None:
-        rows.append((_times(overall.rms_mm / u), "errors of the touches (rms) over the whole uncertainty budget"))
+        rows.append(
+            (_times(overall.rms_mm / u), "errors of the touches (rms) over the whole uncertainty budget")
+        )
     if verification.ratio is not None:
         words = "errors of the touches (rms) over noise and calibration alone, without model error, markers and mesh"
         rows.append((_times(verification.ratio), words))

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 __all__ = ["ReportContent", "report_html"]
 
 _PIXELS = 480  # of each look at the probe
+_SMALLER = 0.75  # of that, on the first page
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +140,7 @@ def _pictures(content: ReportContent) -> dict[str, Any]:
     made = error_map(accepted, probe)
     limit = 1e3 * verification.limits.max_m
     errors = b"" if made is None else encode_png(made, pixels=_PIXELS, legend=False, limit=limit)
-    seen = draw_touches(accepted, probe, verification.limits, _PIXELS)
+    seen = draw_touches(accepted, probe, verification.limits, round(_SMALLER * _PIXELS))
     figures = draw(
         accepted,
         verification.per_marker,

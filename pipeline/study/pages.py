@@ -9,13 +9,17 @@ for each study.
 
 from __future__ import annotations
 
+import base64
 import re
+from html import unescape
 from importlib import import_module
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.page import render
+from contactbench.pipeline.page.palette import SERIES
 from contactbench.pipeline.study.results import environment, read_results, write_results
 
 if TYPE_CHECKING:
@@ -25,6 +29,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.results import Results
 
 PAGE = "page.md"
+_HTML = ".html"  # ending of the same page in the design of the reports
 # Kind of a study -> the module that makes its chapter.
 CHAPTERS = {
     "sweep": "sweep.page",
@@ -35,11 +40,13 @@ CHAPTERS = {
     "scene": "scene_page",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
+_DETAILS = re.compile(r"<details><summary>(.*?)</summary>")
+_NUMBERS = re.compile(r'<(t[hd]) style="text-align:right">')
+_IMAGE = re.compile(r'<img src="([A-Za-z0-9_.-]+\.png)"')
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")
 
 
-# Okabe and Ito: everybody can tell them apart.
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b6b6b", "#000000")
+COLOURS = SERIES
 STYLE: dict[Any, Any] = {
     "font.size": 8.5,
     "axes.spines.top": False,
@@ -108,7 +115,7 @@ def number(value: float | None, digits: str = ".3g") -> str:
 
 def make_page(folder: Path) -> str:
     """
-    Write a study's page, ``page.md``, and its pictures into its folder.
+    Write a study's page, ``page.md`` and ``page.html``, and its pictures into its folder.
 
     Parameters
     ----------
@@ -130,8 +137,46 @@ def make_page(folder: Path) -> str:
         raise InputError(f"{folder}: a study of kind {results.kind!r}: known are {', '.join(CHAPTERS)}.")
     chapter = import_module(f"contactbench.pipeline.study.{CHAPTERS[results.kind]}").make(results, folder)
     text = f"{chapter.rstrip()}\n\n{_origin(results)}\n"
-    write_file(folder / PAGE, text.encode())
+    _write(folder / PAGE, text)
     return text
+
+
+def _write(file: Path, text: str) -> None:
+    """Write a page as Markdown and, beside it, as one HTML file that needs nothing else."""
+    write_file(file, text.encode())
+    write_file(file.with_suffix(_HTML), study_html(text, file.parent).encode())
+
+
+def study_html(text: str, folder: Path) -> str:
+    """
+    Return a page of Markdown in the design of the reports, with its pictures inside.
+
+    Parameters
+    ----------
+    text : str
+    folder : Path
+        Where the pictures are that it names.
+
+    Raises
+    ------
+    InputError
+        A picture cannot be read.
+    """
+    from markdown_it import MarkdownIt  # not for those who only compute
+
+    # No markup comes through from names in the results; the one that the pages themselves have is a heading here.
+    plain = _DETAILS.sub(lambda found: f"\n### {found[1]}\n", text).replace("</details>", "")
+    body = MarkdownIt("commonmark", {"html": False}).enable("table").render(plain)
+    body = body.replace("<table>", '<div class="scroll"><table>').replace("</table>", "</table></div>")
+    body = _NUMBERS.sub(r'<\1 class="number">', body)
+    body = _IMAGE.sub(lambda found: f'<img src="{_inside(folder / found[1])}"', body)
+    heading = re.search(r"<h[12]>(.*?)</h[12]>", body)
+    title = unescape(heading[1]) if heading else "Results"
+    return render(__package__, title=title, body=body)
+
+
+def _inside(picture: Path) -> str:
+    return "data:image/png;base64," + base64.b64encode(_read(picture)).decode()
 
 
 def publish(folder: Path, kind: str, command: str, rows: Sequence[Mapping[str, Any]]) -> Path:

@@ -51,7 +51,14 @@ def verification_budget(
     sides = across(evidence.normals).transpose(0, 2, 1)
     return (
         *(
-            input_row(source, "A" if evidence.measured else "B", J[:, :, part], evidence.noise[part, part], unit, scale)
+            input_row(
+                source,
+                "A" if evidence.measured else "B",
+                J[:, :, part],
+                evidence.noise[part, part],
+                unit,
+                scale,
+            )
             for source, part, unit, scale in (
                 (BudgetSource.NOISE_FORCE, _FORCE, "N", 1.0),
                 (BudgetSource.NOISE_TORQUE, _TORQUE, "mN·m", 1e3),

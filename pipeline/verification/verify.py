@@ -258,7 +258,9 @@ def judge(
         warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
         unresolved=case.unresolved,
         model_error=left,
-        budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation) if accepted else (),
+        budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation)
+        if accepted
+        else (),
     )
 
 

@@ -158,7 +158,9 @@ def test_a_failure_is_said_first(given):
 
 
 def test_what_the_model_leaves_is_told(given):
-    assert "What the model leaves was not measured: 0.05 N, 1.0 mN·m are assumed." in words_of(report_html(given))
+    assert "What the model leaves was not measured: 0.05 N, 1.0 mN·m are assumed." in words_of(
+        report_html(given)
+    )
     left = ModelError(0.06, 0.0012, 0.05, 0.001, 0.08, 0.002, 12.4)
     measured = replace(given, verification=replace(given.verification, model_error=left))
     words = (
@@ -169,7 +171,9 @@ def test_what_the_model_leaves_is_told(given):
 
 def test_names_cannot_become_markup(given):
     page = report_html(
-        replace(with_marker_named(given, "<img src=x>&\u202e"), details=ReportDetails("<script>alert(1)</script>"))
+        replace(
+            with_marker_named(given, "<img src=x>&\u202e"), details=ReportDetails("<script>alert(1)</script>")
+        )
     )
     assert "<img src=x" not in page
     assert "<script" not in page

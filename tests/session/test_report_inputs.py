@@ -41,7 +41,28 @@ def test_the_verified_probe_is_taken_not_the_newest(session, monkeypatch):
         "utf-8"
     )
     assert state.id in page
-    assert "serial number <bdi>SN 7</bdi>" in page
+    assert "<dt>Serial number</dt><dd><bdi>SN 7</bdi>" in page
     assert newest_inputs(state, "report", {"probe": "new.ply"})["probe"] == new
     with pytest.raises(SessionError, match="not the probe that was verified"):
         compute(session, "report", "r.html", {**inputs, "probe": new}, {})
+
+
+def test_a_report_takes_its_details_from_the_settings_of_the_session(session, monkeypatch):
+    monkeypatch.setattr("contactbench.pipeline.report.page._PIXELS", 60)
+    for key, value in (
+        ("config.operator", "B. Lovelace"),
+        ("config.sensor", "M8128"),
+        ("report.certificate", "DKD-7"),
+        ("report.due", "2031-01-31"),
+    ):
+        session.set_parameter(key, value)
+    inputs = newest_inputs(session.state, "report")
+    given = compute(session, "report", "r.html", inputs, {}).action.parameters
+    assert (given["operator"], given["sensor"]) == ("B. Lovelace", "M8128")
+    page = next(iter((session.folder / "results").rglob("*r.html"))).read_text("utf-8")
+    for words in ("B. Lovelace", "M8128", "DKD-7", "2031-01-31"):
+        assert f"<bdi>{words}</bdi>" in page
+    assert "To fill in what is missing" not in page
+    session.set_parameter("report.due", "next spring")
+    with pytest.raises(SessionError, match="give a date as 2027-03-31"):
+        compute(session, "report", "r.html", inputs, {})

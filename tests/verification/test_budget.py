@@ -73,7 +73,9 @@ def test_each_cause_changes_its_own_row(given, found):
     wider = covariance()
     wider[3:6] *= 3
     wider[:, 3:6] *= 3
-    changed = rows(verified(replace(given, model=replace(given.model, covariance=wider)), mesh_deviation=8e-5))
+    changed = rows(
+        verified(replace(given, model=replace(given.model, covariance=wider)), mesh_deviation=8e-5)
+    )
     before = rows(found)
     assert changed[Source.FORCE_BIAS].contribution_mm == pytest.approx(
         3 * before[Source.FORCE_BIAS].contribution_mm, rel=1e-9

@@ -330,7 +330,10 @@ def _label(axes: Axes, point: NDArray[np.float64], text: str, taken: list[_Box],
 # ---- contact error -----------------------------------------------------------------------------
 
 _FILLED = 24  # colours on the map
-_LIMITS, _DARKEST = Limits(), 20.0  # of the colours: the last one, and how many times less than good the first is
+_LIMITS, _DARKEST = (
+    Limits(),
+    20.0,
+)  # of the colours: the last one, and how many times less than good the first is
 _TICKS = [0.025, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5]
 _ON_FIELD = "#111111"  # lines and letters on colours that are the same in both themes
 _BACKED = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.7}

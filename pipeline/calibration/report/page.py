@@ -438,7 +438,9 @@ def _noise(calibration: Calibration) -> dict[str, Any]:
         "given": "" if calibration.plausible else _sizes(noise.sigmas / np.repeat(factors, 3)),
         "factors": [plain(factor) for factor in factors],
         "estimated": noise.estimated,
-        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom] if np.isfinite(noise.freedom).all() else [],
+        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom]
+        if np.isfinite(noise.freedom).all()
+        else [],
         "percent": [f"{100 / np.sqrt(2 * freedom):.0f}" for freedom in noise.freedom],
         "least": bool((np.isclose(noise.sigmas, noise.least) & (noise.least > 0)).any()),
         "chance": _chance(calibration),

@@ -27,8 +27,9 @@ STYLE = {"svg.hashsalt": "contactbench", "svg.fonttype": "none", "font.size": 9,
 def main() -> None:
     """Write all figures."""
     OUT.mkdir(exist_ok=True)
-    for name, size, draw in (("frames", (6.4, 4.6), frames), ("signs", (6.4, 3.4), signs), ("uncertainty", (6.4, 2.3), parts)):  # fmt: skip
-        _write(OUT / f"{name}.svg", size, draw)
+    _write(OUT / "frames.svg", (6.4, 4.6), frames)
+    _write(OUT / "signs.svg", (6.4, 3.4), signs)
+    _write(OUT / "uncertainty.svg", (6.4, 2.3), parts)
 
 
 def _write(file: Path, size: tuple[float, float], draw: Callable[[Axes], None]) -> None:
@@ -47,11 +48,16 @@ def frames(axes: Axes) -> None:
     axes.set_xlim(-1, 11.8)
     axes.set_ylim(-1.4, 7.8)
     axes.plot([-1, 11.8], [-0.2, -0.2], color=GREY, lw=1)
-    axes.plot([0.8, 0.8, 2.6, 6.4], [-0.2, 2.4, 5.9, 6.6], color="#b8bec4", lw=14, solid_joinstyle="round", zorder=0)
+    axes.plot(
+        [0.8, 0.8, 2.6, 6.4], [-0.2, 2.4, 5.9, 6.6], color="#b8bec4", lw=14, solid_joinstyle="round", zorder=0
+    )
     _box(axes, 5.9, 5.7, 1.0, 0.35, "#b8bec4")
     _box(axes, 5.9, 5.15, 1.0, 0.5, "#8f979e")
     axes.fill(
-        [6.1, 6.7, 6.75, 7.3, 7.3, 5.5, 5.5, 6.05], [5.1, 5.1, 3.2, 2.6, 1.6, 1.6, 2.6, 3.2], color=PROBE, ec=GREY
+        [6.1, 6.7, 6.75, 7.3, 7.3, 5.5, 5.5, 6.05],
+        [5.1, 5.1, 3.2, 2.6, 1.6, 1.6, 2.6, 3.2],
+        color=PROBE,
+        ec=GREY,
     )
     _frame(axes, (0.8, -0.2), (1, 0), (0, 1), "W", "world: the robot's base", (0.2, -0.95))
     _frame(axes, (6.4, 6.05), (1, 0), (0, -1), "E", "flange", (8.0, 6.35))
@@ -61,9 +67,13 @@ def frames(axes: Axes) -> None:
     axes.plot(*contact, "o", color=RED, ms=6, zorder=5)
     axes.annotate("", (8.5, 2.1), contact, arrowprops={"arrowstyle": "-|>", "color": GREEN, "lw": 1.8})
     axes.text(8.6, 2.0, "C: contact, outward normal n", color=GREEN)
-    axes.annotate("", contact, (6.4, 5.4), arrowprops={"arrowstyle": "-|>", "color": RED, "lw": 1.4, "ls": "--"})
+    axes.annotate(
+        "", contact, (6.4, 5.4), arrowprops={"arrowstyle": "-|>", "color": RED, "lw": 1.4, "ls": "--"}
+    )
     axes.text(7.1, 3.7, "p_SC_S", color=RED)
-    axes.annotate("", (6.2, 5.4), (0.95, 0.1), arrowprops={"arrowstyle": "<|-", "color": GREY, "lw": 1.0, "ls": ":"})
+    axes.annotate(
+        "", (6.2, 5.4), (0.95, 0.1), arrowprops={"arrowstyle": "<|-", "color": GREY, "lw": 1.0, "ls": ":"}
+    )
     axes.text(3.4, 2.5, "R_WS turns S into W", color=GREY)
     axes.text(8.0, 4.0, "T_SP moves P into S", color=GREY)
 
@@ -89,7 +99,12 @@ def signs(axes: Axes) -> None:
     axes.set_ylim(-1.5, 5.3)
     axes.fill_between([-4.4, 8.4], -1.5, 0.35, color="#f3d9c9", lw=0)
     axes.text(-4.2, -1.2, "tissue", color=GREY)
-    axes.fill([-0.4, 0.4, 0.5, 1.3, 1.3, -1.3, -1.3, -0.5], [4.6, 4.6, 2.4, 1.8, 0.3, 0.3, 1.8, 2.4], color=PROBE, ec=GREY)
+    axes.fill(
+        [-0.4, 0.4, 0.5, 1.3, 1.3, -1.3, -1.3, -0.5],
+        [4.6, 4.6, 2.4, 1.8, 0.3, 0.3, 1.8, 2.4],
+        color=PROBE,
+        ec=GREY,
+    )
     _box(axes, -0.6, 4.6, 1.2, 0.5, "#8f979e")
     axes.text(-2.2, 4.75, "sensor S")
     axes.plot(0.5, 0.3, "o", color=RED, ms=6, zorder=5)
@@ -102,7 +117,13 @@ def signs(axes: Axes) -> None:
     _arrow(axes, (0.92, -0.38), (1.04, -0.3), RED)
     axes.text(3.4, -0.75, "k n: torsion about it", color=RED)
     _arrow(axes, (0.0, 3.3), (0.0, 2.5), GREY)
-    axes.text(1.5, 3.3, "weight g at L: in the raw reading,\nlike the bias F0, M0; compensation takes both off", color=GREY, va="center")
+    axes.text(
+        1.5,
+        3.3,
+        "weight g at L: in the raw reading,\nlike the bias F0, M0; compensation takes both off",
+        color=GREY,
+        va="center",
+    )
     axes.plot([0, 0.5], [4.6, 0.3], color=RED, lw=1, ls="--")
     axes.text(-1.15, 1.0, "p", color=RED)
 
@@ -125,7 +146,10 @@ def parts(axes: Axes) -> None:
         _arrow(axes, (4.5, y + 0.37), (5.6, 2.3), GREY)
     _box(axes, 5.7, 1.85, 2.6, 0.9, "#cfe3ef")
     axes.text(7.0, 2.3, "covariance\nof the wrench", ha="center", va="center")
-    for y, text in ((3.3, "misfit of every place:\nconfidence and reason"), (0.5, "covariance of the point:\nsigma_max, ellipse")):
+    for y, text in (
+        (3.3, "misfit of every place:\nconfidence and reason"),
+        (0.5, "covariance of the point:\nsigma_max, ellipse"),
+    ):
         _box(axes, 9.4, y, 3.2, 0.9, "#d9efe6")
         axes.text(11.0, y + 0.45, text, ha="center", va="center")
         _arrow(axes, (8.4, 2.3), (9.3, y + 0.45), GREY)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -47,13 +48,21 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
+def on_post_build(config: MkDocsConfig) -> None:
+    """Leave out what only debuggers of the theme read."""
+    for each in Path(config.site_dir).rglob("*.map"):
+        each.unlink()
+
+
 def pages() -> dict[str, str]:
     """Return all of them: path -> Markdown."""
     made = {f"{_COMMANDS}/{name}.md": _noun(name) for name in ENTRIES}
     rows = "\n".join(f"| [`{name}`]({name}.md) | {ENTRIES[name].text} |" for name in ENTRIES)
     about = f"{app.info.help} Every command has `--help`, and nearly every one `--json` and `--quiet`."
     exits = "Exit codes: 0 good, 1 the result is not good enough, 2 wrong input, 130 interrupted."
-    made[f"{_COMMANDS}/index.md"] = f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
+    made[f"{_COMMANDS}/index.md"] = (
+        f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
+    )
     listed = "\n\n".join(f"::: {module}" for module in MODULES)
     made["reference/modules.md"] = f"# Modules\n\n{listed}\n"
     return made

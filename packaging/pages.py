@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,13 +26,22 @@ MODULES = (
     "contactbench.pipeline.mesh",
     "contactbench.pipeline.contact",
     "contactbench.pipeline.calibration",
+    # These two have the name of their own module, which hides them.
+    "contactbench.pipeline.calibration.calibrate.calibrate",
     "contactbench.pipeline.verification",
+    "contactbench.pipeline.verification.verify.verify",
     "contactbench.pipeline.recording",
     "contactbench.pipeline.streams",
     "contactbench.pipeline.config.runtime",
     "contactbench.pipeline.filtering",
     "contactbench.pipeline.errors",
 )
+# Answers come from the compiled kernel, which has types but no docstrings.
+_KERNEL = """::: contactbench.pipeline.kernel
+    options:
+      show_if_no_docstring: true
+      members: [Solver, Contact, Candidate, Batch, Reason, Runtime, RuntimeContact, Zero]
+"""
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -64,7 +74,7 @@ def pages() -> dict[str, str]:
         f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
     )
     listed = "\n\n".join(f"::: {module}" for module in MODULES)
-    made["reference/modules.md"] = f"# Modules\n\n{listed}\n"
+    made["reference/modules.md"] = f"# Modules\n\n{listed}\n\n{_KERNEL}"
     return made
 
 
@@ -93,12 +103,12 @@ def _page(words: tuple[str, ...], command: Any) -> Iterator[str]:
     yield f"{inspect.cleandoc(command.help or '')}\n"
     rows = [record for each in command.get_params(context) if (record := each.get_help_record(context))]
     if rows:
-        yield "| | |\n|---|---|"
-        yield from (f"| `{_cell(left)}` | {_cell(right)} |" for left, right in rows)
+        yield "| option | meaning |\n|---|---|"
+        yield from (f"| <code>{_cell(left)}</code> | {_cell(right)} |" for left, right in rows)
         yield ""
     for line in (command.epilog or "").splitlines():
         yield f"```text\n{line.removeprefix('Example: ')}\n```\n"
 
 
 def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
+    return escape(" ".join(text.split())).replace("|", "&#124;")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import inspect
+from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -24,13 +26,22 @@ MODULES = (
     "contactbench.pipeline.mesh",
     "contactbench.pipeline.contact",
     "contactbench.pipeline.calibration",
+    # These two have the name of their own module, which hides them.
+    "contactbench.pipeline.calibration.calibrate.calibrate",
     "contactbench.pipeline.verification",
+    "contactbench.pipeline.verification.verify.verify",
     "contactbench.pipeline.recording",
     "contactbench.pipeline.streams",
     "contactbench.pipeline.config.runtime",
     "contactbench.pipeline.filtering",
     "contactbench.pipeline.errors",
 )
+# Answers come from the compiled kernel, which has types but no docstrings.
+_KERNEL = """::: contactbench.pipeline.kernel
+    options:
+      show_if_no_docstring: true
+      members: [Solver, Contact, Candidate, Batch, Reason, Runtime, RuntimeContact, Zero]
+"""
 
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
@@ -47,15 +58,23 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
+def on_post_build(config: MkDocsConfig) -> None:
+    """Leave out what only debuggers of the theme read."""
+    for each in Path(config.site_dir).rglob("*.map"):
+        each.unlink()
+
+
 def pages() -> dict[str, str]:
     """Return all of them: path -> Markdown."""
     made = {f"{_COMMANDS}/{name}.md": _noun(name) for name in ENTRIES}
     rows = "\n".join(f"| [`{name}`]({name}.md) | {ENTRIES[name].text} |" for name in ENTRIES)
     about = f"{app.info.help} Every command has `--help`, and nearly every one `--json` and `--quiet`."
     exits = "Exit codes: 0 good, 1 the result is not good enough, 2 wrong input, 130 interrupted."
-    made[f"{_COMMANDS}/index.md"] = f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
+    made[f"{_COMMANDS}/index.md"] = (
+        f"# Command line\n\n{about}\n\n{exits}\n\n| command | |\n|---|---|\n{rows}\n"
+    )
     listed = "\n\n".join(f"::: {module}" for module in MODULES)
-    made["reference/modules.md"] = f"# Modules\n\n{listed}\n"
+    made["reference/modules.md"] = f"# Modules\n\n{listed}\n\n{_KERNEL}"
     return made
 
 
@@ -84,12 +103,12 @@ def _page(words: tuple[str, ...], command: Any) -> Iterator[str]:
     yield f"{inspect.cleandoc(command.help or '')}\n"
     rows = [record for each in command.get_params(context) if (record := each.get_help_record(context))]
     if rows:
-        yield "| | |\n|---|---|"
-        yield from (f"| `{_cell(left)}` | {_cell(right)} |" for left, right in rows)
+        yield "| option | meaning |\n|---|---|"
+        yield from (f"| <code>{_cell(left)}</code> | {_cell(right)} |" for left, right in rows)
         yield ""
     for line in (command.epilog or "").splitlines():
         yield f"```text\n{line.removeprefix('Example: ')}\n```\n"
 
 
 def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
+    return escape(" ".join(text.split())).replace("|", "&#124;")

@@ -1,8 +1,8 @@
 """
 A ``contactbench`` for shells that costs no start: what it imports is imported once, and each command is a fork of that.
 
-``python prompt.py serve SOCKET`` waits for commands; ``python -S -E prompt.py SOCKET WORDS...`` runs one of them there, in
-this folder and with these three streams, and ends as it ends.
+``python prompt.py serve SOCKET`` waits for commands; ``python -S -E prompt.py SOCKET WORDS...`` runs one of them there,
+in this folder and with these three streams, and ends as it ends.
 """
 
 import array
@@ -12,6 +12,10 @@ import socket
 import sys
 
 _STREAMS = 3
+# What most commands import by themselves.
+_OFTEN = (
+    "calibration", "session", "config.runtime", "contact.stream", "recording", "verification", "report.report_file",
+)  # fmt: skip
 
 
 def serve(place: str) -> None:
@@ -23,7 +27,7 @@ def serve(place: str) -> None:
 
     for entry in ENTRIES.values():
         import_module(entry.place.partition(":")[0])
-    for module in ("calibration", "session", "config.runtime", "contact.stream", "recording", "verification", "report.report_file"):  # fmt: skip
+    for module in _OFTEN:
         import_module(f"contactbench.pipeline.{module}")
     server = socket.socket(socket.AF_UNIX)
     server.bind(place)

@@ -24,7 +24,8 @@ README = ROOT / "README.md"
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)")
 BLOCK = re.compile(
-    r"^(?P<indent> *)(?:<!-- (?P<mark>not run|exit code (?P<code>\d+)): (?P<why>.+?) -->\n *)?```sh\n(?P<text>.*?)^ *```",
+    r"^(?P<indent> *)(?:<!-- (?P<mark>not run|exit code (?P<code>\d+)): (?P<why>.+?) -->\n *)?"
+    r"```sh\n(?P<text>.*?)^ *```",
     re.MULTILINE | re.DOTALL,
 )
 HERE = re.compile(r"<<'END'\n.*?^END\n", re.MULTILINE | re.DOTALL)
@@ -140,7 +141,12 @@ def shell(tmp_path_factory):
 
         def run(page, folder, known=frozenset()):
             done = subprocess.run(
-                ["bash"], input=script(page, known), cwd=folder, env=environment, capture_output=True, text=True
+                ["bash"],
+                input=script(page, known),
+                cwd=folder,
+                env=environment,
+                capture_output=True,
+                text=True,
             )
             assert done.returncode == 0, f"{named(page)}:\n{done.stderr[-3000:]}"
 
@@ -200,7 +206,9 @@ def site(tmp_path_factory):
 
 
 def test_the_documentation_loads_nothing_from_elsewhere(site):
-    loaded = re.compile(r"<(?:script|img|iframe)[^>]*\ssrc=\"?https?:|<link[^>]*\shref=\"?https?:|url\(\s*[\"']?https?:")
+    loaded = re.compile(
+        r"<(?:script|img|iframe)[^>]*\ssrc=\"?https?:|<link[^>]*\shref=\"?https?:|url\(\s*[\"']?https?:"
+    )
     for file in (*site.rglob("*.html"), *site.rglob("*.css")):
         found = loaded.search(file.read_text("utf-8"))
         assert found is None, f"{file.relative_to(site)}: {found and found[0]}"
@@ -214,7 +222,9 @@ def test_the_documentation_is_small_enough_to_ship_and_can_be_searched(site):
 def test_the_reference_has_every_option_and_every_public_name(site):
     probe = (site / "reference" / "commands" / "probe.html").read_text("utf-8")
     assert "--max-contact-error" in probe
-    assert "contactbench.pipeline.contact.ContactSolver" in (site / "reference" / "modules.html").read_text("utf-8")
+    modules = (site / "reference" / "modules.html").read_text("utf-8")
+    for name in ("kernel.Solver.locate", "calibration.calibrate.calibrate", "kernel.Contact.sigma_max"):
+        assert f'id="contactbench.pipeline.{name}"' in modules, name
 
 
 def test_every_reason_is_explained():

@@ -2205,6 +2205,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>&amp;Einführung</translation>
     </message>
     <message>
+        <source>&amp;Documentation</source>
+        <translation>&amp;Dokumentation</translation>
+    </message>
+    <message>
         <source>&amp;Shortcuts</source>
         <translation>&amp;Tastenkürzel</translation>
     </message>

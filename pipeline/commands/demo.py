@@ -95,7 +95,8 @@ def tutorial(
     from contactbench.pipeline.demo.tutorial import write_tutorial
 
     data = write_tutorial(folder, seed, say)
-    say(f"{folder}: {len(data.files)} files; README.md says what they are. Go there with: cd {folder}", "green")
-    answer(
-        {"out": str(folder), "files": list(data.files), "place": data.place, "bumped": list(data.bumped)}
+    say(
+        f"{folder}: {len(data.files)} files; README.md says what they are. Go there with: cd {folder}",
+        "green",
     )
+    answer({"out": str(folder), "files": list(data.files), "place": data.place, "bumped": list(data.bumped)})

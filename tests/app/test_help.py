@@ -80,4 +80,4 @@ def test_a_picture_is_never_wider_than_the_page_and_none_comes_from_elsewhere():
     kind = QTextDocument.ResourceType.ImageResource.value
     image = book.view.loadResource(kind, QUrl("gravity.png"))
     assert 0 < image.width() / image.devicePixelRatio() <= book.view.viewport().width()
-    assert book.view.loadResource(kind, QUrl("../../../assets/readme-window.png")).isNull()
+    assert book.view.loadResource(kind, QUrl("../../../docs/figures/window.png")).isNull()

@@ -85,23 +85,23 @@ class Departure(QObject):
         box = self.question = QMessageBox(self._window)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.setIcon(QMessageBox.Icon.Question)
-        box.setWindowTitle(self.tr("Work is going on"))
+        box.setWindowTitle(self.tr("Work in progress"))
         box.setText(" ".join(self._going_on()))
         role = QMessageBox.ButtonRole
         ends = bench is not None and not bench.live.taped
         box.setInformativeText(
             self.tr(
-                "Stopped, nothing that was chosen or recorded until now is lost. What is being computed is computed"
-                " again when the session is opened the next time."
+                "If you stop, everything chosen or recorded so far is kept. The computation runs again when you"
+                " reopen the session."
             )
             if ends
             else self.tr(
-                "Stopped, what was recorded until now is kept, and can be gone on from the next time."
+                "If you stop, everything recorded so far is kept. You can continue from there next time."
             )
         )
-        self.wait = box.addButton(self.tr("Wait until it is done"), role.AcceptRole) if ends else None
-        self.stop = box.addButton(self.tr("Stop, and keep what is done"), role.DestructiveRole)
-        self.stay = box.addButton(self.tr("Do not close"), role.RejectRole)
+        self.wait = box.addButton(self.tr("Wait until done"), role.AcceptRole) if ends else None
+        self.stop = box.addButton(self.tr("Stop and keep results"), role.DestructiveRole)
+        self.stay = box.addButton(self.tr("Cancel"), role.RejectRole)
         box.setDefaultButton(self.wait or self.stay)
         box.setEscapeButton(self.stay)
         box.buttonClicked.connect(lambda button: self._answered(button, go, stay))
@@ -116,7 +116,7 @@ class Departure(QObject):
         elif wait is not None and button is wait:
             self._go = go
             self._window.tell(
-                Weight.INFO, self.tr("It is closed as soon as the work is done; until then it can be used.")
+                Weight.INFO, self.tr("The session closes as soon as the work is done. You can keep working until then.")
             )
             self.look()
         else:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QMenu, QWidget
 
+    from contactbench.app.heatmap_viewer import HeatmapViewer
     from contactbench.app.motion import MotionWindow
     from contactbench.app.window import MainWindow
 
@@ -181,7 +182,7 @@ class Menus(QObject):
 
         AboutDialog(self._window).open()
 
-    def show_heatmap_viewer(self) -> None:
+    def show_heatmap_viewer(self) -> HeatmapViewer:
         """Show the heatmap viewer in a window of its own."""
         from contactbench.app.heatmap_viewer import HeatmapViewer
 
@@ -190,6 +191,7 @@ class Menus(QObject):
         self._show_beside(viewer, self.tr("Heatmap viewer"))
         if bench is not None:
             viewer.open([bench.desk.folder])
+        return viewer
 
     def show_motion(self) -> MotionWindow:
         """Show a closed loop in a window of its own; with a session, on the bundle that it would give."""

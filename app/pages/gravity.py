@@ -221,8 +221,10 @@ class GravityPage(Page):
         panel.show_next(proposal, virtual=self.bench.live.bench is not None, running=True)
         self.bench.scene.show_ghost(None if proposal is None or not self._entered else proposal.R_WS)
         fitted = view.solved.calibration
-        panel.verdict.setVisible(fitted is not None)
-        if fitted is not None:
+        # One headline at a time: before there are enough poses, how the tool is held is what matters.
+        shown = fitted is not None and view.solved.enough
+        panel.verdict.setVisible(shown)
+        if fitted is not None and shown:
             panel.verdict.show_verdict(
                 fitted.verdict.level.value,
                 fitted.verdict.reasons,

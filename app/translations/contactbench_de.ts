@@ -503,32 +503,32 @@
 <context>
     <name>Departure</name>
     <message>
-        <source>Work is going on</source>
-        <translation>Es wird noch gearbeitet</translation>
+        <source>Work in progress</source>
+        <translation>Laufende Arbeit</translation>
     </message>
     <message>
-        <source>Stopped, nothing that was chosen or recorded until now is lost. What is being computed is computed again when the session is opened the next time.</source>
-        <translation>Beim Anhalten geht nichts verloren, was bisher gewählt oder aufgezeichnet wurde. Was gerade berechnet wird, wird beim nächsten Öffnen der Sitzung neu berechnet.</translation>
+        <source>If you stop, everything chosen or recorded so far is kept. The computation runs again when you reopen the session.</source>
+        <translation>Beim Stoppen bleibt alles bisher Gewählte und Aufgezeichnete erhalten. Beim nächsten Öffnen der Sitzung wird neu gerechnet.</translation>
     </message>
     <message>
-        <source>Stopped, what was recorded until now is kept, and can be gone on from the next time.</source>
-        <translation>Beim Anhalten bleibt erhalten, was bisher aufgezeichnet wurde; beim nächsten Mal geht es dort weiter.</translation>
+        <source>If you stop, everything recorded so far is kept. You can continue from there next time.</source>
+        <translation>Beim Stoppen bleibt alles bisher Aufgezeichnete erhalten. Sie können beim nächsten Mal dort weitermachen.</translation>
     </message>
     <message>
-        <source>Wait until it is done</source>
+        <source>Wait until done</source>
         <translation>Warten, bis es fertig ist</translation>
     </message>
     <message>
-        <source>Stop, and keep what is done</source>
-        <translation>Anhalten und behalten, was fertig ist</translation>
+        <source>Stop and keep results</source>
+        <translation>Stoppen, Ergebnisse behalten</translation>
     </message>
     <message>
-        <source>Do not close</source>
-        <translation>Nicht schließen</translation>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
     </message>
     <message>
-        <source>It is closed as soon as the work is done; until then it can be used.</source>
-        <translation>Geschlossen wird, sobald die Arbeit fertig ist; bis dahin kann alles benutzt werden.</translation>
+        <source>The session closes as soon as the work is done. You can keep working until then.</source>
+        <translation>Die Sitzung schließt, sobald die Arbeit fertig ist. Bis dahin können Sie weiterarbeiten.</translation>
     </message>
 </context>
 <context>
@@ -3298,6 +3298,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Preparing the surface for painting</source>
         <translation>Die Fläche zum Bemalen wird vorbereitet</translation>
+    </message>
+    <message>
+        <source>What was painted cannot be undone any more: the probe&apos;s surface has changed.</source>
+        <translation>Das Gemalte lässt sich nicht mehr rückgängig machen: Die Oberfläche der Sonde hat sich geändert.</translation>
     </message>
     <message>
         <source>Facets: {0:,}; area: {1:.2f} cm²</source>

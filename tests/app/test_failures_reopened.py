@@ -12,6 +12,7 @@ import pytest
 from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
+from workbench.region_sessions import made_session  # noqa: F401 - a fixture
 from workbench.touch_session import make_session
 
 from contactbench.pipeline.session import Session
@@ -94,9 +95,12 @@ def labels(made):
 
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_strokes_are_taken_back_one_by_one_after_the_session_was_opened_again(
-    qtbot, calibrated, tmp_path, elsewhere
+    qtbot,
+    made_session,  # noqa: F811 - the fixture
+    tmp_path,
+    elsewhere,
 ):
-    folder = shutil.copytree(calibrated, tmp_path / "s")
+    folder = shutil.copytree(made_session, tmp_path / "s")
     with whole(qtbot, tmp_path) as made:
         made.open(folder)
         page = made.page(Step.REGIONS)
@@ -134,8 +138,8 @@ def test_strokes_are_taken_back_one_by_one_after_the_session_was_opened_again(
     assert not check(folder).problems
 
 
-def test_strokes_on_a_surface_that_is_gone_are_refused_in_words(qtbot, calibrated, tmp_path):
-    folder = shutil.copytree(calibrated, tmp_path / "s")
+def test_a_stroke_that_is_not_the_next_one_any_more_is_not_taken_back(qtbot, made_session, tmp_path):  # noqa: F811
+    folder = shutil.copytree(made_session, tmp_path / "s")
     with whole(qtbot, tmp_path) as made:
         made.open(folder)
         page = made.page(Step.REGIONS)

@@ -129,12 +129,12 @@ def asked(made, hand):
 def test_quitting_while_it_records_can_be_taken_back_or_keeps_what_was_recorded(made, hand, tmp_path):
     question = quit_while_recording(made, hand)
     question.read("being recorded")
-    question.press("Do not close")
+    question.press("Cancel")
     hand.until(lambda: made.window.departure.question is None, "the question to go")
     hand.press("Move virtual tool there", LONG)
     hand.read("pose 2 of", LONG)  # it goes on
     hand.key(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier)
-    asked(made, hand).press("Stop, and keep what is done")
+    asked(made, hand).press("Stop and keep results")
     hand.until(lambda: not made.window.isVisible(), "the window to close", LONG)
     assert not made.unexpected
     (folder,) = (tmp_path / "home" / "sessions").iterdir()
@@ -151,7 +151,7 @@ def test_quitting_while_it_computes_waits_if_one_wants(made, hand, tmp_path):
     hand.key(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier)
     question = asked(made, hand)
     question.read("being prepared")
-    question.press("Wait until it is done")
+    question.press("Wait until done")
     assert made.window.isVisible()
     hand.until(lambda: not made.window.isVisible(), "the window to close", LONG)
     assert not made.unexpected

@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
-def german():
+def german(qapp):  # noqa: ARG001 - axes need an application
     before = QLocale()
     QLocale.setDefault(QLocale("de_DE"))
     yield
@@ -45,15 +45,15 @@ def test_a_german_reads_commas():
 
 @pytest.mark.usefixtures("german")
 @pytest.mark.parametrize(
-    ("english", "german"),
+    ("english", "expected"),
     [
         ("0.73 mm (95 % CI 0.06–0.14 mm).", "0,73 mm (95 % CI 0,06–0,14 mm)."),
         ("Turn it by -12.5°, ±0.5 N, at 1,000 Hz.", "Turn it by -12,5°, ±0,5 N, at 1.000 Hz."),
         ("5 poses, 3,4 of them", "5 poses, 3,4 of them"),
     ],
 )
-def test_sentences_of_the_pipeline_have_commas_too(english, german):
-    assert phrases.said(english) == german
+def test_sentences_of_the_pipeline_have_commas_too(english, expected):
+    assert phrases.said(english) == expected
 
 
 @pytest.mark.usefixtures("german")

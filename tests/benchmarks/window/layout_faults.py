@@ -44,7 +44,8 @@ CONTROLS = (QAbstractButton, QComboBox, QAbstractSpinBox, QLineEdit, QAbstractSl
 def layout_faults(window: QWidget) -> list[str]:
     """Return what does not fit, lies over something else, or cannot be seen."""
     seen = VisibleWidgets(window)
-    return list(chain(_cut(seen), _cut_tables(seen), _sideways(seen), _outside(seen), _overlaps(seen)))
+    checks = (_cut, _cut_tables, _sideways, _outside, _overlaps, _scenes)
+    return list(chain.from_iterable(check(seen) for check in checks))
 
 
 class VisibleWidgets:
@@ -250,3 +251,16 @@ def _overlaps(seen: VisibleWidgets):
 def _drawn(widget: QWidget) -> bool:
     through = widget.testAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
     return not through and isinstance(widget, (*CONTROLS, QLabel, QAbstractScrollArea, QGroupBox))
+
+
+def _scenes(seen: VisibleWidgets):
+    """What lies over a 3D view and is cut, or covers something else that does."""
+    for scene in seen.of(Scene):
+        buttons, bar = scene.buttons, scene.scale_bar
+        if not scene.view.geometry().contains(buttons.geometry()):
+            yield f"the view's buttons are cut: {buttons.geometry().getRect()} in {scene.view.geometry().getRect()}"
+        for each in buttons.buttons.values():
+            if not buttons.rect().contains(each.geometry()) or each.width() < each.minimumSizeHint().width():
+                yield f"a button of the view is cut: {what(each)}"
+        if bar.isVisibleTo(scene) and bar.geometry().intersects(buttons.geometry()):
+            yield "the scale bar lies over the view's buttons"

@@ -17,7 +17,7 @@ from pathlib import Path
 from benchmarks.window.access_faults import access_faults, pale
 from benchmarks.window.layout_faults import layout_faults
 from PySide6.QtCore import QEvent, QEventLoop, QPoint, QTimer
-from PySide6.QtWidgets import QApplication, QTabWidget
+from PySide6.QtWidgets import QApplication, QDialog, QTabWidget
 
 from contactbench.app.application import prepared
 from contactbench.app.settings import WindowSettings
@@ -84,6 +84,8 @@ class Walk:
         if access:
             self._read()
         self._motion()
+        self._heatmap()
+        self._dialogs()
         window.close()
         until(lambda: not window.isVisible())
         window.deleteLater()
@@ -95,6 +97,35 @@ class Walk:
         until(motion.controls.start.isEnabled)
         self._everywhere("motion")
         motion.close()
+
+    def _heatmap(self) -> None:
+        viewer = self._shown = self.window.menus.show_heatmap_viewer()
+        self._still(viewer.sides[0].scene)
+        until(lambda: viewer.sides[0].frame is not None)
+        self._everywhere("heatmap")
+        viewer.close()
+
+    def _dialogs(self) -> None:
+        """Look at what opens over the window, as large as it opens in the smallest window."""
+        window, departure = self.window, self.window.departure
+        window.resize(*self._sizes[0])
+        window.bench.set_running(Step.PROBE, going_on=True)
+        for name, show in {
+            "shortcuts": window.menus.show_shortcuts,
+            "log": window.menus.show_log,
+            "about": window.menus.show_about,
+            "question": window.close,
+        }.items():
+            show()
+            settled()
+            (dialog,) = [each for each in window.findChildren(QDialog) if each.isVisible()]
+            self._shown = dialog
+            for each in self._lasting():
+                self.found.setdefault(f"{name}: {each}", []).append(self._language)
+            self._take_picture(name, dialog.size().toTuple())
+            (departure.stay.click if name == "question" else dialog.close)()
+            settled()
+        window.bench.set_running(Step.PROBE, going_on=False)
 
     def _still(self, scene) -> None:
         if self._pictures is None:
@@ -127,10 +158,13 @@ class Walk:
                 print(f"{time.process_time():.1f} s: {page} {size} {found}", file=sys.stderr)  # noqa: T201
             for each in found:
                 self.found.setdefault(f"{page}: {each}", []).append(f"{self._language} {size[0]}x{size[1]}")
-            if self._pictures is not None:
-                rest(300)
-                name = f"{page}-{self._language}-{self._theme}-{size[0]}x{size[1]}.png"
-                self._shown.screen().grabWindow(self._shown.winId()).save(str(self._pictures / name))
+            self._take_picture(page, size)
+
+    def _take_picture(self, page: str, size) -> None:
+        if self._pictures is not None:
+            rest(300)
+            name = f"{page}-{self._language}-{self._theme}-{size[0]}x{size[1]}.png"
+            self._shown.screen().grabWindow(self._shown.winId()).save(str(self._pictures / name))
 
     def _lasting(self) -> list[str]:
         """Return the faults that are still there when everything has found its place."""

@@ -16,13 +16,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-_NOT_SHOWN = (
-    "commands",
-    "study",
-    "demo",
-    "report",
-    "kernel",
-)  # seen in a terminal or in a document, not in a window
+# Rooms and files: what they say is seen in a terminal or in a document, not in a window.
+_NOT_SHOWN = {
+    *("commands", "study", "demo", "report", "page", "kernel"),
+    *("calibration/report", "heatmap/page.py"),
+}
 _HOLE = re.compile(r"\{[^{}]*\}")
 _WORD = re.compile(r"[A-Za-z]{2,}")
 _CODE = re.compile(r"[<>]\w|\w\(|__|\\|^\s*[-#]|\n\s|://|%[sd]|\w=\w")
@@ -40,7 +38,8 @@ def templates(pipeline: Path) -> tuple[str, ...]:
     """
     found: set[str] = set()
     for file in sorted(pipeline.rglob("*.py")):
-        if file.relative_to(pipeline).parts[0] not in _NOT_SHOWN:
+        place = file.relative_to(pipeline)
+        if not _NOT_SHOWN & {each.as_posix() for each in (place, *place.parents)}:
             found.update(_spoken(ast.parse(file.read_text("utf-8"))))
     return tuple(sorted(found))
 

@@ -31,19 +31,19 @@ COVERAGE = 2.0  # k: about 95 % of a contact's errors are within U
 class BudgetSource(StrEnum):
     """Where an uncertainty comes from."""
 
-    NOISE_FORCE = "noise of the force"
-    NOISE_TORQUE = "noise of the torque"
-    FORCE_BIAS = "force bias"
-    TORQUE_BIAS = "torque bias"
-    MASS = "mass (weight vector)"
-    CENTRE_OF_MASS = "centre of mass"
-    CORRELATION = "correlation of bias, mass and centre of mass"
-    MOUNT = "mount of the sensor"
+    NOISE_FORCE = "noise_force"
+    NOISE_TORQUE = "noise_torque"
+    FORCE_BIAS = "force_bias"
+    TORQUE_BIAS = "torque_bias"
+    MASS = "mass"
+    CENTRE_OF_MASS = "centre_of_mass"
+    CORRELATION = "correlation"
+    MOUNT = "mount"
     MESH = "mesh"
     MARKERS = "markers"
-    MODEL_FORCE = "model error of the force"
-    MODEL_TORQUE = "model error of the torque"
-    MODEL = "model error"
+    MODEL_FORCE = "model_force"
+    MODEL_TORQUE = "model_torque"
+    MODEL = "model"
 
 
 @dataclass(frozen=True)

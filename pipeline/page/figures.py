@@ -69,8 +69,8 @@ def page_style(**more: Any) -> Iterator[None]:
         # The text stays text in the SVG: whoever shows it has the letters, whatever the font here lacks.
         warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
         mpl.rcdefaults()
-        mpl.rcParams.update(_STYLE)
-        mpl.rcParams.update(more)
+        settings: Any = mpl.rcParams  # which types its keys
+        settings.update({**_STYLE, **more})
         yield
 
 

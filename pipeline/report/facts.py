@@ -11,7 +11,7 @@ from contactbench import __version__
 from contactbench.pipeline.calibration.budget import COVERAGE, BudgetSource
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
-from contactbench.pipeline.calibration.report.budget_table import budget_table, length_mm
+from contactbench.pipeline.calibration.report.budget_table import SOURCE_WORDS, budget_table, length_mm
 from contactbench.pipeline.page import moment
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 
@@ -103,7 +103,7 @@ def budget_facts(verification: Verification) -> dict[str, Any] | None:
         "ratio": _times(overall.rms_mm / u) if u > 0 else NOTHING,
         "beyond": overall.rms_mm > COVERAGE * u,
         "measured": verification.model_error is not None,
-        "unsure": f"{largest}" if COVERAGE * u > 1e3 * verification.limits.max_m else "",
+        "unsure": SOURCE_WORDS[largest] if COVERAGE * u > 1e3 * verification.limits.max_m else "",
     }
 
 

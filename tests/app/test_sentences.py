@@ -31,7 +31,10 @@ def test_what_nobody_reads_is_left_out(package):
 def test_terminals_and_documents_are_not_windows(tmp_path):
     (tmp_path / "commands").mkdir()
     (tmp_path / "commands" / "verify.py").write_text('say("Verify the session first.")', "utf-8")
-    assert templates(tmp_path) == ()
+    (tmp_path / "heatmap").mkdir()
+    (tmp_path / "heatmap" / "page.py").write_text('WORDS = "The largest force."', "utf-8")
+    (tmp_path / "heatmap" / "film.py").write_text('WORDS = "The film is long."', "utf-8")
+    assert templates(tmp_path) == ("The film is long.",)
 
 
 def test_what_a_page_says_is_among_them():

@@ -217,6 +217,33 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
     assert "Gravity calibration" in (tmp_path / "a.html").read_text(encoding="utf-8")
 
 
+def test_a_report_says_who_and_with_which_sensor(tmp_path: Path, poses: Path) -> None:
+    report = tmp_path / "r.html"
+    given = (
+        "--operator",
+        "A. Lovelace",
+        "--certificate",
+        "DKD-7",
+        "--due",
+        "2031-01-31",
+        "--serial",
+        "M8128=SN 7",
+    )
+    fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--report")
+    assert invoke(*fit, report, *given).exit_code == 0
+    page = report.read_text(encoding="utf-8")
+    for words in ("A. Lovelace", "DKD-7", "2031-01-31", "M8128: SN 7"):
+        assert f"<bdi>{words}</bdi>" in page
+    for wrong, message in (
+        ((tmp_path / "r.txt",), "name a file that ends in .html or .pdf"),
+        ((report, "--due", "soon"), "--due: give a date as 2027-03-31"),
+        ((report, "--serial", "7"), "--serial needs DEVICE=NUMBER"),
+    ):
+        refused = invoke(*fit, *wrong)
+        assert refused.exit_code == 2
+        assert message in " ".join(refused.stderr.split())
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

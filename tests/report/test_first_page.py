@@ -18,6 +18,8 @@ from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import APPENDIX, print_pdf
 from contactbench.pipeline.report import ReportContent, report_html
+from contactbench.pipeline.report.figures import draw
+from contactbench.pipeline.report.touches import marker_views
 from contactbench.pipeline.verification.verify import verify
 
 DETAILS = ReportDetails("A. Technician", "M8128", "DKD-K-7", "2026-12-31", {"sensor": "SN 7"})
@@ -169,6 +171,24 @@ def test_errors_beyond_the_budget_and_budgets_beyond_the_limit_are_told(given):
     assert "U is more than the limit of the largest error, 2 mm" in text_of(
         report_html(replace(given, verification=wide))
     )
+
+
+def test_colours_follow_the_limits_not_the_largest_value(given):
+    v = given.verification
+    accepted = [touch for touch in v.touches if touch.accepted]
+    views = marker_views(accepted, given.probe.probe)
+    within = draw(accepted, v.per_marker, views, v.limits, None)
+    strict = replace(v.limits, mean_m=1e-6, max_m=2e-6)
+    beyond = draw(accepted, v.per_marker, views, strict, None)
+    for kept, broken in ((within.markers, beyond.markers), (within.scatter[0], beyond.scatter[0])):
+        assert "var(--torque)" not in kept
+        assert "var(--torque)" in broken
+    assert "over its limit" in beyond.markers
+    numbers = re.compile(r'<b class="over">(.*?)</b>')
+    assert numbers.findall(report_html(given)) == []
+    failed = report_html(replace(given, verification=replace(v, limits=strict)))
+    assert len(numbers.findall(failed)) == 2
+    assert ">0.002<" in failed or "largest error; the limit is 0.002" in text_of(failed)
 
 
 @pytest.mark.parametrize("name", ["verified_page", "calibrated_page"])

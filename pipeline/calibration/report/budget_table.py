@@ -4,15 +4,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.calibration.budget import COVERAGE, combined_mm
+from contactbench.pipeline.calibration.budget import COVERAGE, BudgetSource, combined_mm
 from contactbench.pipeline.calibration.number_text import plain, signed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from contactbench.pipeline.calibration.budget import BudgetRow, BudgetSource
+    from contactbench.pipeline.calibration.budget import BudgetRow
 
 _NONE = "\N{EN DASH}"
+SOURCE_WORDS = {
+    BudgetSource.NOISE_FORCE: "noise of the force",
+    BudgetSource.NOISE_TORQUE: "noise of the torque",
+    BudgetSource.FORCE_BIAS: "force bias",
+    BudgetSource.TORQUE_BIAS: "torque bias",
+    BudgetSource.MASS: "mass (weight vector)",
+    BudgetSource.CENTRE_OF_MASS: "centre of mass",
+    BudgetSource.CORRELATION: "correlation of bias, mass and centre of mass",
+    BudgetSource.MOUNT: "mount of the sensor",
+    BudgetSource.MESH: "mesh",
+    BudgetSource.MARKERS: "markers",
+    BudgetSource.MODEL_FORCE: "model error of the force",
+    BudgetSource.MODEL_TORQUE: "model error of the torque",
+    BudgetSource.MODEL: "model error",
+}
 
 
 def budget_table(rows: Sequence[BudgetRow], said: Mapping[BudgetSource, str]) -> dict[str, Any] | None:
@@ -37,9 +52,9 @@ def budget_table(rows: Sequence[BudgetRow], said: Mapping[BudgetSource, str]) ->
 
 
 def _row(row: BudgetRow, said: Mapping[BudgetSource, str]) -> dict[str, str]:
-    counts = bool(row.kind)
+    counts, name = bool(row.kind), SOURCE_WORDS[row.source]
     return {
-        "source": row.source[:1].upper() + row.source[1:],
+        "source": name[:1].upper() + name[1:],
         "kind": row.kind,
         "standard": "" if row.standard is None else f"{plain(row.standard)} {row.unit}",
         "sensitivity": "" if row.sensitivity is None else f"{plain(row.sensitivity)} {_per(row.unit)}",

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QUndoCommand, QWheelEvent
+from PySide6.QtGui import QAction, QDesktopServices, QUndoCommand, QWheelEvent
 from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
@@ -201,6 +201,21 @@ def test_a_session_is_opened_while_another_is_open(qtbot, opened, tmp_path):
     assert opened.bench.desk.folder.name == "another"
     with Session.open(tmp_path / "a session"):
         pass
+
+
+@pytest.mark.parametrize("built", [True, False])
+def test_the_documentation_is_offered_where_it_was_built_and_opens_in_the_browser(
+    make_window, plain_pages, monkeypatch, tmp_path, built
+):
+    del plain_pages
+    page, opened = tmp_path / "index.html", []
+    monkeypatch.setattr("contactbench.app.window_menus.start_page", lambda: page if built else None)
+    monkeypatch.setattr(QDesktopServices, "openUrl", opened.append)
+    window = make_window()
+    (action,) = (each for each in window.findChildren(QAction) if each.text() == "&Documentation")
+    assert action.isVisible() == built
+    action.trigger()
+    assert [url.toLocalFile() for url in opened] == ([str(page)] if built else [])
 
 
 def test_help_shortcuts_log_and_about_open(opened):

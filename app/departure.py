@@ -116,7 +116,8 @@ class Departure(QObject):
         elif wait is not None and button is wait:
             self._go = go
             self._window.tell(
-                Weight.INFO, self.tr("The session closes as soon as the work is done. You can keep working until then.")
+                Weight.INFO,
+                self.tr("The session closes as soon as the work is done. You can keep working until then."),
             )
             self.look()
         else:

@@ -36,7 +36,8 @@ def filled(template: str, *values: Any, **named: Any) -> str:
 def local(text: str) -> str:
     """Return the text of one number, as Python writes it, with the reader's marks."""
     locale = QLocale()
-    return text.translate({ord("."): locale.decimalPoint(), ord(","): locale.groupSeparator()})
+    marks = {".": locale.decimalPoint(), ",": locale.groupSeparator()}
+    return "".join(marks.get(each, each) for each in text)
 
 
 def local_numbers(sentence: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QRect, QSize, Qt, Signal
+from PySide6.QtCore import QRect, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
 
@@ -42,9 +42,12 @@ class StepList(QWidget):
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(3)
         self._rows: dict[Step, _Row] = {}
+        self._toggled: Step | None = None
         for number, step in enumerate(Step, 1):
             row = _Row(number, self.name_of(step))
-            row.clicked.connect(lambda _=False, step=step: self.chosen.emit(step))
+            # By the accessibility bus a button that can be checked is toggled, and never clicked.
+            row.toggled.connect(lambda on, step=step: self._choose(step, on))
+            row.clicked.connect(lambda _=False, step=step: self._clicked(step))
             group.addButton(row)
             layout.addWidget(row, 1)
             self._rows[step] = row
@@ -81,7 +84,20 @@ class StepList(QWidget):
 
     def show_step(self, step: Step) -> None:
         """Show which step is looked at."""
-        self._rows[step].setChecked(True)
+        with QSignalBlocker(self._rows[step]):
+            self._rows[step].setChecked(True)
+        self._rows[step].update()
+
+    def _choose(self, step: Step, on: bool) -> None:
+        if on:
+            self._toggled = step
+            self.chosen.emit(step)
+
+    def _clicked(self, step: Step) -> None:
+        """Choose the step that is looked at once more; another one was toggled just before."""
+        toggled, self._toggled = self._toggled, None
+        if toggled is not step:
+            self.chosen.emit(step)
 
     def row(self, step: Step) -> QAbstractButton:
         """Return the button of a step."""

@@ -82,7 +82,8 @@ class ToolPanel(QWidget):
     def choose(self, tool: str, _checked: bool = True) -> None:
         """Choose a tool."""
         self.tool = tool
-        self._buttons[tool].setChecked(True)
+        with QSignalBlocker(self._buttons[tool]):
+            self._buttons[tool].setChecked(True)
         self._stack.show_page(_PAGES.index(BRUSH if tool == ERASER else tool))
         self._corner = None
         self.tool_changed.emit(tool)
@@ -171,7 +172,8 @@ class ToolPanel(QWidget):
             button.setMinimumSize(92, HIGH)
             button.setToolTip(f"{tip} ({key})")
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            button.clicked.connect(partial(self.choose, tool))
+            # A screen reader toggles it, and never clicks.
+            button.toggled.connect(lambda on, tool=tool: self.choose(tool) if on else None)
             group.addButton(button)
             tools.add(button, 1)
             self._buttons[tool] = button

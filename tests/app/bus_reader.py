@@ -10,8 +10,10 @@ import sys
 import time
 
 import pyatspi
+from gi.repository import Atspi
 
-_PATIENCE_S = 30.0
+_PATIENCE_S = 60.0
+Atspi.set_timeout(60_000, 60_000)  # ms: a window that has other things to do answers later
 
 
 def application(pid):

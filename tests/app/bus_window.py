@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from benchmarks.window.layout_faults import CONTROLS, VisibleWidgets
@@ -27,20 +28,12 @@ _READER = Path(__file__).with_name("bus_reader.py")
 def read(*asked):
     """Have somebody else read the window, while it goes on."""
     command = ["/usr/bin/python3", str(_READER), str(os.getpid()), *asked]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as other:
-        os.set_blocking(other.stdout.fileno(), False)
-        said = ""
-
-        def ended():
-            nonlocal said
-            said += other.stdout.read() or ""
-            return other.poll() is not None
-
-        until(ended, lambda: "the reader did not end")
-        said += other.stdout.read() or ""
+    with tempfile.TemporaryFile() as said, subprocess.Popen(command, stdout=said) as other:
+        until(lambda: other.poll() is not None, lambda: "the reader did not end")
         if other.returncode:
-            raise SystemExit(other.stderr.read())
-    return said
+            raise SystemExit(other.returncode)
+        said.seek(0)
+        return said.read().decode()
 
 
 def controls(window):
@@ -61,13 +54,15 @@ def main(session):
     window.show()
     pages = {"start": look(window)}
     window.sessions.open(Path(session))
-    until(lambda: window.bench is not None and window.bench.connected)
+    until(lambda: window.bench is not None and window.bench.connected, lambda: "the session to be opened")
+    window.scene.setUpdatesEnabled(False)  # nobody sees it, and without a graphics card it takes long
     for number, step in enumerate(Step, 1):
         row = window.steps.row(step).accessibleName()
         assert row.startswith(str(number))
+        sys.stderr.write(f"{step}\n")
         read("press", row)  # by the bus, too
         until(lambda step=step: window.pages.step is step, lambda step=step: f"{step} to be shown")
-        until(lambda: not window._running())
+        until(lambda: not window._running(), lambda: [each.title for each in window._running()])
         settled()
         rest(200)
         pages[step] = look(window)

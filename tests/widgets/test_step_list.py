@@ -41,3 +41,14 @@ def test_the_shown_step_looks_different(steps):
     one = steps.row(Step.GRAVITY).grab().toImage()
     steps.show_step(Step.PROBE)
     assert steps.row(Step.GRAVITY).grab().toImage() != one
+
+
+def test_a_screen_reader_chooses_by_toggling(steps):
+    chosen = []
+    steps.chosen.connect(chosen.append)
+    steps.row(Step.VERIFY).toggle()
+    assert chosen == [Step.VERIFY]
+    steps.show_step(Step.PROBE)  # is no choice
+    assert chosen == [Step.VERIFY]
+    steps.row(Step.PROBE).click()  # once more
+    assert chosen == [Step.VERIFY, Step.PROBE]

@@ -195,7 +195,9 @@ class _Tour:
         self._rest(_SETTLED_S)
 
     def _taken(self, window: QWidget) -> QPixmap:
-        """Take the picture from the screen: what OpenGL draws is only there."""
+        """Take the picture from the screen: what OpenGL draws is only there; no part of it has the focus."""
+        if (focused := window.focusWidget()) is not None:
+            focused.clearFocus()
         self._rest(_SETTLED_S)
         corner = window.mapToGlobal(QPoint(0, 0))
         return window.screen().grabWindow(0, corner.x(), corner.y(), window.width(), window.height())

@@ -178,7 +178,9 @@ def strip(folder: Path) -> None:
     if _SYSTEM != "linux" or (program := shutil.which("strip")) is None:
         return
     # Not the folders *.libs: what was moved about by patchelf does not survive it.
-    files = [each for each in sorted(folder.rglob("*.so*")) if not each.is_symlink() and ".libs" not in str(each)]
+    files = [
+        each for each in sorted(folder.rglob("*.so*")) if not each.is_symlink() and ".libs" not in str(each)
+    ]
     run(program, "--strip-unneeded", *files)
 
 
@@ -279,7 +281,8 @@ def make_deb(out: Path) -> list[Path]:
     shutil.copy(HERE / "70-contactbench.rules", rules)
     control = {
         "Depends": ", ".join(needed_packages(home)),
-        "Recommends": f"desktop-file-utils, shared-mime-info, hicolor-icon-theme, {NAME}-{COMPONENT} (= {VERSION})",
+        "Recommends": "desktop-file-utils, shared-mime-info, hicolor-icon-theme, libgl1-mesa-dri",
+        "Suggests": f"{NAME}-{COMPONENT} (= {VERSION})",
         "Description": f"{PROJECT['description']}\n"
         " Finds where an ultrasound probe is touched from one force/torque sensor\n"
         " behind it, and tells how sure that is. For bench work and research only:\n"
@@ -355,25 +358,16 @@ def _deb(
 
 def needed_packages(folder: Path) -> list[str]:
     """Return the Debian packages of the libraries that a folder's programs and libraries need and do not bring."""
-    files = [each for each in folder.rglob("*") if each.is_file() and _is_elf(each)]
+    files = [str(each) for each in folder.rglob("*") if each.is_file() and _is_elf(each)]
     there = {each.name for each in folder.rglob("*.so*")}
-    wanted: set[str] = set()
-    for each in files:
-        said = _said("objdump", "-p", str(each))
-        wanted |= set(re.findall(r"NEEDED +(\S+)", said)) - there
+    wanted = set(re.findall(r"NEEDED +(\S+)", _said("objdump", "-p", *files))) - there
     known = dict(re.findall(r"^\s*(\S+) .*=> (\S+)$", _said("/sbin/ldconfig", "-p"), re.MULTILINE))
-    packages = set()
-    for name in wanted & set(known):
-        place = Path(known[name])
-        for path in (place, place.resolve()):  # /lib is /usr/lib, and dpkg knows one of the two names
-            for candidate in (str(path), str(path).removeprefix("/usr")):
-                found = subprocess.run(  # noqa: S603
-                    ["dpkg", "-S", candidate], capture_output=True, text=True, check=False  # noqa: S607
-                )  # fmt: skip
-                if found.returncode == 0:
-                    packages.add(found.stdout.partition(":")[0])
-    packages.discard("libc6")
-    return [f"libc6 (>= {platform.libc_ver()[1]})", *sorted(packages)]
+    places = {Path(known[name]) for name in wanted & set(known)}
+    # /lib is a link to /usr/lib, and dpkg knows a file by one of the two names.
+    names = {str(path) for place in places for path in (place, place.resolve())}
+    names |= {name.removeprefix("/usr") for name in names}
+    owners = re.findall(r"^([a-z0-9.+-]+)[:,]", _said("dpkg", "-S", *sorted(names)), re.MULTILINE)
+    return [f"libc6 (>= {platform.libc_ver()[1]})", *sorted(set(owners) - {"libc6"})]
 
 
 def _is_elf(file: Path) -> bool:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-
-from contactbench.pipeline.kernel import _cpu
 
 
 @dataclass(frozen=True)
@@ -33,8 +32,9 @@ class Build:
 
 def build() -> Build:
     """Return how the kernel was built, as far as it is known."""
+    beside = import_module("contactbench.pipeline.kernel._cpu").__file__
     try:
-        told = json.loads(Path(_cpu.__file__).with_name("build.json").read_text("utf-8"))
+        told = json.loads(Path(str(beside)).with_name("build.json").read_text("utf-8"))
         return Build(str(told["commit"]), str(told["kind"]))
     except (OSError, ValueError, KeyError, TypeError):  # a kernel that was built by hand has none
         return Build()

@@ -42,7 +42,8 @@ def verification_budget(
         Root mean square between the mesh and the surface that it was made of, m; None: nobody knows.
     """
     points = evidence.points + evidence.errors
-    J = sensitivities(points, evidence.facets, evidence.wrenches[:, :3])
+    normals = evidence.normals if evidence.facets is None else evidence.facets
+    J = sensitivities(points, normals, evidence.wrenches[:, :3])
     by_parameter = J @ prediction_jacobian(evidence.R_WS.transpose(0, 2, 1), evidence.theta)
     if error is None:
         force, torque, kind = DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, "B"

@@ -46,7 +46,6 @@ class TouchEvidence:
     # (n, 3) of these markers, S
     points: Array
     normals: Array
-    facets: Array  # (n, 3) normals where the touches were located, S
     heights: Array  # (n,) of these markers over the mesh, m
     wrenches: Array  # (n, 6) compensated means, S
     R_WS: Array  # (n, 3, 3)
@@ -54,13 +53,25 @@ class TouchEvidence:
     noise: Array  # (6, 6) covariance of such a mean by the sensor's noise alone
     theta: Array  # (12,) parameters of the calibration
     measured: bool = False  # whether the noise is what was seen within the touches, not what somebody said
+    facets: Array | None = (
+        None  # (n, 3) normals where the touches were located, S; None: those of the markers
+    )
 
     def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> TouchEvidence:
         """Return some of the touches, or all in another order."""
         fields = (
-            "errors", "markers", "points", "normals", "facets", "heights", "wrenches", "R_WS", "torques",
-        )  # fmt: skip
-        rows: dict[str, Any] = {name: getattr(self, name)[kept] for name in fields}
+            "errors",
+            "markers",
+            "points",
+            "normals",
+            "heights",
+            "wrenches",
+            "R_WS",
+            "torques",
+            "facets",
+        )
+        given = {name: getattr(self, name) for name in fields}
+        rows: dict[str, Any] = {name: each[kept] for name, each in given.items() if each is not None}
         return replace(self, **rows)
 
     @property

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.motion import MotionChange, MotionChoice
 
 _WIDTH_PX = (320, 420)
+_PACE_PX = 34  # two lines
 _DOES_PX = 40  # two lines
 _REAL = 0.9  # of real time: what is less is seen
 _PERIODS_S = (20.0, 10.0, 5.0, 2.0)
@@ -114,7 +115,8 @@ class MotionControls(QWidget):
         self.state.setAccessibleName(self.tr("Controller state"))
         self.force.setAccessibleName(self.tr("Force"))
         self.angle.setAccessibleName(self.tr("Angle to the phantom"))
-        self.pace = plain_label("", "muted")
+        self.pace = sentence_label(role="muted")  # in one line it would be wider than the panel
+        self.pace.setMinimumHeight(_PACE_PX)
         tip = self.tr(
             "How fast its time goes, against the clock: 1.00 is real time. Measured over the last frames."
         )

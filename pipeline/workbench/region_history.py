@@ -88,7 +88,16 @@ def read_region_steps(folder: Path, regions: str) -> RegionSteps:
             edits.append(_edit(each, faces[begin:end], old[begin:end], new[begin:end]))
             begin = end
         done = int(about["done"])
-    except (OSError, ValueError, KeyError, TypeError, zipfile.BadZipFile, InputError, RecursionError):
+    except (
+        OSError,
+        EOFError,
+        ValueError,
+        KeyError,
+        TypeError,
+        zipfile.BadZipFile,
+        InputError,
+        RecursionError,
+    ):
         return RegionSteps()
     return RegionSteps(tuple(edits[:done]), tuple(edits[done:]))
 

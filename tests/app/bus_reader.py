@@ -1,7 +1,7 @@
 """
 Reads a window through the accessibility bus, as a screen reader does; run by the system's Python, which has pyatspi.
 
-``bus_reader.py PID`` prints what is on the screen as JSON, [role, name, description, actions] each;
+``bus_reader.py PID`` prints what is on the screen as JSON, [role, name, actions] each;
 ``bus_reader.py PID press NAME`` presses the button of a name.
 """
 
@@ -13,6 +13,11 @@ import pyatspi
 from gi.repository import Atspi
 
 _PATIENCE_S = 60.0
+_WHOLE = (  # what lies in them is no part of the page
+    pyatspi.ROLE_TABLE, pyatspi.ROLE_LIST, pyatspi.ROLE_TREE_TABLE, pyatspi.ROLE_COMBO_BOX, pyatspi.ROLE_SPIN_BUTTON,
+    pyatspi.ROLE_PUSH_BUTTON, pyatspi.ROLE_LABEL, pyatspi.ROLE_CHECK_BOX, pyatspi.ROLE_TOGGLE_BUTTON,
+)  # fmt: skip
+_LEFT_OUT = (pyatspi.ROLE_MENU_BAR, pyatspi.ROLE_SCROLL_BAR, pyatspi.ROLE_LABEL)
 Atspi.set_timeout(60_000, 60_000)  # ms: a window that has other things to do answers later
 
 
@@ -30,10 +35,10 @@ def application(pid):
 def walk(node):
     """Yield what is shown, from the outside to the inside."""
     for each in node:
-        if each is None or not each.getState().contains(pyatspi.STATE_SHOWING):
+        if each is None or each.getRole() in _LEFT_OUT or not each.getState().contains(pyatspi.STATE_SHOWING):
             continue
         yield each
-        if each.getRole() not in (pyatspi.ROLE_TABLE, pyatspi.ROLE_LIST, pyatspi.ROLE_TREE_TABLE):
+        if each.getRole() not in _WHOLE and each.childCount:
             yield from walk(each)
 
 
@@ -56,7 +61,9 @@ def main(pid, *asked):
                 each.queryAction().doAction(0)
                 return
         raise SystemExit(f"nothing that can be pressed is called {name!r}")
-    rows = [[each.getRoleName(), each.name, each.description, actions(each)] for each in found]
+    rows = [(each.getRoleName(), each.name, each) for each in found]
+    pressed = ("push button", "check box", "toggle button")
+    rows = [[role, name, actions(each) if role in pressed else []] for role, name, each in rows]
     sys.stdout.write(json.dumps(rows))
 
 

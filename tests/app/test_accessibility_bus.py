@@ -85,7 +85,7 @@ def test_every_control_is_found_through_the_bus_by_name_and_role(pages, page):
     heard = {each[1] for each in read}
     missing = [name for name, _ in pages[page]["there"] if name not in heard]
     assert not missing, "on the screen, and not on the bus"
-    for role, name, _, actions in read:
+    for role, name, actions in read:
         if role in ("push button", "check box", "combo box", "spin button", "text", "slider", "radio button"):
             assert name.strip(), f"a {role} without a name"
         if role in ("push button", "check box"):

@@ -411,13 +411,13 @@ def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
     def full(*_):
         raise SessionError("The disk is full.")
 
-    real = region_autosave.keep
-    monkeypatch.setattr(region_autosave, "keep", full)
+    real = region_autosave.keep_with_steps
+    monkeypatch.setattr(region_autosave, "keep_with_steps", full)
     draw(window, (0, 0, 1))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: "The disk is full." in said(window), timeout=LONG)
     assert window.page.keeper.dirty
-    monkeypatch.setattr(region_autosave, "keep", real)
+    monkeypatch.setattr(region_autosave, "keep_with_steps", real)
     draw(window, (0, 1, 0))
     window.page.keeper.keep_now()
     qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)

@@ -50,7 +50,8 @@ def test_a_touch_is_heard_from_beginning_to_end():
     assert [row.state for row in view.rows] == ["open", "done", "open"]
     assert view.mean_mm == pytest.approx(view.errors_mm[0])
     assert view.sd_mm is None
-    ((start, end),) = view.contacts
+    ((start, end, covariance),) = view.contacts
+    assert covariance.shape == (3, 3)
     assert np.linalg.norm(end - start) * 1e3 == pytest.approx(view.last.size_mm)
 
 

@@ -180,10 +180,10 @@ def test_an_arm_that_does_not_follow_is_held_then_drawn_back(state):
     force = 0.0 if state is ControlState.APPROACH else 7.0
     assert drive(2 * DT, force=force, follows=False, probed=False) is state
     assert drive(2 * DT, force=force, follows=False) is ControlState.HOLD
-    assert "not where it was sent" in drive.reason
+    assert "commanded position" in drive.reason
     assert drive(SETTINGS.give_up + 3 * DT, force=force, follows=False) is ControlState.RETRACT
     assert drive(1.2, force=force, follows=False) is ControlState.SAFE
-    assert "no farther" in drive.reason
+    assert "cannot retract farther" in drive.reason
 
 
 def test_an_arm_that_stays_behind_again_and_again_goes_back():
@@ -264,7 +264,7 @@ def test_back_and_blocked_ends_where_it_is():
     drive = Drive(ControlState.RETRACT)
     assert drive(0.9, last=stuck) is ControlState.RETRACT
     assert drive(0.2, last=stuck) is ControlState.SAFE
-    assert "no farther" in drive.reason
+    assert "cannot retract farther" in drive.reason
 
 
 def test_a_swing_makes_it_stand_still_then_measure_anew():

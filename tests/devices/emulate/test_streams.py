@@ -240,17 +240,17 @@ def test_a_host_that_does_not_read_stops_nothing():
 
 
 def test_what_cannot_be_made_is_refused():
-    with pytest.raises(EmulatorError, match="there are sri"):
+    with pytest.raises(EmulatorError, match=r"Known: .*sri"):
         emulator("other")
-    with pytest.raises(EmulatorError, match="speaks over serial"):
+    with pytest.raises(EmulatorError, match="use serial"):
         emulator("bota", "tcp")
-    with pytest.raises(EmulatorError, match="cannot have it"):
+    with pytest.raises(EmulatorError, match="not available for"):
         emulator("elfin", script=Script([(0, Fault.DRIFT, 1)]))
     with emulator("ur") as device, pytest.raises(EmulatorError, match="choose another"):
         emulator("ur", port=int(device.url.rpartition(":")[2]))
-    with pytest.raises(EmulatorError, match="has none"):
+    with pytest.raises(EmulatorError, match="has no tool option"):
         emulator("elfin", tool=(0.0,) * 6)
-    with pytest.raises(EmulatorError, match="there are: none"):
+    with pytest.raises(EmulatorError, match="Choose from: none"):
         emulator("bota", quirks=["older"])
     assert len(EMULATED) == 6
 

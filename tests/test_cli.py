@@ -440,7 +440,7 @@ def test_wrong_files(bench):
         (["--torque-ratio", "2"], "No such option"),
         (["--noise-force", "nan"], "error: WrenchNoise.force"),
         (["--place", "99999,0,0,0,0,0"], "is 10 m or longer, too long for a mount"),
-        (["--json", "--out", "-"], "--json and --out - both want standard output"),
+        (["--json", "--out", "-"], "--json and --out - both use standard output"),
         (["--unknown"], "No such option"),
     ],
 )

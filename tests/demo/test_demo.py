@@ -245,7 +245,7 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (("--probe", "phased"), "there is no probe 'phased': choose one of linear, convex, t-shape"),
-        (("--touches", 9), "ask for at least 10"),
+        (("--touches", 9), "give at least 10"),
         (("--seed", -1), "the seed must be at least 0, not -1"),
     ],
 )

@@ -78,7 +78,7 @@ def test_the_demo_ends_with_a_bundle_that_is_verified(benched: demo.DemoReport) 
     assert (folder / "runtime" / "report.html").read_bytes() == (folder / "report.html").read_bytes()
     said = " ".join(benched.sentences())
     assert f"convex: verified on {MARKERS} markers: mean 0.1" in said
-    assert "passed (30 touches); the bundle is sound; 3,000 of 3,000 samples located by it" in said
+    assert "passed (30 touches); the bundle is intact; it located 3,000 of 3,000 samples" in said
     assert benched.to_json()["probes"][0]["checked"]["verified"] is True
 
 

@@ -126,7 +126,7 @@ def test_errors_of_a_recording_are_those_of_settled_samples(bench):
     unknown = facts(bench / "contacts.csv", *shared)
     assert unknown["noise"] is None
     assert unknown["contacts"] == N
-    assert "had not settled" in unknown["warnings"][0]
+    assert "unsettled samples" in unknown["warnings"][0]
 
 
 def test_a_session_gives_its_newest_files(bench, tmp_path):

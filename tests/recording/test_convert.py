@@ -77,7 +77,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
             writer.wrench(replace(sample, status=status))
         writer.wrench(WrenchSample(1001.0, (np.nan, 0.0, 0.0), (0.0, 0.0, 0.0)))
     (said,) = write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
-    assert said.startswith("5 readings are left out")
+    assert said.startswith("5 readings left out")
     cells = table(tmp_path / "r.csv")
     assert cells["status"] == ["0", "8"]
     assert "sequence" not in cells

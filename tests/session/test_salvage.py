@@ -291,8 +291,8 @@ def test_a_whole_header_that_is_gone_costs_nothing(folder):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda parts: parts.insert(4, parts[3]), "is there twice"),
-        (lambda parts: parts.insert(8, parts[2]), "is there twice"),
+        (lambda parts: parts.insert(4, parts[3]), "appears twice"),
+        (lambda parts: parts.insert(8, parts[2]), "appears twice"),
         (lambda parts: parts.insert(3, parts.pop(6)), "out of order"),
         (lambda parts: parts.reverse(), "out of order"),
         (lambda parts: parts.insert(5, b"\n"), "damaged"),

@@ -131,7 +131,7 @@ def well_after(device: Emulator) -> int:
 @pytest.mark.parametrize("protocol", SENSORS)
 def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
     if fault not in possible_faults(protocol):
-        pytest.skip(f"{protocol} cannot have it")
+        pytest.skip(f"{protocol} does not have it")
     with device_for(protocol, Script([(0.04, fault, 0.08)])) as device:
         host = Host(device, protocol)
         host.read_until(lambda: well_after(device) >= 20)

@@ -52,7 +52,7 @@ class Entry:
 
 ENTRIES = {
     "demo": Entry(
-        "Begin", f"{_COMMANDS}.demo:demo_app", "Do the whole job on simulated probes, without files"
+        "Begin", f"{_COMMANDS}.demo:demo_app", "Run the whole job on simulated probes, without files"
     ),
     "tutorial": Entry(
         "Begin", f"{_COMMANDS}.demo:tutorial_app", "Write sample data to follow the manual with"
@@ -67,7 +67,7 @@ ENTRIES = {
         "At the bench", f"{_COMMANDS}.calibrate:calibrate_app", "Bias, weight and centre of mass"
     ),
     "probe": Entry(
-        "At the bench", f"{_COMMANDS}.probe:probe_app", "Make a probe of a mesh; its regions and markers"
+        "At the bench", f"{_COMMANDS}.probe:probe_app", "Turn a mesh into a probe; its regions and markers"
     ),
     "verify": Entry(
         "At the bench", f"{_COMMANDS}.verify:verify_app", "Judge contacts by touches of markers; report"
@@ -76,8 +76,8 @@ ENTRIES = {
         "At the bench", f"{_COMMANDS}.session:session_app", "Keep everything about a probe in one folder"
     ),
     "locate": Entry("Use", f"{_COMMANDS}.locate:locate_app", "Locate the contact of each wrench in a file"),
-    "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where on the probe it was touched"),
-    "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare what a robot loads"),
+    "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where the probe was touched"),
+    "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare a robot's bundles"),
     "run": Entry("Use", f"{_COMMANDS}.run:run_app", "Run a bundle on live streams"),
     "bench": Entry("Try", f"{_COMMANDS}.bench:bench_app", "Simulated bench, devices and motion control"),
     "study": Entry(
@@ -163,7 +163,7 @@ def _told(ctx: Any) -> Iterator[None]:
         )
         raise typer.Exit(_WRONG_INPUT) from None
     except KeyboardInterrupt:
-        report_error("interrupted: the command was stopped before its end.", as_json=as_json)
+        report_error("interrupted: the command was stopped before it finished.", as_json=as_json)
         raise typer.Exit(_INTERRUPTED) from None
 
 

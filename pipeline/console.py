@@ -53,7 +53,7 @@ JsonOption = Annotated[
 ]
 QuietOption = Annotated[
     bool,
-    typer.Option("--quiet", "-q", help="Say only warnings and errors.", callback=_hush, is_eager=True),
+    typer.Option("--quiet", "-q", help="Print only warnings and errors.", callback=_hush, is_eager=True),
 ]
 
 

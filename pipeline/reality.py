@@ -29,13 +29,13 @@ class Reality(Settings):
     # What the sensor feels beside the touch and the weight.
     cable: Annotated[float, Field(ge=0, le=20)] = knob(
         0.0,
-        "N: pull of the cable where the tool is turned the other way round from how the cable hangs free.",
+        "N: pull of the cable when the tool is turned away from the cable's free hanging direction.",
     )
     drag: Annotated[float, Field(ge=0, le=1)] = knob(
-        0.0, "share: of the cable's pull, which friction holds, so that it depends on how the tool got there."
+        0.0, "share: of the cable's pull held by friction, so that it depends on the way the tool got there."
     )
     mount: Annotated[float, Field(ge=0, le=100)] = knob(
-        0.0, "mrad/N·m: the probe turns so far against its sensor under a torque."
+        0.0, "mrad/N·m: rotation of the probe against its sensor under a torque."
     )
     second: Annotated[float, Field(ge=0, le=1)] = knob(
         0.0, "share: a second tip presses with this part of the force, 30 mm away."
@@ -43,14 +43,12 @@ class Reality(Settings):
     patch: Annotated[float, Field(ge=0, le=30)] = knob(
         0.0, "mm: radius of a soft pad that presses in place of the tip."
     )
-    lean: Annotated[float, Field(ge=0, le=30)] = knob(
-        0.0, "deg: the pad stands askew on the surface by this."
-    )
+    lean: Annotated[float, Field(ge=0, le=30)] = knob(0.0, "deg: tilt of the pad on the surface.")
     twist: Annotated[float, Field(ge=-1, le=1)] = knob(
-        0.0, "share: of the pad's friction, 0.4 times its pressure, which a twist takes."
+        0.0, "share: of the pad's friction (0.4 times its pressure) used by a twist."
     )
     hand: Annotated[float, Field(ge=0, le=20)] = knob(
-        0.0, "N: an operator's hand pulls at the handle while the probe is pressed, root mean square."
+        0.0, "N: pull of an operator's hand at the handle while the probe is pressed, root mean square."
     )
     # What the sensor makes of it.
     hysteresis: Annotated[float, Field(ge=0, le=5)] = knob(
@@ -60,37 +58,37 @@ class Reality(Settings):
         0.0, "% of the largest load so far: the same, growing with it."
     )
     creep: Annotated[float, Field(ge=0, le=5)] = knob(
-        0.0, "% of a load: what is read in addition once it has stayed for minutes."
+        0.0, "% of a load: added to the reading after the load has stayed for minutes."
     )
     crosstalk: Annotated[float, Field(ge=0, le=10)] = knob(
-        0.0, "% of a channel's load: what shows of it in the others."
+        0.0, "% of a channel's load: crosstalk into the others."
     )
     warming: Annotated[float, Field(ge=-50, le=50)] = knob(
-        0.0, "K: the sensor gets so much warmer after the calibration."
+        0.0, "K: warming of the sensor after the calibration."
     )
     # What the probe is, against what the program is told.
     seat: Annotated[float, Field(ge=0, le=10)] = knob(
-        0.0, "deg: the probe sits turned by this against how it was said to, and shifted by 1 mm per degree."
+        0.0, "deg: error of the probe's declared rotation, with a shift of 1 mm per degree."
     )
     lens: Annotated[float, Field(ge=-3, le=3)] = knob(
-        0.0, "mm: the acoustic face lies so far outside its mesh."
+        0.0, "mm: distance of the acoustic face outside its mesh."
     )
-    scale: Annotated[float, Field(ge=0.9, le=1.1)] = knob(1.0, "times: size of the probe over its mesh.")
-    bend: Annotated[float, Field(ge=0, le=10)] = knob(0.0, "deg: the head is bent against the handle.")
+    scale: Annotated[float, Field(ge=0.9, le=1.1)] = knob(
+        1.0, "times: size of the probe relative to its mesh."
+    )
+    bend: Annotated[float, Field(ge=0, le=10)] = knob(0.0, "deg: bend of the head against the handle.")
     # Where the tip touches.
     markers: Annotated[float, Field(ge=0, le=5)] = knob(
-        0.0, "mm: marked points are off, root mean square in each direction along the surface."
+        0.0, "mm: position error of marked points, root mean square in each direction along the surface."
     )
     tip: Annotated[float, Field(ge=0, le=10)] = knob(
         0.0,
-        "mm: radius of the ball that is aimed at a mark; a leaning one touches beside it by this times sin(tilt).",
+        "mm: radius of the ball aimed at a mark; a tilted one touches beside it by this times sin(tilt).",
     )
     # When samples come.
-    latency: Annotated[float, Field(ge=0, le=500)] = knob(0.0, "ms: wrenches arrive so much later.")
-    jitter: Annotated[float, Field(ge=0, le=100)] = knob(0.0, "ms: and later still by chance, on average.")
-    pose_latency: Annotated[float, Field(ge=0, le=500)] = knob(
-        0.0, "ms: poses are so old under the time that they are given."
-    )
+    latency: Annotated[float, Field(ge=0, le=500)] = knob(0.0, "ms: delay of the wrenches.")
+    jitter: Annotated[float, Field(ge=0, le=100)] = knob(0.0, "ms: additional random delay, on average.")
+    pose_latency: Annotated[float, Field(ge=0, le=500)] = knob(0.0, "ms: age of poses at their stated time.")
 
     @classmethod
     def parse(cls, text: str) -> Self:
@@ -108,9 +106,10 @@ class Reality(Settings):
             name, equals, size = (each.strip() for each in part.partition("="))
             if not equals:
                 if number or name not in MIXES:
-                    what = f"{name!r} stands alone" if number else f"there is no mix {name!r}"
+                    what = f"{name!r} must stand alone" if number else f"there is no mix {name!r}"
                     raise InputError(
-                        f"reality: {what}: begin with one of {', '.join(MIXES)}, and write effects as NAME=SIZE."
+                        f"reality: {what}: start with one of {', '.join(MIXES)}, and write effects"
+                        " as NAME=SIZE."
                     )
                 values = MIXES[name].model_dump()
                 continue
@@ -119,7 +118,7 @@ class Reality(Settings):
                     f"reality: there is no effect {name!r}: choose from {', '.join(cls.model_fields)}."
                 )
             if name in given:
-                raise InputError(f"reality: {name} is there twice: keep one.")
+                raise InputError(f"reality: {name} appears twice: keep one.")
             given.add(name)
             values[name] = _number(name, size)
         try:

@@ -124,8 +124,8 @@ class MountSettings(Settings):
 
     mount: Three | None = knob(
         None,
-        "Orientations are those of the flange, and the sensor is turned on it by these angles about the fixed axes x,"
-        " then y, then z of the flange, degrees.",
+        "Orientations are those of the flange; the sensor is turned on it by these angles about"
+        " the fixed axes x, then y, then z of the flange, degrees.",
         metavar="RX,RY,RZ",
     )
 
@@ -140,8 +140,8 @@ class OrientationSettings(MountSettings):
 
     euler: str | None = knob(
         None,
-        "Orientation is rx,ry,rz: angles about these axes, in the order of the columns; xyz: fixed axes, ZYX: axes that"
-        " turn along.",
+        "Orientation is rx,ry,rz: angles about these axes, in the order of the columns; xyz:"
+        " fixed axes, ZYX: rotating axes.",
         metavar="ORDER",
     )
     rotation_vector: bool = knob(False, "Orientation is rx,ry,rz: axis times angle.")
@@ -169,8 +169,8 @@ class CapturesSettings(PosesSettings):
 
     delay: Annotated[Number | Literal["auto"] | None, BeforeValidator(_delay)] = knob(
         None,
-        "How much later a wrench is heard than its pose in a recording of both; auto: as the motion in it shows. A"
-        " doubtful estimate is told and not applied [0].",
+        "Delay of a wrench after its pose in a recording of both; auto: estimated from the"
+        " motion. A doubtful estimate is reported but not applied [0].",
         metavar="SECONDS|auto",
     )
 
@@ -196,11 +196,11 @@ class NoiseSettings(Settings):
     noise_force: Number | None = knob(
         None, "Standard deviation of a pose's mean force, N [estimated from the poses]."
     )
-    noise_torque: Number | None = knob(None, "The same of its torque, N·m; both or none.")
+    noise_torque: Number | None = knob(None, "The same for its torque, N·m; give both or neither.")
     orientation_noise: Annotated[Number | None, BeforeValidator(_orientation_noise)] = knob(
         None,
-        "How well the orientations are known, 1 sigma about each axis: degrees, or what gives them (robot 0.05, tracker"
-        " 0.2, hand 0.5) [estimated from the poses].",
+        "Uncertainty of the orientations, 1 sigma about each axis: degrees, or their source"
+        " (robot 0.05, tracker 0.2, hand 0.5) [estimated from the poses].",
         metavar="DEGREES|robot|tracker|hand",
     )
 
@@ -215,8 +215,8 @@ class DownSettings(Settings):
 
     down: Three = knob(
         (0.0, 0.0, -1.0),
-        "Where gravity points in the world frame of the orientations, of any length; 0,0,1 for a robot that hangs from"
-        " the ceiling and gives its poses in its base's frame.",
+        "Direction of gravity in the world frame of the orientations, of any length; 0,0,1 for a"
+        " robot that hangs from the ceiling and reports poses in its base frame.",
         metavar="X,Y,Z",
     )
 
@@ -225,7 +225,7 @@ class DownSettings(Settings):
         """The same as a unit vector in W; InputError if it has no direction."""
         length = math.hypot(*self.down)
         if not length > 0:
-            raise InputError("--down has no direction: give where gravity points, such as 0,0,-1.")
+            raise InputError("--down has no direction: give the direction of gravity, such as 0,0,-1.")
         x, y, z = self.down
         return x / length, y / length, z / length
 
@@ -243,14 +243,14 @@ class CalibrationSettings(PosesSettings, NoiseSettings, DownSettings, TaskSettin
     """How a calibration is made from still poses."""
 
     estimate_mount: bool = knob(
-        False, "Orientations are those of the flange, and how the sensor is turned on it is unknown."
+        False, "Orientations are those of the flange, and the rotation of the sensor on it is unknown."
     )
 
     @property
     def R_ES(self) -> NDArray[np.float64] | None:
         """(3, 3) orientation of the sensor on the flange; None: nobody said. InputError if it is to be estimated."""
         if self.mount is not None and self.estimate_mount:
-            raise InputError("--mount and --estimate-mount contradict each other: give one.")
+            raise InputError("--mount and --estimate-mount contradict each other: give only one.")
         return super().R_ES
 
 
@@ -266,28 +266,28 @@ class WeightSettings(PosesSettings):
     )
     certificate: str = knob("", "Number of the weight's certificate.")
     gravity: Number | None = knob(None, "Local acceleration of free fall, m/s² [9.80665 ± 0.015].")
-    limit: Positive = knob(1.0, "Largest error of scale that passes, %.")
+    limit: Positive = knob(1.0, "Largest scale error that passes, %.")
     reach: Positive = knob(500.0, "Largest plausible distance of the weight's string from the sensor, mm.")
 
 
 class TouchSettings(PosesSettings):
     """How a press on a known point is judged."""
 
-    point_sigma: NotNegative = knob(2.0, "How well the point is hit, 1 sigma, mm.")
+    point_sigma: NotNegative = knob(2.0, "Accuracy of hitting the point, 1 sigma, mm.")
     limit: Positive = knob(5.0, "Largest error that passes, mm.")
 
 
 class VerificationSettings(OrientationSettings):
     """How touches of markers are judged."""
 
-    samples: int = knob(50, "Samples of each touch, once it has settled.")
-    repeats: int = knob(1, "Accepted touches wanted of each marker.")
+    samples: int = knob(50, "Samples per touch, once it has settled.")
+    repeats: int = knob(1, "Accepted touches needed per marker.")
     touch_force: Positive | None = knob(None, "A touch begins at this |F|, N [2, less for windows below].")
     release_force: Positive | None = knob(None, "A touch ends below this |F|, N [1, less for windows below].")
     mean_limit_mm: Positive = knob(1.0, "Largest mean error, mm.", option="--limit-mean")
     max_limit_mm: Positive = knob(2.0, "Largest error, mm.", option="--limit-max")
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
-    noise_torque: Positive | None = knob(None, "The same of a torque, N·m.")
+    noise_torque: Positive | None = knob(None, "The same for a torque, N·m.")
     seed: int = knob(0, "Seed of the bootstrap.")
 
 
@@ -324,12 +324,13 @@ class ProbeSettings(Settings):
     """How a probe is made of a mesh file."""
 
     units: Literal["auto", "mm", "m", "cm", "in"] = knob(
-        "auto", "Unit of the file's numbers; auto guesses from its size and says why."
+        "auto", "Unit of the file's numbers; auto guesses it from the size and says why."
     )
     close: tuple[Literal["auto", "fair", "ruled", "hull", "open"], ...] = knob(
         (),
-        "How to close the openings, largest first, once for each; the last one counts for the others. fair: least"
-        " bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]",
+        "How to close the openings, largest first, one entry each; the last entry applies to all"
+        " others. fair: least bending. ruled: straight lines between the long rims. hull: no"
+        " dent. open: leave it. [auto]",
     )
     alpha: float | None = knob(None, "Size of the shell's facets, mm [1/190 of the size].")
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
@@ -341,12 +342,12 @@ class ProbeSettings(Settings):
         option="--place",
     )
     facets: int | None = knob(None, "Facets to keep.")
-    max_deviation: float | None = knob(None, "Or: as few as stay within this of the shell, mm.")
+    max_deviation: float | None = knob(None, "Or: as few as stay within this distance of the shell, mm.")
     max_contact_error: float | None = knob(
         None, "Or: as few as move 95 % of contacts by less than this, mm [0.1]."
     )
-    forces: tuple[float, float] = knob((8.0, 10.0), "Forces of touches to expect, N.", metavar="LOW,HIGH")
+    forces: tuple[float, float] = knob((8.0, 10.0), "Expected touch forces, N.", metavar="LOW,HIGH")
     engine: Literal["auto", "fast-simplification", "meshlab", "best"] = knob(
-        "auto", "Of earlier versions; without effect.", hidden=True
+        "auto", "From earlier versions; has no effect.", hidden=True
     )
-    region_ratio: float = knob(1.0, "Facets per area in regions, over that in the rest.")
+    region_ratio: float = knob(1.0, "Facet density in regions relative to the rest.")

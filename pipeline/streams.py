@@ -164,7 +164,7 @@ class Pair:
         """
         if isinstance(self.sensor, SourceStream):
             return self.sensor.step(count)
-        raise RuntimeError("only a replay or a virtual bench goes by steps: open it with ?speed=step")
+        raise RuntimeError("only a replay or a virtual bench can be stepped: open it with ?speed=step")
 
     def now(self) -> float:
         """Return the present time on the samples' clock, s."""
@@ -259,12 +259,13 @@ def _parsed(address: DeviceAddress | str) -> DeviceAddress:
 def _check_kinds(sensor: DeviceAddress | None, poses: DeviceAddress | None) -> None:
     if sensor is not None and not sensor.gives_wrenches:
         raise AddressError(
-            f"address {str(sensor)!r}: it is no force/torque sensor: give the address of one, or of a recording."
+            f"address {str(sensor)!r}: not a force/torque sensor: give the address of a sensor or"
+            " of a recording."
         )
     if poses is not None and not poses.gives_poses:
         raise AddressError(
-            f"address {str(poses)!r}: it gives no poses: give the address of a robot, a recording, poses:///file.csv"
-            " or still://?rpy=0,0,0."
+            f"address {str(poses)!r}: it provides no poses: give the address of a robot, a"
+            " recording, poses:///file.csv or still://?rpy=0,0,0."
         )
 
 
@@ -275,16 +276,16 @@ def _check_clock(sensor: DeviceAddress, poses: DeviceAddress) -> None:
     )
     if (stepped or all(virtual)) and str(sensor) != str(poses):
         raise AddressError(
-            f"address {str(poses)!r}: it is another bench or another clock than the sensor's: give"
-            f" {str(sensor)!r} for both."
+            f"address {str(poses)!r}: not the sensor's bench or clock: give {str(sensor)!r} for both."
         )
     recorded = [address.protocol is Protocol.REPLAY for address in (sensor, poses)]
     if poses.protocol in _TRACKS or not any(recorded):
         return
     if not all(recorded):
         raise AddressError(
-            f"address {str(poses)!r}: a recording and a device are on different clocks: give the same recording for"
-            " sensor and poses, still:// or poses:// beside it, or two devices."
+            f"address {str(poses)!r}: a recording and a device have different clocks: give the"
+            " same recording for sensor and poses, still:// or poses:// beside it, or two"
+            " devices."
         )
     if Path(sensor.path) != Path(poses.path) or sensor.speed != poses.speed:
         raise AddressError(

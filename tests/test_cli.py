@@ -465,8 +465,8 @@ def test_wrong_files(bench):
         (["--model-torque", "-1"], "error: WrenchNoise.torque"),
         (["--torque-ratio", "2"], "No such option"),
         (["--noise-force", "nan"], "error: WrenchNoise.force"),
-        (["--place", "99999,0,0,0,0,0"], "is 10 m or longer, which no mount is"),
-        (["--json", "--out", "-"], "--json and --out - both want standard output"),
+        (["--place", "99999,0,0,0,0,0"], "is 10 m or longer, too long for a mount"),
+        (["--json", "--out", "-"], "--json and --out - both use standard output"),
         (["--unknown"], "No such option"),
     ],
 )

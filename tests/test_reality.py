@@ -50,7 +50,7 @@ def test_effects_are_taken_alone_and_away() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("good", "there is no mix 'good': begin with one of ideal, typical, harsh"),
+        ("good", "there is no mix 'good': start with one of ideal, typical, harsh"),
         ("typical,harsh", "'harsh' stands alone"),
         ("cables=1", "there is no effect 'cables': choose from cable, drag"),
         ("cable=much", "cable 'much': give a number, N"),

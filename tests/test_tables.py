@@ -154,7 +154,7 @@ REFUSED = {
         "found: x, (no name), z. Name the columns x,y,z and qw,qx,qy,qz or rx,ry,",
     ),
     "meaning": (table("x", "1"), "or rx,ry,rz: lengths in m, angles in degrees."),
-    "no-header": (table(GOOD), "The first line holds numbers: put the header x,y,z and"),
+    "no-header": (table(GOOD), "The first line contains numbers: put the header x,y,z and"),
     "semicolons": (table(HEADER.replace(",", ";")), "Separate the columns with commas"),
     "twice": (table("x,x,y,z,rx,ry,rz", GOOD), "line 1: column x occurs 2 times: keep one"),
     "text": (table(HEADER, GOOD, "1,2,3,4,5,six"), "line 3: column rz holds 'six', which is not a number"),
@@ -162,12 +162,15 @@ REFUSED = {
     "nan": (table(HEADER, GOOD, "1,2,nan,4,5,6"), "line 3: column z holds nan: remove the pose."),
     "inf": (table(HEADER, "1,2,3,4,5,-1e999"), "line 2: column rz holds -inf: remove the pose."),
     "few": (table(HEADER, GOOD, "1,2"), "line 3: 2 cells, but the header has 6: complete the row"),
-    "many": (table(HEADER, GOOD + ",7"), "line 2: 7 cells, but the header has 6: remove what is too much"),
-    "quote": (table(HEADER, GOOD, '1,2,3,4,5,"6'), "line 3: the cells cannot be told apart"),
-    "return": (table(HEADER, GOOD, "\r" + GOOD), "line 3: the cells cannot be told apart"),
+    "many": (table(HEADER, GOOD + ",7"), "line 2: 7 cells, but the header has 6: remove the surplus"),
+    "quote": (table(HEADER, GOOD, '1,2,3,4,5,"6'), "line 3: the cells cannot be separated"),
+    "return": (table(HEADER, GOOD, "\r" + GOOD), "line 3: the cells cannot be separated"),
     "latin": (table(HEADER, GOOD).encode() + b"\xb5,2,3,4,5,6\n", "line 3: this is not UTF-8 text: save"),
     "binary": (table(HEADER, GOOD).encode() + bytes(9), "line 3: this is not UTF-8 text"),
-    "huge-line": (b"1" * (2**20 + 1), "a line is longer than 1 MiB: this is not a CSV file of poses."),
+    "huge-line": (
+        b"1" * (2**20 + 1),
+        "a line is longer than 1 MiB, so this is not a CSV file of poses: choose another.",
+    ),
 }
 
 

@@ -27,7 +27,7 @@ def pose_noise(given: NoiseSettings) -> PoseNoise | None:
     """Return the noise of a pose's mean; None: it is estimated from the poses. InputError where one is missing."""
     force, torque = given.noise_force, given.noise_torque
     if (force is None) != (torque is None):
-        raise InputError("--noise-force and --noise-torque: give both or none.")
+        raise InputError("Give both --noise-force and --noise-torque, or neither.")
     return None if force is None or torque is None else PoseNoise(force, torque)
 
 

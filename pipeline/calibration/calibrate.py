@@ -151,12 +151,12 @@ class Findings:
 
 @dataclass(frozen=True, eq=False)
 class Calibration(Findings):
-    """Findings, judged.
+    """Findings with a verdict.
 
     Attributes
     ----------
     verdict : Verdict
-        Whether they may be used.
+        Whether the calibration may be used.
     """
 
     verdict: Verdict = field(kw_only=True)
@@ -192,20 +192,20 @@ def calibrate(
 
     Two-stage least squares, then joint maximum likelihood of all twelve parameters (mathematics of Cao et
     al. 2023, Eq. 1-2, without the noise in the regressor), with the noise of readings and orientations. Bumped
-    poses, drift, a re-zero, a cable, a turned mount and wrong noise figures are compared (`comparison`); what is
-    found is told, and drift and re-zeros are taken out.
+    poses, drift, a re-zero, a cable, a turned mount and wrong noise figures are compared (`comparison`) and
+    reported; drift and re-zeros are removed.
 
     Parameters
     ----------
     poses : sequence of PoseSample
-        At least three; eight or more let bumped ones be named with certainty.
+        At least three; with eight or more, bumped poses can be named with certainty.
     noise : PoseNoise, optional
-        Of a pose's mean. Left out: estimated from the residuals, and at least what the scatter within the
-        poses says.
+        Noise of a pose's mean. Default: estimated from the residuals, and at least the scatter within the
+        poses.
     orientation_sigma : float, optional
-        1 sigma of the poses' orientations about each axis, rad. Left out: estimated, around what a robot has.
+        1 sigma of the poses' orientations about each axis, rad. Default: estimated, starting from a robot's.
     down_W : (3,)
-        Where gravity points in W, roughly; its length does not matter.
+        Approximate direction of gravity in W, of any length.
     task : ContactTask, optional
         The touches that the calibration is for.
     limits : Limits, optional
@@ -216,7 +216,7 @@ def calibrate(
     Returns
     -------
     Calibration
-        Also for poses that are too few or too alike: then its verdict is to refuse it, in words.
+        Also for poses that are too few or too similar; its verdict then refuses it and gives the reasons.
 
     Raises
     ------
@@ -227,8 +227,8 @@ def calibrate(
     """
     if len(poses) < 3:
         raise PoseError(
-            f"{len(poses)} poses: twelve unknowns need at least three poses with different tilts, and five or"
-            " more to check them against one another."
+            f"{len(poses)} poses are too few. Twelve unknowns need at least three poses with"
+            " different tilts; checking them against one another needs five or more."
         )
     down = direction(down_W)
     compared = compare(stack(poses), NoisePrior.of(poses, noise, orientation_sigma), down)
@@ -330,8 +330,8 @@ def direction(down_W: ArrayLike) -> NDArray[np.float64]:
         down = np.zeros(0)
     if down.shape != (3,) or not np.isfinite(down).all() or not down.any():
         raise InputError(
-            f"down_W is {np.array(down_W).tolist()!r}: give where gravity points in the world frame, three finite"
-            " numbers that are not all 0, such as 0,0,-1"
+            f"down_W is {np.array(down_W).tolist()!r}: give the direction of gravity in the world"
+            " frame, three finite numbers that are not all 0, such as 0,0,-1"
         )
     down /= np.abs(down).max()
     return np.asarray(down / np.linalg.norm(down), dtype=np.float64)

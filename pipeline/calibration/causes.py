@@ -127,18 +127,19 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
             return _rezero(candidate, poses, compared)
         case nuisance.CABLE:
             return (
-                f"Something pulls with the orientation otherwise than a weight does, by up to"
-                f" {_sizes(fit.offsets)}: a cable or a hose, or a sensor whose axes differ in gain. Loosen what"
-                " leads to the tool, fix it to the flange, and take the poses again."
+                f"A pull of up to {_sizes(fit.offsets)} changes with the orientation, but not as a"
+                " weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen"
+                " the cables and hoses, fix them to the flange, and retake the poses."
             )
         case nuisance.MOUNT:
             turn = Rotation.from_matrix(fit.mount).as_rotvec()
             angle = float(np.linalg.norm(turn))
             axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
             return (
-                f"The sensor looks turned by {np.degrees(angle):.2g}° about ({axis}) from where it was said to be on"
-                f" its mount: so turned, the forces' residuals fall from {plain(_left(compared.plain, arrays))} to"
-                f" {plain(_left(candidate, arrays))} N. Calibrate with --estimate-mount, or correct the mounting."
+                f"The sensor seems to be turned by {np.degrees(angle):.2g}° about ({axis}) from"
+                " its declared mounting: with that corrected, the force residuals fall from"
+                f" {plain(_left(compared.plain, arrays))} to {plain(_left(candidate, arrays))} N."
+                " Calibrate with --estimate-mount, or correct the mounting."
             )
         case "noise":
             given = candidate.prior.sigmas
@@ -146,13 +147,14 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
             scatter, said = candidate.noisy.noise.orientation, candidate.prior.orientation
             if said and not candidate.prior.guessed and abs(np.log(scatter / said)) > _OFF:
                 return (
-                    f"The orientations scatter by {np.degrees(scatter):.2g}°, not by"
-                    f" {np.degrees(said):.2g}° as was given: every uncertainty is computed from"
-                    " what the poses show."
+                    f"The orientations scatter by {np.degrees(scatter):.2g}°, not by the specified"
+                    f" {np.degrees(said):.2g}°. All uncertainties are computed from the scatter of"
+                    " the poses."
                 )
             return (
-                f"The residuals are {plain(factors[0])} times what the noise given explains for forces and"
-                f" {plain(factors[1])} times for torques: every uncertainty is computed from what the poses show."
+                f"The residuals are {plain(factors[0])} times (forces) and {plain(factors[1])}"
+                " times (torques) what the specified noise explains. All uncertainties are"
+                " computed from the scatter of the poses."
             )
         case _:
             return "Bias, weight and noise alone explain the poses."
@@ -170,10 +172,11 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
     rate = ""
     if arrays.duration is not None:
         F, M = (np.linalg.norm(half) for half in np.split(fit.added[:6] * _HOUR / arrays.duration, 2))
-        rate = f", at the end by {plain(float(F))} N and {plain(1e3 * float(M))} mN·m an hour"
+        rate = f", {plain(float(F))} N and {plain(1e3 * float(M))} mN·m per hour at the end"
     return (
-        f"The bias drifts: by {_sizes(whole[None])} from the first pose to the last{rate}. It has been taken out, and"
-        " the bias is that of the session's end. Let the sensor warm up, and calibrate again before it counts."
+        f"The bias drifts by {_sizes(whole[None])} from the first pose to the last{rate}. The"
+        " drift has been removed, and the bias is that at the end of the session. Let the sensor"
+        " warm up, and recalibrate before you rely on it."
     )
 
 
@@ -187,8 +190,9 @@ def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseCo
     likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
     names = " or ".join(named(poses, _at(compared.poses, moment)) for moment in sorted(likely))
     return (
-        f"The sensor's zero jumped by {_sizes(candidate.noisy.fit.added[None])} before {names}, as after a re-zero."
-        " The bias is that of the poses since then. Keep the sensor from being zeroed while poses are taken."
+        f"The sensor's zero jumped by {_sizes(candidate.noisy.fit.added[None])} before {names}, as"
+        " after a re-zero. The bias is that of the poses since then. Do not zero the sensor while"
+        " taking poses."
     )
 
 

@@ -41,7 +41,7 @@ def length(v: NDArray[np.float64]) -> float:
 
 @dataclass(frozen=True, eq=False)
 class GravityModel:
-    """What a still sensor with a load reads when nothing touches it.
+    """The reading of a still, untouched sensor with a load.
 
         F = R_SW g_W + F0,    M = L_S x (R_SW g_W) + M0
 
@@ -52,7 +52,7 @@ class GravityModel:
     gravity_W : array_like (3,)
         Weight of the load as a vector in the world frame W (z up), N: downwards, so z is negative.
     force_bias, torque_bias : array_like (3,)
-        F0, M0: what the sensor reads without load, S, N and N·m about the sensor origin.
+        F0, M0: the sensor's reading without load, S, N and N·m about the sensor origin.
     centre_of_mass_S : array_like (3,)
         L: from the sensor origin to the load's centre of mass, S, m.
     covariance : array_like (12, 12), optional
@@ -100,7 +100,7 @@ class GravityModel:
         return float(np.sqrt(max(float(g @ C @ g), 0.0))) / size / STANDARD_GRAVITY
 
     def predict(self, R_WS: ArrayLike) -> NDArray[np.float64]:
-        """Return what the untouched sensor reads at orientations R_WS.
+        """Return the reading of the untouched sensor at orientations R_WS.
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class GravityModel:
         return np.concatenate([weight_S + self.force_bias, torque + self.torque_bias], axis=-1)
 
     def compensate(self, R_WS: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
-        """Return what the tissue does to the probe: the reading without bias and weight (Eq. 1).
+        """Return the force and torque of the tissue on the probe: the reading without bias and weight (Eq. 1).
 
         Parameters
         ----------

@@ -133,8 +133,8 @@ def estimate_mount(
     """
     if len(poses) < 4:
         raise PoseError(
-            f"{len(poses)} poses: fifteen unknowns need at least four poses that tilt about two axes, and six or"
-            " more to check them against one another."
+            f"{len(poses)} poses are too few. Fifteen unknowns need at least four poses that tilt"
+            " about two axes; checking them against one another needs six or more."
         )
     flange, down = stack(poses), direction(down_W)
     prior = NoisePrior.of(poses, noise, orientation_sigma)
@@ -323,18 +323,20 @@ def see(
     parameters = observe(R_SW, fit.theta[GRAVITY], weighs=weighs)
     values, vectors = np.linalg.eigh(fit.covariance[ROTATION, ROTATION])
     worst, axis = float(np.sqrt(values[-1])), named_axes(R_SE.T @ vectors[:, -1:])
-    known = f"The mount's rotation about {axis} is known to {np.degrees(worst):.1f}° (1 sigma) only"
+    known = f"The mount's rotation about {axis} is known only to {np.degrees(worst):.1f}° (1 sigma)"
     if blind.shape[1]:
         grave = blind_words(R_EW, R_SE.T @ blind)
     elif not felt:
         grave = (
-            "The weight is too small to show a rotation: the forces do not follow the orientations beyond"
-            " their noise. Hang a heavier load on the sensor, or average each pose for longer."
+            "The weight is too small to show a rotation: the forces do not follow the"
+            " orientations beyond their noise. Mount a heavier load, or average each pose for"
+            " longer."
         )
     elif worst > _UNSURE:
         grave = (
-            f"{known}; more than {np.degrees(_UNSURE):.0f}° is refused. The weight is too small, or the poses tilt"
-            " too little, for this noise: take more poses that tilt up to 90° about two axes, or a heavier load."
+            f"{known}; more than {np.degrees(_UNSURE):.0f}° is refused. For this noise the weight"
+            " is too small, or the tilts are: take more poses, tilted up to 90° about two axes,"
+            " or mount a heavier load."
         )
     else:
         grave = ""
@@ -410,16 +412,19 @@ def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64]) -> str:
     remedy = "Tilt the wrist up to 90° about two axes"
     if axes_E.shape[1] == 3:
         return (
-            "Gravity has nearly the same direction in the flange in every pose, so the forces say nothing of how"
-            f" the sensor is mounted. {remedy}."
+            "Gravity has nearly the same direction in the flange in every pose, so the forces do"
+            f" not show how the sensor is mounted. {remedy}."
         )
     if about[1] < _ONE_AXIS * about[0]:
-        why = "all poses turn about one axis"
+        why = "all poses rotate about one axis"
         remedy = "Tilt the wrist about another axis too"
     else:
-        why = f"the poses, within {spread:.0f}° of one another, are too much alike"
-        remedy += ", and turn it about the vertical as well"
-    return f"The mount's rotation about {named_axes(axes_E)} cannot be told from a tilt of the base: {why}. {remedy}."
+        why = f"the poses, all within {spread:.0f}° of one another, are too similar"
+        remedy += ", and also turn it about the vertical"
+    return (
+        f"The mount's rotation about {named_axes(axes_E)} cannot be distinguished from a tilt of the"
+        f" base: {why}. {remedy}."
+    )
 
 
 def named_axes(axes_E: NDArray[np.float64]) -> str:
@@ -455,15 +460,16 @@ def verdict(findings: Findings, sight: Sight, agree: bool, limits: Limits) -> Ve
     kept, n = int(findings.kept.sum()), len(findings.poses)
     if kept < n and (kept < _FEWEST_IN or n - kept > _MOST_OUT * n):
         grave.append(
-            f"Only {kept} of {n} poses agree, which fifteen unknowns can do by chance. Either most captures were"
-            " disturbed (take them again), or the orientations are in another convention than was said."
+            f"Only {kept} of {n} poses agree, which can be chance with fifteen unknowns. Either"
+            " most captures were disturbed (retake them), or the orientations follow another"
+            " convention than declared."
         )
     if core.level is Level.REFUSE:
         grave += core.reasons
     if findings.gravity_W @ findings.down_W < 0 and core.level is Level.REFUSE:
         grave.append(
-            "With an unknown mount, a sensor frame with one axis of the wrong sign (a left-handed frame) looks"
-            " like gravity that points up, too."
+            "With an unknown mount, a left-handed sensor frame (one axis with the wrong sign)"
+            " also looks like gravity that points up."
         )
     if grave:
         return Verdict(Level.REFUSE, tuple(grave))

@@ -74,7 +74,8 @@ class Convention:
             or not one_case
         ):
             raise InputError(
-                f"Euler order {self.order!r}: give three axes, such as xyz (fixed axes) or ZYX (axes that turn along)"
+                f"Euler order {self.order!r}: give three axes, such as xyz (fixed axes) or ZYX"
+                " (rotating axes)"
             )
 
     @property
@@ -101,7 +102,7 @@ def convention_of(given: OrientationSettings) -> Convention | None:
     ways = {"euler": given.euler, "rotation-vector": given.rotation_vector, "robot": robot}
     chosen = [f"--{name}" for name, said in ways.items() if said]
     if len(chosen) > 1:
-        raise InputError(f"{' and '.join(chosen)} contradict each other: give one.")
+        raise InputError(f"{' and '.join(chosen)} contradict each other: give only one.")
     if given.euler:
         return Convention(Kind.EULER, order=given.euler, degrees=degrees, inverse=inverse)
     if given.rotation_vector:

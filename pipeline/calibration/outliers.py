@@ -289,5 +289,5 @@ def rejection(
     if torque >= limit(len(poses)):
         both.append(f"torque {torque:.1f} sigma ({plain(1e3 * size_M)} mN·m) off")
     what = " and ".join(both) or "least like the others"
-    reason = f"{what} what the other poses predict: bumped, touched, or captured while moving."
+    reason = f"{what} from the prediction of the other poses: bumped, touched, or captured while moving."
     return Rejection(index, named(poses, index), force, torque, reason)

@@ -25,7 +25,7 @@ class Parameters(Settings):
         given = super().checked(values)
         if not given.name.endswith(cls.endings) or "/" in given.name or "\\" in given.name:
             raise InputError(
-                f"{given.name}: a result of this kind is a file whose name ends in {' or '.join(cls.endings)}."
+                f"{given.name}: the name of a result of this kind must end in {' or '.join(cls.endings)}."
             )
         return given
 
@@ -33,9 +33,9 @@ class Parameters(Settings):
 def check_roles(inputs: Mapping[str, Path], needed: Collection[str], optional: Collection[str] = ()) -> None:
     """InputError if an input that is needed is missing, or there are strangers."""
     if not set(needed) <= set(inputs) <= {*needed, *optional}:
-        may = f", and perhaps {', '.join(optional)}" if optional else ""
+        may = f", optionally also {', '.join(optional)}" if optional else ""
         raise InputError(
-            f"inputs: {', '.join(needed)} are needed{may}; there are {', '.join(inputs) or 'none'}."
+            f"inputs: {', '.join(needed)} are needed{may}; {', '.join(inputs) or 'none'} are given."
         )
 
 

@@ -26,14 +26,14 @@ class PoseError(InputError):
 
 @dataclass(frozen=True, eq=False)
 class PoseSample:
-    """One still, contact-free pose: where the sensor was and what it read on average.
+    """One still, contact-free pose: orientation and mean reading of the sensor.
 
     Parameters
     ----------
     R_WS : array_like (3, 3)
         Orientation of the sensor frame S in the world W (z up): ``v_W = R_WS @ v_S``.
     force, torque : array_like (3,)
-        Mean reading in S, N and N·m about the sensor origin, as the sensor gives it: with bias and weight.
+        Mean raw reading in S, N and N·m about the sensor origin, with bias and weight.
     count : int
         Samples averaged.
     force_sd, torque_sd : array_like (3,), optional
@@ -41,14 +41,14 @@ class PoseSample:
     temperature : float, optional
         Of the sensor, degrees Celsius.
     time : float, optional
-        s, from any beginning that all poses share.
+        s, from any start that all poses share.
     name : str
-        What messages call it; empty: its number, from 1.
+        Name in messages; empty: its number, from 1.
 
     Raises
     ------
     PoseError
-        A value is not finite or not plausible, a shape is wrong, or R_WS is no rotation.
+        A value is not finite or not plausible, a shape is wrong, or R_WS is not a rotation.
     """
 
     R_WS: NDArray[np.float64]
@@ -95,7 +95,7 @@ class PoseSample:
                 f"R_WS must be a finite (3, 3) rotation, not shape {R.shape} with {R.ravel()[:3]}..."
             )
         if np.abs(R.T @ R - np.eye(3)).max() > _ROTATION_TOLERANCE:
-            raise self._error("R_WS is no rotation: its columns are not unit vectors at right angles")
+            raise self._error("R_WS is not a rotation: its columns are not unit vectors at right angles")
         U, _, Vt = np.linalg.svd(R)  # the nearest rotation: typed digits are rounded
         R = U @ Vt
         if np.linalg.det(R) < 0:

@@ -174,10 +174,12 @@ def describe(R_WS: NDArray[np.float64], down_W: ArrayLike = DOWN_W) -> str:
     side = int(np.argmax(np.abs(down_S)))
     name = f"{'-' if down_S[side] < 0 else '+'}{'xyz'[side]}"
     lean = float(np.degrees(np.arccos(np.clip(np.abs(down_S[side]), -1, 1))))
-    lowest = f"its {name} axis lowest ({lean:.0f}° from straight down)"
+    lowest = f"the {name} axis lowest ({lean:.0f}° from straight down)"
     if tilt < 1:
         return "sensor z straight down"
     if tilt > 179:
         return "sensor z straight up"
     bearing = np.degrees(np.arctan2(z_W[1], z_W[0])) % 360
-    return f"sensor z {tilt:.0f}° from straight down, towards {bearing:.0f}° from the world's x; {lowest}"
+    return (
+        f"sensor z {tilt:.0f}° from straight down, bearing {bearing:.0f}° from the world's x axis; {lowest}"
+    )

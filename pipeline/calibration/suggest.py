@@ -271,7 +271,8 @@ def _newest_good(errors: NDArray[np.float64], reachable: Reachable, taken: NDArr
         if reachable.obstacle(None, index) is None:
             return int(index)
     raise InputError(
-        "no candidate can be reached by a straight joint move from here: move the robot to a freer place first"
+        "no candidate can be reached from here by a straight joint move: first move the robot to"
+        " a clearer position"
     )
 
 
@@ -307,7 +308,7 @@ def _nearest_next(first: NDArray[np.float64], between: NDArray[np.float64]) -> t
 def _gain(before: float, after: float) -> str:
     """Say what a pose gains; an error far beyond a probe's size only means that something is still unknown."""
     if after > _UNDETERMINED:
-        return "It alone does not settle it: the contact stays undetermined until another pose follows."
+        return "This pose alone is not enough: the contact stays undetermined until another pose follows."
     now = f"{plain(1e3 * before)} mm" if before < _UNDETERMINED else "not determined yet"
     return f"The calibration's share of the contact error: {now} -> {plain(1e3 * after)} mm (1 sigma, worst case)."
 

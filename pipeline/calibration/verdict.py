@@ -94,7 +94,7 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
     slight = _slight(findings, limits, error)
     if slight:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))
-    good = f"{error}; {1e3 * limits.good_error:g} mm is the limit for good."
+    good = f"{error}; the limit for good is {1e3 * limits.good_error:g} mm. No action needed."
     return Verdict(Level.GOOD, (good, *_possible(findings)))
 
 
@@ -117,7 +117,7 @@ def _possible(findings: Findings) -> list[str]:
     return [
         cause.sentence  # a diagnosis says itself how probable it is
         if cause.diagnosed
-        else f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
+        else f"Possible, with a probability of {100 * cause.odds:.0f} %: {cause.sentence}"
         for cause in findings.causes
         if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
     ] + [
@@ -136,8 +136,8 @@ def _tilted(findings: Findings) -> list[str]:
     if angle < _LEVEL or size < _SURELY * sigma or not findings.observability.weighs:
         return []
     sentence = (
-        f"Gravity comes out {angle:.1f}° from down: the base is not level, or something pulls that way all the time,"
-        " such as a cable, which would count as weight."
+        f"Gravity is {angle:.1f}° off vertical: the base is not level, or something such as a"
+        " cable pulls sideways all the time and counts as weight. Check the base and the cables."
     )
     return [sentence]
 
@@ -147,38 +147,40 @@ def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[
     told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in findings.causes)
     if not agree:
         words.append(
-            "No majority of the poses agrees with one gravity model. Either the orientations are in another"
-            " convention than was said (contactbench calibrate diagnose tells), or most captures were disturbed."
+            "No majority of the poses fits one gravity model. Either the orientations follow"
+            " another convention than declared (run contactbench calibrate diagnose), or most"
+            " captures were disturbed."
         )
     if _restless(findings):
         words.append(
-            "The poses disagree by far more than the readings within each of them scatter. Either the"
-            " orientations are in another convention than was said (contactbench calibrate diagnose tells), or captures"
-            " were disturbed."
+            "The poses disagree far more than the readings scatter within each of them. Either"
+            " the orientations follow another convention than declared (run contactbench"
+            " calibrate diagnose), or captures were disturbed."
         )
     elif min(findings.noise_factor) > _ABSURD and not told:
         words.append(
-            f"The residuals are {max(findings.noise_factor):.0f} times what the noise given explains: check how the"
-            " orientations are written (contactbench calibrate diagnose), and that nothing touched the tool."
+            f"The residuals are {max(findings.noise_factor):.0f} times what the specified noise"
+            " explains. Check the convention of the orientations (contactbench calibrate"
+            " diagnose), and that nothing touched the tool."
         )
     if same_readings(findings):
         words.append(
-            "Every pose has the same reading to the last digit, though the tool stood differently: the sensor does not"
-            " answer. Check its cable and its power."
+            "Every pose has exactly the same reading although the tool was turned: the sensor is"
+            " not responding. Check its cable and its power."
         )
     sight = findings.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
     elif sight.weighs and not sight.weak and (off := _off_down(findings)):
         words.append(
-            f"Gravity comes out pointing {off:.0f}° away from down. The sensor reports the opposite sign, the"
-            " orientations are turned (contactbench calibrate diagnose tells), or the robot does not stand upright:"
-            " then say where down is (--down)."
+            f"Gravity points {off:.0f}° away from down. Either the sensor reports the opposite"
+            " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
+            " robot is not mounted upright: then give the direction of down (--down)."
         )
     if not words and findings.contact_error > limits.usable_error:
-        remedy = sight.weak or "Take more poses with tilts about two axes, or average each for longer."
+        remedy = sight.weak or "Take more poses tilted about two axes, or average each for longer."
         if findings.model_error > 0.5 * findings.contact_error:
-            remedy = "More poses do not help: it is not noise."
+            remedy = "More poses will not help: the error is not noise."
         words.extend(sight.null_directions)
         words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
     return words
@@ -217,26 +219,26 @@ def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
         helps = findings.model_error < 0.5 * findings.contact_error
         good = 1e3 * limits.good_error
         words.append(
-            f"{error}; {good:g} mm would be good. One or two more poses help."
+            f"{error}; {good:g} mm would be good. One or two more poses will help."
             if helps
-            else f"{error}; {good:g} mm would be good. It is not noise, and more poses do not help."
+            else (f"{error}; {good:g} mm would be good. The error is not noise, so more poses will not help.")
         )
     latest = int(np.argmax(stack(findings.poses).moments))
     if findings.deviates[latest].max() >= limit(len(findings.poses)):
         words.append(
-            f"{named(findings.poses, latest).capitalize()}, the last one, disagrees: it was bumped, or the sensor's"
-            " zero jumped before it, and then the bias is wrong. Take one or two poses more; they tell which."
+            f"{named(findings.poses, latest).capitalize()}, the last one, disagrees: it was"
+            " bumped, or the sensor's zero jumped before it and the bias is wrong. Take one or"
+            " two more poses to find out which."
         )
     if sight.weak:
         words.append(sight.weak)
     words.extend(_found(findings))
     if kept < _CHECKED_FROM:
         words.append(
-            f"With {kept} poses none can be checked against the others. Take at least {_CHECKED_FROM}."
+            f"With {kept} poses, none can be checked against the others. Take at least {_CHECKED_FROM}."
         )
     if rejected and len(findings.poses) < _NAMED_FROM:
-        words.append(
-            f"{len(rejected)} of only {len(findings.poses)} poses had to be left out. Take them again, to"
-            f" have {_NAMED_FROM} or more."
-        )
+        names = ", ".join(named(findings.poses, each.index) for each in rejected)
+        again = "Retake it" if len(rejected) == 1 else "Retake them"
+        words.append(f"Left out: {names}. {again}, to have {_NAMED_FROM} poses or more.")
     return words

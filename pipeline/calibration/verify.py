@@ -79,17 +79,21 @@ class StillVerification:
             times = np.sqrt(self.chi_square / self.freedom)
             outlier, sigmas = self.names[self.worst], self.deviates[self.worst]
             words.append(
-                f"The residuals are {times:.1f} times what the calibration's uncertainty and noise explain"
-                f" (p = {self.p_value:.1g}), most in {outlier} ({sigmas:.1f} sigma): drift since the calibration,"
-                " wrong orientations, or a touch."
+                f"The residuals are {times:.1f} times what the calibration's uncertainty and noise"
+                f" explain (p = {self.p_value:.1g}), largest in {outlier} ({sigmas:.1f} sigma):"
+                " drift since the calibration, wrong orientations, or a touch."
             )
         if n < _FEW:
             words.append(
-                f"{n} {'poses say' if n > 1 else 'pose says'} little of other orientations. Take {_FEW} or more."
+                f"{n} {'poses say' if n > 1 else 'pose says'} little about other orientations."
+                f" Take {_FEW} or more."
             )
         if words:
             return Verdict(Level.USABLE, tuple(words))
-        return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm rms is the limit for good.",))
+        return Verdict(
+            Level.GOOD,
+            (f"{error}; the limit for good is {1e3 * limits.good_error:g} mm rms. No action needed.",),
+        )
 
     @property
     def passed(self) -> bool:
@@ -173,7 +177,8 @@ def verify_still(
     for index, pose in enumerate(samples):
         if id(pose) in own:
             raise InputError(
-                f"verify_still: {named(samples, index)} was used for the calibration; give poses that were not"
+                f"verify_still: {named(samples, index)} was used for the calibration; give poses"
+                " that were not used"
             )
     task, limits = task or calibration.task, limits or Limits()
     arrays = stack(samples)

@@ -35,21 +35,22 @@ bench_app.add_typer(control_app, name="control")
 
 _LOOK_S = 0.1
 
-ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="A bundled probe.")]
-MeshOption = Annotated[Path | None, typer.Option(help="Or a probe of your own, a mesh file in S.")]
+ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="Bundled probe.")]
+MeshOption = Annotated[Path | None, typer.Option(help="Your own probe instead: a mesh file in S.")]
 SensorOption = Annotated[
-    str, typer.Option("--model", metavar="paper|ideal|noisy", help="Of the sensor, with its faults.")
+    str, typer.Option("--model", metavar="paper|ideal|noisy", help="What the sensor is, with its faults.")
 ]
-SeedOption = Annotated[int, typer.Option(help="Of the sensor's noise.")]
+SeedOption = Annotated[int, typer.Option(help="Seed of the sensor's noise.")]
 RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000.")]
 
 
 @bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
 def run(
     script: Annotated[Path, typer.Argument(metavar="SCRIPT", help="Timed commands.")],
-    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
+    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; never overwrites a file.")],
     truth: Annotated[
-        Path | None, typer.Option(help="CSV to write: the truth beside every wrench; not over a file either.")
+        Path | None,
+        typer.Option(help="CSV to write: the truth beside every wrench; never overwrites a file."),
     ] = None,
     probe: ProbeOption = "t-shape",
     mesh: MeshOption = None,
@@ -60,8 +61,8 @@ def run(
 ) -> None:
     """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
-    SCRIPT has a command a line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in
-    seconds of the bench; after instead: seconds after the command above was over. do is turn_to (rpy or
+    SCRIPT has one command per line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in
+    seconds of the bench; use after for seconds after the previous command ended. do is turn_to (rpy or
     R_WS, seconds), touch (marker from 1 or point_S, force, tilt, azimuth, torsion, seconds), release,
     bump (force, seconds, lever), warm (kelvin), rezero, end. The same seed gives the same bytes.
     """
@@ -76,8 +77,9 @@ def run(
     )
     for slip in ran.slips:
         say(
-            f"The touch at {slip.touch.time:.2f} s pressed nothing from {slip.time - SLIPPED_S:.2f} s on: the tip slid"
-            " off. Touch elsewhere, or with less tilt.",
+            f"The touch at {slip.touch.time:.2f} s pressed nothing from"
+            f" {slip.time - SLIPPED_S:.2f} s on because the tip slid off. Touch elsewhere, or with"
+            " less tilt.",
             "yellow",
         )
     answer(
@@ -101,21 +103,21 @@ def serve(
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
     reality: RealityOption = "ideal",
-    script: Annotated[Path | None, typer.Option(help="Timed commands to begin with.")] = None,
-    pty: Annotated[bool, typer.Option("--pty", help="The sensor on a pseudo-terminal.")] = False,
+    script: Annotated[Path | None, typer.Option(help="Timed commands to start with.")] = None,
+    pty: Annotated[bool, typer.Option("--pty", help="Put the sensor on a pseudo-terminal.")] = False,
     sri_port: Annotated[
-        int | None, typer.Option(help="Of the sensor, on the loopback interface [a free one].")
+        int | None, typer.Option(help="Port of the sensor on the loopback interface [a free one].")
     ] = None,
-    elfin_port: Annotated[int, typer.Option(help="Of the robot; 0 is any free one.")] = 0,
+    elfin_port: Annotated[int, typer.Option(help="Port of the robot; 0 for any free one.")] = 0,
 ) -> None:
     """Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
 
     The first line of standard output is a JSON object with the two addresses. Commands come on standard
-    input, one JSON object a line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
-    each is answered by one line with the bench's time at which it took effect, or with the error.
+    input, one JSON object per line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
+    each is answered with one line: the bench time at which it took effect, or the error.
     """
     if pty and sri_port is not None:
-        raise typer.BadParameter("--pty and --sri-port contradict each other: give one.")
+        raise typer.BadParameter("--pty and --sri-port contradict each other: give only one.")
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
     bench = _bench(_address(probe, mesh, sensor, seed, rate, script, reality))
@@ -134,12 +136,12 @@ def serve(
 @bench_app.command("reality", example="bench reality typical,cable=0.2")
 def show_reality(
     mix: Annotated[
-        str | None, typer.Argument(metavar="[MIX|EFFECT=SIZE,...]", help="Show this beside the mixes.")
+        str | None, typer.Argument(metavar="[MIX|EFFECT=SIZE,...]", help="Mix to show beside the others.")
     ] = None,
 ) -> None:
-    """List what a real bench adds to the ideal one: each effect, its unit, its range, and its size in each mix.
+    """List the effects of a real bench: unit, range, and size in each mix.
 
-    The same text goes into an address, virtual://bench?reality=typical, and after --reality.
+    Use the same text in an address, virtual://bench?reality=typical, and with --reality.
     """
     from contactbench.pipeline.reality import MIXES, Reality
 
@@ -159,7 +161,7 @@ def _show_mixes(mixes: Mapping[str, Reality]) -> None:
     table.add_column("effect", no_wrap=True)
     for name in ("range", *mixes):
         table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("unit: what it is", min_width=40)
+    table.add_column("unit: meaning", min_width=40)
     for name, field in Reality.model_fields.items():
         least, most = Reality.limits(name)
         sizes = (f"{getattr(each, name):g}" for each in mixes.values())
@@ -252,22 +254,24 @@ _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") 
 
 @bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
 def emulate(
-    device: Annotated[str, typer.Argument(metavar="DEVICE", help="What to emulate.")],
-    pty: Annotated[bool, typer.Option("--pty", help="On a pseudo-terminal.")] = False,
+    device: Annotated[str, typer.Argument(metavar="DEVICE", help="Device to emulate.")],
+    pty: Annotated[bool, typer.Option("--pty", help="Use a pseudo-terminal.")] = False,
     port: Annotated[
-        int | None, typer.Option(help="On this port of the loopback interface; 0 is any free one.")
+        int | None, typer.Option(help="Use this port of the loopback interface; 0 for any free one.")
     ] = None,
-    rate: Annotated[float | None, typer.Option(help="Frames per second until a command changes it.")] = None,
+    rate: Annotated[float | None, typer.Option(help="Frames per second, until a command changes it.")] = None,
     fault: Annotated[list[str] | None, typer.Option(metavar="FAULT", help="May be repeated.")] = None,
     seconds: Annotated[float | None, typer.Option(help="How long to run.")] = None,
-    profile: Annotated[str, typer.Option(help="Of rdt: ati or onrobot.")] = "ati",
-    still: Annotated[bool, typer.Option("--still", help="A constant signal, not one that swings.")] = False,
+    profile: Annotated[str, typer.Option(help="Profile of rdt: ati or onrobot.")] = "ati",
+    still: Annotated[
+        bool, typer.Option("--still", help="Send a constant signal instead of one that swings.")
+    ] = False,
     quirk: Annotated[list[str] | None, typer.Option(metavar="QUIRK", help="May be repeated.")] = None,
     tool: Annotated[
         str | None,
-        typer.Option(metavar="X,Y,Z,RX,RY,RZ", help="Of ur: the tool in the flange frame, m and rad."),
+        typer.Option(metavar="X,Y,Z,RX,RY,RZ", help="Tool of ur in the flange frame, m and rad."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of chance in the faults.")] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of the randomness in the faults.")] = 0,
 ) -> None:
     """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur.
 
@@ -275,11 +279,11 @@ def emulate(
     after the first frame, some with xSIZE: split, merged, garbage, bad-checksum, header, stall,
     disconnect, reconnect, wrong-rate, clock-jump, saturation, stuck, drift, rezero.
 
-    Quirks are what some devices of a kind do: older (sri, elfin, ur), crc32-only, crc32-silently,
+    Quirks are the habits of some devices of a kind: older (sri, elfin, ur), crc32-only, crc32-silently,
     answers-start (sri), forgiving (sri, robotiq: no pause is needed between commands).
     """
     if pty and port is not None:
-        raise typer.BadParameter("--pty and --port contradict each other: give one.")
+        raise typer.BadParameter("--pty and --port contradict each other: give only one.")
     if seconds is not None and not 0 < seconds < 1e9:
         raise typer.BadParameter(f"--seconds {seconds}: give a positive number.")
     from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, swinging
@@ -350,5 +354,5 @@ def _six(text: str | None) -> Six | None:
     try:
         x, y, z, rx, ry, rz = map(float, text.split(","))
     except ValueError as error:
-        raise typer.BadParameter(f"--tool {text}: give six numbers with commas between them.") from error
+        raise typer.BadParameter(f"--tool {text}: give six numbers separated by commas.") from error
     return x, y, z, rx, ry, rz

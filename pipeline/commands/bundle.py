@@ -34,29 +34,34 @@ def export(
     calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate fit.")] = None,
     probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
     verification: Annotated[Path | None, typer.Option(help="JSON file of verify touches.")] = None,
-    report: Annotated[Path | None, typer.Option(help="HTML report to put into it.")] = None,
+    report: Annotated[Path | None, typer.Option(help="HTML report to include.")] = None,
     known_weight: Annotated[Path | None, typer.Option(help="JSON file of calibrate check weight.")] = None,
     known_touch: Annotated[Path | None, typer.Option(help="JSON file of calibrate check touch.")] = None,
     model: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
-    serial: Annotated[str | None, typer.Option(help="Its serial number [the one the session knows].")] = None,
+    serial: Annotated[
+        str | None, typer.Option(help="Serial number of the sensor [the one in the session].")
+    ] = None,
     rate: Annotated[
-        float | None, typer.Option(help="Readings a second, Hz [as verified, if the verification says it].")
+        float | None,
+        typer.Option(help="Readings per second, Hz [as verified, if the verification states it]."),
     ] = None,
     settings_file: Annotated[
         Path | None,
-        typer.Option("--settings", help="JSON file with any of controller, limits, gates, filters."),
+        typer.Option("--settings", help="JSON file with any of: controller, limits, gates, filters."),
     ] = None,
     noise_force: Annotated[
         float | None, typer.Option(help="Standard deviation of one reading, N [from the poses].")
     ] = None,
-    noise_torque: Annotated[float | None, typer.Option(help="The same, N·m; both or none.")] = None,
+    noise_torque: Annotated[
+        float | None, typer.Option(help="The same for a torque, N·m; give both or neither.")
+    ] = None,
     cutoff: Annotated[float | None, typer.Option(help="Low-pass of the contact point, Hz [none].")] = None,
     no_filter: Annotated[
         bool | None, typer.Option("--no-filter/--filter", help="Do not filter the wrench [filter].")
     ] = None,
     saturation: Annotated[
         str | None,
-        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Where the channels end, N, N·m [none]."),
+        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Saturation of the channels, N, N·m [none]."),
     ] = None,
     region_only: Annotated[
         bool | None,
@@ -66,7 +71,7 @@ def export(
         bool | None,
         typer.Option(
             "--accept-by-region/--not-by-region",
-            help="Accept contacts that are sure only because of the regions [accept].",
+            help="Refuse contacts whose place is certain only because of the regions [accept].",
         ),
     ] = None,
     torsion_arm_mm: Annotated[
@@ -74,35 +79,43 @@ def export(
         typer.Option(help="Usual local torque over the force, mm: hard tip 0.3, soft tissue 1 to 5 [1]."),
     ] = None,
     max_force: Annotated[
-        float | None, typer.Option(help="What a controller must never exceed, N [30].")
+        float | None, typer.Option(help="Force that a controller must never exceed, N [30].")
     ] = None,
-    max_torque: Annotated[float | None, typer.Option(help="The same, N·m [3].")] = None,
+    max_torque: Annotated[
+        float | None, typer.Option(help="Torque that a controller must never exceed, N·m [3].")
+    ] = None,
     sensor_frame: Annotated[
-        str | None, typer.Option(help="Frame S, as the robot description names it [ft_sensor].")
+        str | None, typer.Option(help="Name of frame S in the robot description [ft_sensor].")
     ] = None,
-    world_frame: Annotated[str | None, typer.Option(help="Frame W, the same [base_link].")] = None,
+    world_frame: Annotated[
+        str | None, typer.Option(help="Name of frame W in the robot description [base_link].")
+    ] = None,
     sensor_name: Annotated[
         str | None,
         typer.Option(
             metavar="NAME",
-            help="The sensor in the robot description's ros2_control tag, for ros2.yaml [a placeholder].",
+            help=(
+                "Name of the sensor in the robot description's ros2_control tag, for ros2.yaml [a"
+                " placeholder]."
+            ),
         ),
     ] = None,
     operator: Annotated[
-        str | None, typer.Option(help="Who is answerable [who made the newest of the session's results].")
+        str | None, typer.Option(help="Responsible person [the author of the session's newest result].")
     ] = None,
     unverified: Annotated[
-        bool, typer.Option("--unverified", help="Write it all the same, and mark it: for trials only.")
+        bool,
+        typer.Option("--unverified", help="Write the bundle anyway, marked as unverified: for trials only."),
     ] = False,
 ) -> None:
     """Write a bundle: from a session's newest calibration and probe, or from files.
 
-    What is not given for a session is what its settings config.* say, such as config.serial, as in the
+    For a session, missing options come from its settings config.*, such as config.serial, as in the
     desktop application; the same session then gives the same bytes.
 
     Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe,
-    and nothing that this rests on is stale; also where a known weight or a known touch failed. What was
-    at --out stays until the new bundle is complete.
+    and none of its inputs is stale; also if a known weight or a known touch failed. An earlier bundle at
+    --out stays until the new one is complete.
     """
     files = _inputs(session, calibration, probe, verification, report, known_weight, known_touch)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
@@ -110,7 +123,7 @@ def export(
     from contactbench.pipeline.config.runtime.bench import export_from_files
 
     if rate is None and cutoff is not None and session is None:
-        raise typer.BadParameter("--cutoff: give --rate too.")
+        raise typer.BadParameter("--cutoff needs --rate.")
     given = {
         "sensor": model, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
         "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only,
@@ -147,9 +160,9 @@ def export(
 
 @bundle_app.command(example="bundle check runtime.zip --json")
 def check(bundle: BundleArgument) -> None:
-    """Load a bundle as a runtime does, replay its test vectors, and say what it is.
+    """Load a bundle as a runtime does, replay its test vectors, and describe it.
 
-    Exit code 1: it is sound but not verified; 2: it is refused.
+    Exit code 1: the bundle is intact but not verified; 2: it is refused.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.self_test import replay
@@ -157,19 +170,19 @@ def check(bundle: BundleArgument) -> None:
     found = RuntimeConfig.load(bundle)
     model, replayed = found.model, replay(found, str(bundle))
     say(
-        f"{bundle}: sound, version {model.version}, {_standing(found)}.",
+        f"{bundle}: intact, version {model.version}, {_standing(found)}.",
         "green" if model.verified else "yellow",
     )
     say(
-        f"For the {model.sensor.model} {model.sensor.serial} at {model.sensor.rate_Hz:g} Hz with the probe"
-        f" {model.probe.name} ({model.probe.facets:,} facets); made {model.provenance.created} by"
-        f" {model.provenance.operator}."
+        f"For the {model.sensor.model} {model.sensor.serial} at {model.sensor.rate_Hz:g} Hz with"
+        f" the probe {model.probe.name} ({model.probe.facets:,} facets); exported"
+        f" {model.provenance.created} by {model.provenance.operator}."
     )
     _say_zero(found)
     if replayed is None:
-        say("No test vectors: export the config again to have them.", "yellow")
+        say("No test vectors: export the config again to add them.", "yellow")
     else:
-        say(f"Test vectors: {replayed} samples, all answered as at the export.")
+        say(f"Test vectors: {replayed} samples, all with the same answers as at the export.")
     _say_doubts(found)
     answer({"bundle": str(bundle), "replayed": replayed, **_facts(found)})
     if not model.verified:
@@ -181,7 +194,7 @@ def diff(
     one: Annotated[Path, typer.Argument(metavar="A", help="Folder or zip file.")],
     other: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
 ) -> None:
-    """Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart."""
+    """Compare two bundles: the fields that differ, their meaning, and the distance between the surfaces."""
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.differ import differences
 
@@ -277,7 +290,7 @@ def _inputs(
     """Return calibration and probe; any paths if there is a session, which has its own."""
     if session is not None:
         if any(each is not None for each in (calibration, probe, *others)):
-            raise typer.BadParameter("give a session, or files, not both.")
+            raise typer.BadParameter("give either a session or files.")
         return session, session
     if calibration is None or probe is None:
         raise typer.BadParameter("give a session, or both --calibration and --probe.")
@@ -334,8 +347,8 @@ def _say_zero(config: RuntimeConfig) -> None:
             for rates in (zero.drift.force_Nps, zero.drift.torque_Nmps)
         )
         say(
-            f"It drifted by up to {force:.2g} N and {1e3 * torque:.2g} mN·m an hour during the calibration: calibrate"
-            " again shortly before use.",
+            f"It drifted by up to {force:.2g} N and {1e3 * torque:.2g} mN·m per hour during the"
+            " calibration: recalibrate shortly before use.",
             "yellow",
         )
 
@@ -353,12 +366,15 @@ def _say_doubts(config: RuntimeConfig) -> None:
         say(NO_ADMITTANCE, "yellow")
     if None in model.gates.saturation:
         say(
-            "NO SATURATION LIMITS: a reading at the end of the sensor's range is taken for a touch: give --saturation,"
-            " or pass NaN for what the sensor flags.",
+            "NO SATURATION LIMITS: a reading at the end of the sensor's range looks like a touch:"
+            " give --saturation, or pass NaN for readings the sensor flags.",
             "yellow",
         )
     if model.frames.quaternion_ES is None:
-        say("No mounting: the orientations must be the sensor's own, as the calibration's were.", "yellow")
+        say(
+            "No mounting: the orientations must be those of the sensor itself, as in the calibration.",
+            "yellow",
+        )
     if not model.touch.model_error.measured:
         say("The model error is the default: verify on markers to measure it.", "yellow")
     if model.verification is not None:
@@ -386,13 +402,13 @@ def _facts(config: RuntimeConfig) -> dict[str, Any]:
 
 def _show_differences(found: Differences) -> None:
     if found.same:
-        say("The two are the same.")
+        say("The two are identical.")
         return
     from rich.table import Table
     from rich.text import Text
 
     table = Table(box=None)
-    for heading in ("field", "A", "B", "what it is"):
+    for heading in ("field", "A", "B", "meaning"):
         table.add_column(heading, justify="left")
     for each in found.fields:
         table.add_row(Text(each.field), Text(_short(each.one)), Text(_short(each.other)), each.meaning)

@@ -55,9 +55,7 @@ _WORTH_A_WORD = 0.2  # probability from which a cause is told
 _STYLES = {"good": "green", "usable": "yellow", "refuse": "red"}
 
 
-calibrate_app = Noun(
-    "Find a sensor's bias, and the weight and centre of mass of what hangs on it, from still poses."
-)
+calibrate_app = Noun("Find a sensor's bias, and the weight and centre of mass of its load, from still poses.")
 calibrate_app.add_typer(check_app, name="check")
 
 PosesArgument = Annotated[
@@ -68,7 +66,7 @@ PosesArgument = Annotated[
     ),
 ]
 CalibrationArgument = Annotated[
-    Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate fit wrote.")
+    Path, typer.Argument(metavar="CALIBRATION", help="File written by contactbench calibrate fit.")
 ]
 
 Delay = Annotated[CapturesSettings, Only("delay")]
@@ -94,18 +92,17 @@ def fit(
 ) -> None:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
 
-    POSES has a row for each pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor
-    origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or otherwise
-    as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard deviations of
-    single samples), temperature. Three poses with different tilts are the least; eight let bumped ones be
-    named. With t (s), a drift of the sensor during the session is found.
+    POSES has one row per pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor
+    origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or in the
+    form set by the options. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard deviations of
+    single samples), temperature. At least three poses with different tilts are needed; with eight, bumped ones
+    can be named. With t (s), a drift of the sensor during the session is found.
 
-    POSES may be a recording instead, MCAP or CSV with the column t: the still poses in it are found as by
-    contactbench calibrate captures. A sensor and a robot that were recorded into two CSV files are put together
-    with --robot-poses.
+    POSES may be a recording instead, MCAP or CSV with the column t: its still poses are found as by
+    contactbench calibrate captures. With --robot-poses, sensor and robot may be in two separate CSV files.
 
-    Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all
-    the same, so that calibrate next can tell which pose to take.
+    Exit code 1: the calibration must not be used; the reasons and remedies are printed. The file is written
+    anyway, so that calibrate next can suggest a pose.
     """
     for file in (out, report):
         refuse_overwriting(file, [each for each in (poses, robot_poses) if each is not None])
@@ -244,7 +241,7 @@ def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
     known = " ".join(calibration.verdict.reasons)
     for cause in calibration.causes:
         if cause.key != "plain" and cause.odds > _WORTH_A_WORD and cause.sentence not in known:
-            say(f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}")
+            say(f"Possible, with a probability of {100 * cause.odds:.0f} %: {cause.sentence}")
 
 
 def _table(calibration: Calibration) -> Table:
@@ -301,19 +298,19 @@ def diagnose(
     known: NoiseSettings,
     world: DownSettings,
     robot_poses: RobotPosesOption = None,
-    mass: Annotated[float | None, typer.Option(help="Mass of all that hangs on the sensor, kg.")] = None,
+    mass: Annotated[float | None, typer.Option(help="Mass of the complete load on the sensor, kg.")] = None,
     tool_length: Annotated[
-        float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
+        float, typer.Option("--tool-length", help="Distance from the sensor to the tip, mm.")
     ] = 300.0,
 ) -> None:
-    """Tell whether poses are written in the conventions that the options say, or which mistake explains them.
+    """Check whether poses follow the conventions set by the options, or which mistake explains them.
 
     Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, pounds, reversed
-    signs, swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; says how
-    probable each is, and whether none of them explains the poses; changes nothing. The noise, if you know
-    it, and the load's mass from a balance make it much surer.
+    signs, swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; prints how
+    probable each is, and whether none of them explains the poses; changes nothing. The noise, if known, and
+    the load's weighed mass make it much more certain.
 
-    Exit code 1: something is not as it was said to be.
+    Exit code 1: something differs from what the options declare.
     """
     from contactbench.pipeline.calibration.assumptions import pose_noise
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
@@ -324,8 +321,8 @@ def diagnose(
     if sigma is not None:
         if noise is None:
             raise typer.BadParameter(
-                "--orientation-noise: give --noise-force and --noise-torque too. Without them the poses tell the noise"
-                " of all together."
+                "--orientation-noise: give --noise-force and --noise-torque too. Without them the"
+                " poses only show the total noise."
             )
         noise = replace(noise, orientation=sigma)
     prior = Prior(down_W=world.down_W, mass=mass, tool_length=tool_length / 1000)
@@ -362,9 +359,9 @@ def still(
     given: CapturesSettings,
     robot_poses: RobotPosesOption = None,
 ) -> None:
-    """Check a calibration on still, contact-free poses that it has not seen.
+    """Check a calibration on held-out, still, contact-free poses.
 
-    POSES is written as for calibrate fit. Exit code 1: the residuals are too large for contact sensing, or
+    POSES has the format of calibrate fit. Exit code 1: the residuals are too large for contact sensing, or
     larger than the calibration's uncertainty and the noise explain.
     """
     from contactbench.pipeline.calibration.verify import verify_still
@@ -390,19 +387,19 @@ def compensate(
     out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
     given: PosesSettings,
     allow_nan: Annotated[
-        bool, typer.Option("--allow-nan", help="Pass on NaN, infinity and empty cells.")
+        bool, typer.Option("--allow-nan", help="Pass NaN, infinity and empty cells through.")
     ] = False,
 ) -> None:
-    """Take bias and weight off every reading of a recording.
+    """Subtract bias and weight from every reading of a recording.
 
     RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the
     orientation at the same time, written as for calibrate fit; - is standard input. The output has
-    t,fx,fy,fz,mx,my,mz, what the tissue does to the probe, ready for contactbench locate. It is written
-    as a whole or not at all.
+    t,fx,fy,fz,mx,my,mz, the force and torque of the tissue on the probe, ready for contactbench locate. It
+    is written completely or not at all.
     """
     dash = Path("-")
     if as_json() and out == dash:
-        raise typer.BadParameter("--json and --out - both want standard output: name a file.")
+        raise typer.BadParameter("--json and --out - both use standard output: give a file name.")
     refuse_overwriting(out, [calibration])
     convention = written(given)
     from contactbench.pipeline.calibration.files.compensate_file import compensate_file
@@ -421,8 +418,9 @@ def compensate(
     for sentence in summary.warnings:
         say(f"warning: {sentence}", "yellow")
     say(
-        f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} a second. The calibration leaves up"
-        f" to {summary.sigma_force_N:.2g} N and {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
+        f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} per second. The"
+        f" calibration leaves up to {summary.sigma_force_N:.2g} N and"
+        f" {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
     )
     answer({"out": str(out), **summary.facts()})
 
@@ -446,10 +444,10 @@ class ReachSettings(MountSettings):
     robot: str | None = knob(
         None, "Orientation is that of a robot's flange, by joints j1..j6: elfin3.", metavar="NAME"
     )
-    joints: str | None = knob(None, "Where the robot is now, degrees.", metavar="J1,...,J6")
-    all_joints: bool = knob(False, "Move the arm too, not only the wrist: longer moves.")
-    tool_length: float = knob(200.0, "From the flange to the tip of what it carries, mm.")
-    floor: float = knob(0.0, "Height above the base's foot that nothing may go below, mm.")
+    joints: str | None = knob(None, "Current joints of the robot, degrees.", metavar="J1,...,J6")
+    all_joints: bool = knob(False, "Move the arm as well as the wrist: longer moves.")
+    tool_length: float = knob(200.0, "Distance from the flange to the tip of the tool, mm.")
+    floor: float = knob(0.0, "Height above the base's foot that no part may go below, mm.")
     max_tilt: float = knob(180.0, "Without a robot: largest tilt of the sensor from down, degrees.")
 
     def choice(self, down_W: ArrayLike) -> Reachable:
@@ -465,7 +463,7 @@ class ReachSettings(MountSettings):
         from contactbench.pipeline.calibration.reachable import by_hand, by_robot
 
         if (self.robot is None) != (self.joints is None):
-            raise typer.BadParameter("--robot and --joints go together: which robot, and where it is now.")
+            raise typer.BadParameter("Give both --robot and --joints: the robot, and its current joints.")
         if self.robot is None or self.joints is None:
             return by_hand(max_tilt=np.radians(self.max_tilt), down_W=down_W)
         from contactbench.pipeline.robot import Clearance, Robot
@@ -491,10 +489,10 @@ def next_pose(
     calibration: CalibrationArgument,
     reach: ReachSettings,
 ) -> None:
-    """Say which pose would improve a calibration most, and by how much, before it is taken.
+    """Suggest the pose that would improve a calibration most, and predict by how much.
 
-    Judged by the error at the contact, not by the parameters. With --robot and --joints only poses within
-    its joint limits, clear of itself and the floor; nearer ones of those that are nearly as good.
+    Poses are judged by the error at the contact, not by the parameters. With --robot and --joints, only poses
+    within the joint limits and clear of the robot and the floor are suggested; of nearly equal ones, the nearest.
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.calibration.suggest import suggest_pose
@@ -518,14 +516,14 @@ def next_pose(
     example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"),
 )
 def plan_poses(
-    count: Annotated[int, typer.Argument(metavar="COUNT", help="How many, at least 3.")],
+    count: Annotated[int, typer.Argument(metavar="COUNT", help="Number of poses, at least 3.")],
     out: Annotated[Path, typer.Option(help="CSV file to write.")],
     reach: ReachSettings,
     touched: TaskSettings,
     world: DownSettings,
-    mass: Annotated[float, typer.Option(help="About what hangs on the sensor, kg.")] = 0.5,
+    mass: Annotated[float, typer.Option(help="Approximate mass of the load on the sensor, kg.")] = 0.5,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="The same of its torque, N·m.")] = 0.002,
+    noise_torque: Annotated[float, typer.Option(help="The same for its torque, N·m.")] = 0.002,
 ) -> None:
     """Plan COUNT poses that together leave the least error at the contact.
 
@@ -541,7 +539,10 @@ def plan_poses(
     from contactbench.pipeline.calibration.suggest import plan_poses as plan
 
     if not 0 < mass < 1000:
-        raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
+        raise InputError(
+            f"--mass: {mass} kg is not the mass of a tool; give the approximate mass of the load on"
+            " the sensor"
+        )
     down_W = world.down_W
     choice = reach.choice(down_W)
     load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
@@ -579,20 +580,20 @@ def captures(
     out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
     given: CapturesSettings,
     calibration: Annotated[
-        Path | None, typer.Option(help="Preliminary calibration, to see steady touches.")
+        Path | None, typer.Option(help="Preliminary calibration, to detect steady touches.")
     ] = None,
     robot_poses: RobotPosesOption = None,
 ) -> None:
-    """Find in a recording where the sensor stood still, and write the poses for calibrate fit.
+    """Find the still poses in a recording, and write them for calibrate fit.
 
-    RECORDING is what contactbench record start wrote of a sensor and a robot, or a table with the columns
+    RECORDING is written by contactbench record start from a sensor and a robot, or is a table with the columns
     t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the orientation at the same time,
     written as for calibrate fit; - is a table on standard input. With --robot-poses the orientation is in a
-    second table, with times of its own on the same clock. Poses are then interpolated to the wrenches,
+    second table, with its own times on the same clock. Poses are then interpolated to the wrenches,
     never across more than 0.25 s. Captures that were bumped or did not settle are left out, with the
     reason. A preliminary calibration also shows steady touches.
 
-    fit, diagnose and check still take all of these as well, and do this by themselves.
+    fit, diagnose and check still accept all of these too and find the poses themselves.
 
     Exit code 1: fewer than three poses were found.
     """

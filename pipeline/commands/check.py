@@ -18,10 +18,11 @@ _NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
 
 check_app = Noun(
-    "Check a calibration on still poses, a known weight and a known point: what its residuals cannot show."
+    "Check a calibration on still poses, a known weight and a known point, for errors that its"
+    " residuals cannot show."
 )
 
-CalibrationOption = Annotated[Path, typer.Option(help="What contactbench calibrate fit wrote.")]
+CalibrationOption = Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")]
 OutOption = Annotated[
     Path | None,
     typer.Option(help="Also write the result to this file, JSON, for bundle export and a session."),
@@ -41,13 +42,13 @@ def weight(
     said: WeightSettings,
     out: OutOption = None,
 ) -> None:
-    """Hang a known weight on the tool, and compare it with what the sensor reads.
+    """Hang a known weight on the tool, and compare it with the sensor's readings.
 
-    UNLOADED and LOADED are still readings without the weight and with it: recordings, or tables of poses
+    UNLOADED and LOADED are still readings without and with the weight: recordings, or tables of poses
     as for calibrate fit. Take both in the same orientation; more orientations test more channels. This finds
     forces in kgf, lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.
 
-    Exit code 1: the weight is not what it should be, or the uncertainty is too large to tell.
+    Exit code 1: the weight is wrong, or the uncertainty is too large to decide.
     """
     inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
     refuse_overwriting(out, list(inputs.values()))
@@ -72,22 +73,22 @@ def touch(
     said: TouchSettings,
     point: Annotated[
         str | None,
-        typer.Option(
-            metavar="X,Y,Z", help="Where it was pressed, mm in the sensor frame, as the probe's mesh."
-        ),
+        typer.Option(metavar="X,Y,Z", help="Pressed point, mm in the sensor frame, as the probe's mesh."),
     ] = None,
-    markers: Annotated[Path | None, typer.Option(help="Instead: table of markers, with --marker.")] = None,
-    marker: Annotated[str | None, typer.Option(metavar="NAME", help="The marker that was pressed.")] = None,
+    markers: Annotated[
+        Path | None, typer.Option(help="Instead: table of markers; give --marker too.")
+    ] = None,
+    marker: Annotated[str | None, typer.Option(metavar="NAME", help="Name of the pressed marker.")] = None,
     out: OutOption = None,
 ) -> None:
-    """Press one known point of the probe, and compare it with where the contact is located.
+    """Press one known point of the probe, and compare it with the located contact.
 
     RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
-    readings) and orientations; every steady press in it is taken to be of the point. Press with a finger,
+    readings) and orientations; every steady press in it must be on this point. Press with a finger,
     5 to 15 N, on the side of the probe, 15 mm or more off the sensor's axis. This finds torques of the
     wrong sign or unit, forces in kgf, and a probe that is turned on the sensor.
 
-    Exit code 1: the contact is elsewhere, or the press cannot tell.
+    Exit code 1: the contact is elsewhere, or the press is inconclusive.
     """
     inputs = {"calibration": calibration, "probe": probe, "touch": recording}
     refuse_overwriting(out, list(inputs.values()))
@@ -104,7 +105,7 @@ def touch(
 def _point(point: str | None, markers: Path | None, marker: str | None) -> list[float]:
     if (markers is None) != (marker is None) or (point is None) == (marker is None):
         raise typer.BadParameter(
-            "say where it was pressed: --point X,Y,Z, or --markers FILE with --marker NAME."
+            "give the pressed point: --point X,Y,Z, or --markers FILE with --marker NAME."
         )
     if point is not None:
         return numbers(point, 3, "--point")
@@ -114,7 +115,7 @@ def _point(point: str | None, markers: Path | None, marker: str | None) -> list[
     known = load_markers(markers)
     if marker not in known.names:
         known_names = ", ".join(known.names[:20])
-        raise typer.BadParameter(f"{markers}: no marker {marker}: it has {known_names}.")
+        raise typer.BadParameter(f"{markers}: there is no marker {marker}; the file has {known_names}.")
     found: list[float] = (1e3 * known[known.names.index(marker)].point_S).tolist()
     return found
 

@@ -90,7 +90,7 @@ def variants_of(text: str) -> tuple[Variant, ...]:
 def _variant_of(text: str) -> Variant:
     chosen = variants_of(text)
     if len(chosen) != 1:
-        raise InputError("--variant both: it is one of them here: give plain or aware.")
+        raise InputError("--variant both: only one is possible here: give plain or aware.")
     return chosen[0]
 
 
@@ -98,22 +98,25 @@ def _variant_of(text: str) -> Variant:
 def tune(
     probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
     stiffness: Annotated[
-        float | None, typer.Option(help="Of the usual tissue at the wanted force, N/m [soft tissue].")
+        float | None,
+        typer.Option(help="Stiffness of the usual tissue at the wanted force, N/m [soft tissue]."),
     ] = None,
-    scene: Annotated[str, typer.Option(metavar="platform|arm", help="Where it is tried.")] = "platform",
-    variant: Annotated[str, typer.Option(metavar="plain|aware", help="Which the gains are for.")] = "plain",
+    scene: Annotated[str, typer.Option(metavar="platform|arm", help="Robot for the trials.")] = "platform",
+    variant: Annotated[
+        str, typer.Option(metavar="plain|aware", help="Variant that the gains are for.")
+    ] = "plain",
     force: Annotated[float, typer.Option(help="Wanted force, N.")] = 7.0,
-    gain_margin: Annotated[float, typer.Option(help="Factor by which each loop may still grow.")] = 2.0,
+    gain_margin: Annotated[float, typer.Option(help="Factor by which each loop gain may still grow.")] = 2.0,
     phase_margin: Annotated[float, typer.Option(help="Degrees.")] = 30.0,
-    spread: Annotated[float, typer.Option(help="How many times softer or stiffer tissue may be.")] = 5.0,
-    seed: Annotated[int, typer.Option(help="Of load, calibration and noise of the trials.")] = 0,
+    spread: Annotated[float, typer.Option(help="Factor by which tissue may be softer or stiffer.")] = 5.0,
+    seed: Annotated[int, typer.Option(help="Seed of load, calibration and noise in the trials.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("control-gains"),
 ) -> None:
-    """Choose gains for a probe, the highest that leave wanted margins on softer and stiffer tissue.
+    """Choose the highest gains for a probe that keep the wanted margins on softer and stiffer tissue.
 
-    The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the
-    controller that runs; the gains are then tried in simulation. Writes gains.json for `bundle export
-    --settings`, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the
+    The analysed loop includes the averaged readings, the delay of a period, the servo's path, and the real
+    controller; the gains are then tried in simulation. Writes gains.json for `bundle export
+    --settings`, tables and a plot of the margins. Exit code 1: a simulated trial oscillated, or lost the
     tissue.
     """
     import math
@@ -151,40 +154,42 @@ def run(
     robot: Annotated[str, typer.Option(metavar="ADDRESS", help="virtual://arm or virtual://platform.")],
     turned: MountSettings,
     motion: Annotated[
-        str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Of the phantom.")
+        str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Motion of the phantom.")
     ] = "in-plane",
-    period: Annotated[float, typer.Option(help="Of that motion, s.")] = 10.0,
-    size: Annotated[float, typer.Option(help="Of that motion, mm or degrees.")] = 10.0,
-    seconds: Annotated[float, typer.Option(help="How long until it goes back, s.")] = 15.0,
+    period: Annotated[float, typer.Option(help="Period of that motion, s.")] = 10.0,
+    size: Annotated[float, typer.Option(help="Size of that motion, mm or degrees.")] = 10.0,
+    seconds: Annotated[float, typer.Option(help="Time until it retracts, s.")] = 15.0,
     variant: Annotated[
         str | None,
         typer.Option(
-            metavar="plain|aware", help="The paper's control, or with the motion led [the bundle's]."
+            metavar="plain|aware", help="The paper's control, or with motion feed-forward [the bundle's]."
         ),
     ] = None,
-    method: Annotated[str, typer.Option(help="That locates contacts.")] = "contactbench",
+    method: Annotated[str, typer.Option(help="Method that locates contacts.")] = "contactbench",
     stiffness: Annotated[
-        float | None, typer.Option(help="Of the phantom at the wanted force, N/m [soft tissue].")
+        float | None, typer.Option(help="Stiffness of the phantom at the wanted force, N/m [soft tissue].")
     ] = None,
-    friction: Annotated[float, typer.Option(help="Of the phantom.")] = 0.1,
-    seed: Annotated[int, typer.Option(help="Of noise, and of what the calibration leaves.")] = 0,
-    real_time: Annotated[bool, typer.Option("--real-time", help="No faster than the clock.")] = False,
+    friction: Annotated[float, typer.Option(help="Motion of the phantom.")] = 0.1,
+    seed: Annotated[int, typer.Option(help="Seed of noise and of the calibration error.")] = 0,
+    real_time: Annotated[bool, typer.Option("--real-time", help="Run no faster than real time.")] = False,
     unverified: Annotated[
-        bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
+        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
     ] = False,
     frames: Annotated[
         bool,
-        typer.Option("--frames", help="Each period as a line of JSON on standard output, as it happens."),
+        typer.Option(
+            "--frames", help="Write each period as a line of JSON on standard output while running."
+        ),
     ] = False,
-    out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the course.")] = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the run to write.")] = None,
 ) -> None:
-    """Run a bundle's controller on a virtual robot over a phantom that moves.
+    """Run a bundle's controller on a virtual robot over a moving phantom.
 
-    The robot approaches, makes contact, tracks, and goes back at the end.
+    The robot approaches, makes contact, tracks, and retracts at the end.
 
     Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never
-    sent to a real robot. Ctrl-C has it go back and end. Exit code 1: the force passed the limit, it gave
-    up by itself, or did not end in a safe state; 2: the bundle or the robot is refused.
+    sent to a real robot. Ctrl-C makes it retract and end. Exit code 1: the force exceeded the limit, the
+    controller gave up, or it did not end in a safe state; 2: the bundle or the robot is refused.
     """
     from contactbench.pipeline.commands.record import ended_by_signals
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -197,7 +202,9 @@ def run(
     if not 1 <= seconds <= 3000:
         raise InputError(f"--seconds {seconds:g}: give 1 to 3000.")
     if frames and as_json():
-        raise InputError("--frames --json: the last of the frames is what --json prints: give one of them.")
+        raise InputError(
+            "--frames and --json cannot be combined: the last line of --frames is what --json prints."
+        )
     chosen = None if variant is None else _variant_of(variant)
     config = RuntimeConfig.load(bundle)
     check_runnable(config, unverified=unverified)
@@ -280,12 +287,12 @@ def _facts(config: RuntimeConfig, trace: Trace) -> dict[str, Any]:
     if (peak := float(trace.peak.max())) > limit:
         faults.append(f"the force reached {peak:.1f} N, over the limit of {limit:g} N.")
     if trace.ended is not ControlState.SAFE:
-        faults.append(f"it ended in the state {trace.ended}, not safe.")
+        faults.append(f"it ended in the unsafe state {trace.ended}.")
     back = [each for each in trace.changes if each.after is ControlState.RETRACT]
     if back and "stopped" not in back[0].reason:
         faults.append(f"it gave up after {back[0].time:.1f} s: {back[0].reason}")
     elif not tracking.any():
-        faults.append("it never tracked.")
+        faults.append("it never started tracking.")
     degrees = np.degrees(np.abs(trace.angles[tracking]))
     force = trace.force[tracking]
     return {

@@ -22,28 +22,28 @@ _WIDE = 250  # a number that is cut short is wrong
 @demo_app.command(example="demo --out my-demo")
 def demo(
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-demo"),
-    probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Which probe.")] = "all",
-    touches: Annotated[int, typer.Option(help="Drawn touches per probe, at least 10.")] = 1_000,
-    seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
+    probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Probe to use.")] = "all",
+    touches: Annotated[int, typer.Option(help="Random touches per probe, at least 10.")] = 1_000,
+    seed: Annotated[int, typer.Option(help="Seed: the same seed gives the same CSV files.")] = 0,
     reality: Annotated[
         list[str] | None,
         typer.Option(
             metavar="MIX|EFFECT=SIZE,...",
-            help="A whole day on a bench with these effects instead, such as typical; may be repeated. `contactbench"
-            " bench reality` lists them.",
+            help="Simulate a whole day on a bench with these effects instead, such as typical; may be"
+            " repeated. `contactbench bench reality` lists them.",
         ),
     ] = None,
     seeds: Annotated[
-        int | None, typer.Option(help="Days on each such bench, with seeds from --seed on [1].")
+        int | None, typer.Option(help="Days on each such bench, with seeds counted from --seed [1].")
     ] = None,
 ) -> None:
     """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 
     Needs no hardware and no files. Writes recordings, meshes, contacts, reports, a runtime bundle, a
     table of errors and a picture. Exit code 1: the errors are larger than noise explains, a verification
-    failed, or a bundle is refused.
+    failed, or a bundle was refused.
 
-    With --reality: calibrate, prepare, align, verify, export and run on a bench that is not ideal, and
+    With --reality: calibrate, prepare, align, verify, export and run on a realistic bench, and
     compare with the truth. Exit code 1: on a typical bench a figure misses its target.
     """
     from rich.console import Console
@@ -55,7 +55,7 @@ def demo(
         _days(out, reality, names, 1 if seeds is None else seeds, seed)
         return
     if seeds is not None:
-        raise InputError("--seeds goes with --reality: give a bench too, such as --reality typical.")
+        raise InputError("--seeds needs --reality: give a bench too, such as --reality typical.")
     report = run(out, names, touches, seed, say)
     Console(stderr=as_json()).print(report.table())
     for sentence in report.sentences():

@@ -54,7 +54,7 @@ def chosen(
     """
     if not contacts.is_dir():
         if probe is None:
-            raise typer.BadParameter("give the probe that was touched: --probe PROBE.ply.")
+            raise typer.BadParameter("give the touched probe: --probe PROBE.ply.")
         yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
@@ -80,8 +80,8 @@ def probe_in_sensor_frame(file: Path) -> ProbeFile:
         say(f"warning: {sentence}", "yellow")
     if content.history and content.frame != "S":
         raise HeatmapError(
-            f"{file}: the probe is not aligned with the sensor, contacts would be drawn at wrong places: run"
-            " `contactbench probe align`."
+            f"{file}: the probe is not aligned with the sensor, so contacts would be drawn in"
+            " wrong places: run `contactbench probe align`."
         )
     return content
 
@@ -100,14 +100,16 @@ def found_contacts(
 
     if is_recording(files.contacts):
         if wrenches is not None:
-            raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording has them itself.")
+            raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording contains them.")
         return _located(files, content, turned, delay, min_force)
     if files.calibration is not None:
-        raise typer.BadParameter("--calibration is for a recording; here contacts are located already.")
+        raise typer.BadParameter("--calibration is for a recording; these contacts are already located.")
     if not _is_json(files.contacts):
         return read_contacts(files.contacts, wrenches)
     if wrenches is not None:
-        raise typer.BadParameter("--wrenches is for a CSV file of contacts; a verification has forces.")
+        raise typer.BadParameter(
+            "--wrenches is for a CSV file of contacts; a verification contains the forces."
+        )
     from contactbench.pipeline.calibration.parameters import sha256_of
     from contactbench.pipeline.heatmap.contacts import touches_of
     from contactbench.pipeline.report.report_file import check_sources
@@ -124,7 +126,7 @@ def _located(
 ) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(
-            "a recording needs --calibration: the weight of the probe is in its readings."
+            "a recording needs --calibration because its readings include the weight of the probe."
         )
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
     from contactbench.pipeline.contact import Gates
@@ -155,7 +157,7 @@ def _is_json(file: Path) -> bool:
         return False
 
 
-heatmap_app = Noun("Show where on the probe it was touched: as a picture, a mesh or a film, or in a window.")
+heatmap_app = Noun("Show where the probe was touched: as a picture, a mesh or a film, or in a window.")
 
 _SUFFIXES = (".png", ".ply", ".glb")
 _PAGES = (".html", ".pdf")
@@ -205,15 +207,15 @@ def draw(
     calibration: Annotated[
         Path | None, typer.Option(help="For a recording: what contactbench calibrate fit wrote.")
     ] = None,
-    quantity: Annotated[QuantityName, typer.Option(help="What to show.")] = QuantityName.density,
+    quantity: Annotated[QuantityName, typer.Option(help="Quantity to show.")] = QuantityName.density,
     bandwidth: Annotated[
         float | None,
         typer.Option(
-            help="Standard deviation of the Gaussian, mm [the contacts' own uncertainty, 1.5 at least]."
+            help="Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5]."
         ),
     ] = None,
     normalisation: Annotated[
-        NormalisationName, typer.Option("--per", help="What a density adds up to over the surface.")
+        NormalisationName, typer.Option("--per", help="Integral of a density over the surface.")
     ] = NormalisationName.contacts,
     wrenches: Annotated[
         Path | None,
@@ -221,13 +223,13 @@ def draw(
     ] = None,
     markers: Annotated[
         Path | None,
-        typer.Option(help="For the error: CSV with x_mm,y_mm,z_mm of the points that were touched."),
+        typer.Option(help="For the error: CSV with x_mm,y_mm,z_mm of the touched points."),
     ] = None,
     marker_distance: Annotated[
-        float, typer.Option(help="A contact further than this from every marker touched none, mm.")
+        float, typer.Option(help="A contact farther than this from every marker touched none, mm.")
     ] = 10.0,
-    delay: Annotated[float, typer.Option(help="How much later a wrench is heard than its pose, s.")] = 0.0,
-    min_force: Annotated[float, typer.Option(help="A recording's touches are above this, N.")] = 0.5,
+    delay: Annotated[float, typer.Option(help="Delay of a wrench after its pose, s.")] = 0.0,
+    min_force: Annotated[float, typer.Option(help="In a recording, a touch is above this force, N.")] = 0.5,
     start: Annotated[
         float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
     ] = None,
@@ -242,25 +244,25 @@ def draw(
     ] = None,
     by_confidence: Annotated[
         bool,
-        typer.Option("--by-confidence", help="Let each contact count as much as its place is sure, 0 to 1."),
+        typer.Option("--by-confidence", help="Weight each contact by the confidence of its place, 0 to 1."),
     ] = False,
     speed: Annotated[
-        float, typer.Option(help="Of a film: seconds of contacts in each second of it, 0.1 to 50.")
+        float, typer.Option(help="Film: seconds of contacts per second of film, 0.1 to 50.")
     ] = 1.0,
     last: Annotated[
         float | None,
-        typer.Option(help="Of a film: only the last seconds are shown [what was touched stays], s."),
+        typer.Option(help="Film: show only the last seconds [touched places stay], s."),
     ] = None,
 ) -> None:
-    """Show on the probe's surface where it was touched: how often, how hard, how surely, how wrongly.
+    """Show where the probe was touched: how often, how hard, how certain and how accurate.
 
-    CONTACTS is a recording (.mcap; with --calibration), what contactbench locate wrote (.csv), what
-    contactbench verify touches wrote (.json), or the folder of a session: its newest recording or, for errors,
+    CONTACTS is a recording (.mcap; with --calibration), the output of contactbench locate (.csv) or of
+    contactbench verify touches (.json), or the folder of a session: its newest recording or, for errors,
     verification. Errors are those of accepted touches, or of samples whose force is steady. Each contact
     is spread by a Gaussian of the distance along the surface; beyond three bandwidths there is no data.
     The integral of a density over the surface is the number of contacts, their seconds, or contacts per
-    second. The peak is the largest force within one bandwidth. A film, .mp4 or .gif, shows it as time
-    goes by.
+    second. The peak is the largest force within one bandwidth. A film, .mp4 or .gif, shows it over
+    time.
     """
     kind = out.suffix.lower()
     if kind not in (*_SUFFIXES, *_PAGES, *_FILMS):
@@ -407,30 +409,31 @@ def _errors(
 
     if found.known_errors is not None:
         if markers is not None:
-            raise typer.BadParameter("--markers is not for a verification: it knows what was touched.")
+            raise typer.BadParameter("--markers is not for a verification, which knows the touched markers.")
         return found.known_errors, np.ones(len(found.points), dtype=bool)
     if markers is None:
         raise typer.BadParameter(
-            "--quantity error needs the points that were touched: give --markers, or a verification instead of the"
-            " contacts."
+            "--quantity error needs the touched points: give --markers, or a verification instead"
+            " of the contacts."
         )
     errors, near = found.errors(read_points(markers), most / 1000)
     if found.settled is None:
-        notes.append("The forces are unknown, so samples count that had not settled: give --wrenches.")
+        notes.append("The forces are unknown, so unsettled samples are counted too: give --wrenches.")
         steady = np.ones(len(near), dtype=bool)
     else:
         steady = found.settled
     _count(left_out, "not settled", ~steady)
-    _count(left_out, f"further than {most:g} mm from every marker", steady & ~near)
+    _count(left_out, f"farther than {most:g} mm from every marker", steady & ~near)
     if far := int((steady & ~near).sum()):
         notes.append(
-            f"{far:,} of {int(steady.sum()):,} samples are further than {most:g} mm from every marker and not in the"
-            " map: they may be the worst. A verification knows which marker was touched."
+            f"{far:,} of {int(steady.sum()):,} samples are farther than {most:g} mm from every"
+            " marker and not in the map: they may be the worst. A verification knows which marker"
+            " was touched."
         )
     if not (steady & near).any():
         raise HeatmapError(
-            f"no settled sample is within {most:g} mm of a marker: check --markers (mm, sensor frame S), or give what"
-            " `contactbench verify touches` wrote."
+            f"no settled sample is within {most:g} mm of a marker: check --markers (mm, sensor"
+            " frame S), or give the file written by `contactbench verify touches`."
         )
     return errors, steady & near
 

@@ -24,7 +24,7 @@ _OPTIONAL = {
 
 @info_app.command(example="info --json")
 def info() -> None:
-    """Show versions, the compiled kernel in use, the processor, and which optional packages are there."""
+    """Show versions, the compiled kernel in use, the processor, and the installed optional packages."""
     found = facts()
     answer(found)
     if as_json():

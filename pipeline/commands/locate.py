@@ -52,7 +52,7 @@ def locate(
     out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
     units: Annotated[
         Units | None,
-        typer.Option(help="Unit of the mesh's numbers [what the file says, or guessed from its size]."),
+        typer.Option(help="Unit of the mesh's numbers [as stated in the file, or guessed from its size]."),
     ] = None,
     place: Annotated[
         str | None,
@@ -62,7 +62,9 @@ def locate(
             " fixed axes x, then y, then z, degrees. Left out: the mesh is in S.",
         ),
     ] = None,
-    method: Annotated[MethodName, typer.Option(help="Who answers.")] = MethodName.contactbench,
+    method: Annotated[
+        MethodName, typer.Option(help="Method that locates the contact.")
+    ] = MethodName.contactbench,
     track: Annotated[bool, typer.Option("--track", help="Follow the contact from row to row.")] = False,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
@@ -75,15 +77,18 @@ def locate(
     ] = None,
     model_force: Annotated[
         float | None,
-        typer.Option(help="What drift, cable and hysteresis leave in a force, 1 sigma, N [0.05]."),
+        typer.Option(help="Error that drift, cable and hysteresis leave in a force, 1 sigma, N [0.05]."),
     ] = None,
-    model_torque: Annotated[float | None, typer.Option(help="The same of a torque, mN·m [1].")] = None,
-    min_force: Annotated[float | None, typer.Option(help="low_force under this, N [0.5].")] = None,
+    model_torque: Annotated[float | None, typer.Option(help="The same for a torque, mN·m [1].")] = None,
+    min_force: Annotated[
+        float | None, typer.Option(help="Reason low_force below this force, N [0.5].")
+    ] = None,
     friction_angle: Annotated[
-        float | None, typer.Option(help="tangential beyond this angle to the normal, degrees [75].")
+        float | None, typer.Option(help="Reason tangential beyond this angle to the normal, degrees [75].")
     ] = None,
     ambiguity_distance: Annotated[
-        float | None, typer.Option(help="ambiguous when another likely place is this far, mm [5].")
+        float | None,
+        typer.Option(help="Reason ambiguous when another likely place is this far away, mm [5]."),
     ] = None,
     follow_distance: Annotated[
         float | None, typer.Option(help="With --track: prefer places this near the last contact, mm [10].")
@@ -91,7 +96,7 @@ def locate(
     saturation: Annotated[
         str | None,
         typer.Option(
-            metavar="FX,FY,FZ,MX,MY,MZ", help="saturated when a channel reaches this, N, N·m [none]."
+            metavar="FX,FY,FZ,MX,MY,MZ", help="Reason saturated when a channel reaches this, N, N·m [none]."
         ),
     ] = None,
     region_only: Annotated[
@@ -101,14 +106,18 @@ def locate(
         bool,
         typer.Option(
             "--accept-by-region/--no-accept-by-region",
-            help="With --track: follow contacts that are sure only because of the regions of the mesh.",
+            help=(
+                "With --track: also follow contacts whose place is certain only because of the"
+                " regions of the mesh."
+            ),
         ),
     ] = True,
     patch: PatchOption = None,
     compensated: Annotated[
         bool,
         typer.Option(
-            "--compensated", help="Take a file with the columns of a raw recording: it is compensated."
+            "--compensated",
+            help="Accept a file with the columns of a raw recording: it is already compensated.",
         ),
     ] = False,
     allow_nan: Annotated[
@@ -121,7 +130,7 @@ def locate(
     any order, compensated for weight and offset; - is standard input. The output has
     t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on (m, N·m, frame S; misfit in
     standard deviations squared; on: measured, or invented where the mesh file had an opening, or
-    untouchable) and is written as a whole or not at all.
+    untouchable) and is written completely or not at all.
 
     Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named.
     """
@@ -172,11 +181,11 @@ def locate(
 
 def _check_usage(out: Path, method: MethodName, track: bool, patch: str | None) -> None:
     if patch is not None and method is not MethodName.contactbench:
-        raise typer.BadParameter(f"--patch works with --method contactbench only, not with {method.value}.")
+        raise typer.BadParameter(f"--patch works only with --method contactbench, not with {method.value}.")
     if track and method is not MethodName.contactbench:
-        raise typer.BadParameter(f"--track works with --method contactbench only, not with {method.value}.")
+        raise typer.BadParameter(f"--track works only with --method contactbench, not with {method.value}.")
     if as_json() and out == Path("-"):
-        raise typer.BadParameter("--json and --out - both want standard output: name a file.")
+        raise typer.BadParameter("--json and --out - both use standard output: give a file name.")
 
 
 def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:

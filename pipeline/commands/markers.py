@@ -20,14 +20,14 @@ MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z
 def generate(
     probe: ProbeArgument,
     out: MarkersOut,
-    region: Annotated[int | None, typer.Option(help="Only on the region of this rank.")] = None,
+    region: Annotated[int | None, typer.Option(help="Only on the region with this rank.")] = None,
     everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
-    count: Annotated[int, typer.Option(help="How many, spread evenly.")] = 17,
-    grid: Annotated[float | None, typer.Option(help="Instead: on a grid of this pitch, mm.")] = None,
+    count: Annotated[int, typer.Option(help="Number of markers, spread evenly.")] = 17,
+    grid: Annotated[float | None, typer.Option(help="Instead: markers on a grid of this pitch, mm.")] = None,
 ) -> None:
-    """Place markers on a probe, spread evenly or on a grid; the same ones on every call."""
+    """Place markers on a probe, spread evenly or on a grid; every call gives the same ones."""
     if (region is None) != everywhere:
-        raise typer.BadParameter("say where: --region N or --all, one of them.")
+        raise typer.BadParameter("give either --region N or --all.")
     refuse_overwriting(out, [probe])
     from contactbench.pipeline.verification import grid_markers, spread_markers
     from contactbench.pipeline.verification.result import load_surface
@@ -46,9 +46,9 @@ def snap(
     markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
     out: MarkersOut,
-    limit: Annotated[float, typer.Option(help="Refuse markers further from the surface, mm.")] = 5.0,
+    limit: Annotated[float, typer.Option(help="Refuse markers farther from the surface, mm.")] = 5.0,
 ) -> None:
-    """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
+    """Move markers to the nearest points of a probe's surface, and print how far each moved."""
     refuse_overwriting(out, [markers, probe])
     from contactbench.pipeline.verification import load_markers
     from contactbench.pipeline.verification import snap as snapped

@@ -21,8 +21,8 @@ RobotPosesOption = Annotated[
     typer.Option(
         "--robot-poses",
         metavar="FILE",
-        help="The robot's own recording, CSV: t (s, on the sensor's clock) and the orientation. The first table then"
-        " needs t,fx,fy,fz,mx,my,mz only.",
+        help="Separate CSV recording of the robot: t (s, on the sensor's clock) and the orientation."
+        " The first table then needs only t,fx,fy,fz,mx,my,mz.",
     ),
 ]
 
@@ -38,8 +38,8 @@ RealityOption = Annotated[
     typer.Option(
         "--reality",
         metavar="MIX|EFFECT=SIZE,...",
-        help="What it adds to the ideal bench: ideal, typical, harsh or tissue, effects with their sizes, or both, such"
-        " as typical,cable=0.2. `contactbench bench reality` lists them.",
+        help="Deviation from the ideal bench: ideal, typical, harsh or tissue, effects with their"
+        " sizes, or both, such as typical,cable=0.2. `contactbench bench reality` lists them.",
     ),
 ]
 
@@ -48,8 +48,9 @@ PatchOption = Annotated[
     typer.Option(
         "--patch",
         metavar="flat|RX,RY",
-        help="What is touched is soft: the point is a centre of pressure; tell where the middle of the patch is, how it"
-        " is tilted and how the force is shared. flat, or the radii of the tissue along S's x and y, mm, 0 for flat.",
+        help="The touched object is soft, so the point is a centre of pressure; also report the middle"
+        " of the patch, its tilt and how the force is shared. flat, or the radii of the tissue"
+        " along S's x and y, mm, 0 for flat.",
     ),
 ]
 
@@ -72,9 +73,7 @@ def written(given: OrientationSettings) -> Convention | None:
     """
     robot = getattr(given, "robot", None)
     if given.radians and not (given.euler or given.rotation_vector or robot):
-        raise typer.BadParameter(
-            "--radians is about angles: it goes with --euler, --rotation-vector or --robot."
-        )
+        raise typer.BadParameter("--radians needs angles: use it with --euler, --rotation-vector or --robot.")
     from contactbench.pipeline.calibration.orientation import convention_of
 
     found = convention_of(given)
@@ -99,7 +98,7 @@ def refuse_overwriting(out: Path | None, inputs: Sequence[Path]) -> None:
     """
     for given in inputs:
         if out is not None and out.exists() and given.exists() and out.samefile(given):
-            raise typer.BadParameter(f"{out} is an input too: choose another name for what is written.")
+            raise typer.BadParameter(f"{out} is also an input: choose another name for the output.")
 
 
 def write_file(out: Path, data: bytes) -> None:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 probe_app = Noun(
-    "Make a probe of a mesh: inspect, shell, align, simplify, or all in one go; its regions and markers."
+    "Turn a mesh into a probe: inspect, shell, align, simplify, or all in one go; its regions and markers."
 )
 probe_app.add_typer(regions_app, name="regions")
 probe_app.add_typer(markers_app, name="markers")
@@ -30,7 +30,9 @@ probe_app.add_typer(markers_app, name="markers")
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
 ]
-OutOption = Annotated[Path, typer.Option(help="Probe to write, .ply; its history goes beside it as .json.")]
+OutOption = Annotated[
+    Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
+]
 Units = Annotated[ProbeSettings, Only("units")]
 Simplified = Annotated[
     ProbeSettings,
@@ -61,7 +63,7 @@ def refuse_to_guess(file: Path, given: ProbeSettings) -> None:
 
     guess = None if given.units != "auto" else read_mesh(file).guess
     if guess is not None and guess.must_be_given:
-        raise MeshError(f"{file}: the unit cannot be told. {guess.reason}")
+        raise MeshError(f"{file}: the unit cannot be determined. {guess.reason}")
 
 
 def counts(text: str) -> list[int]:
@@ -93,11 +95,11 @@ def align(
         typer.Option(
             "--place",
             metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With --touches:"
-            " where the probe is now.",
+            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With"
+            " --touches: the probe's present pose.",
         ),
     ] = None,
-    alignment: Annotated[Path | None, typer.Option(help="Or: what --save wrote, .json.")] = None,
+    alignment: Annotated[Path | None, typer.Option(help="Instead: the .json file written by --save.")] = None,
     points: Annotated[
         Path | None,
         typer.Option(help="CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more."),
@@ -117,10 +119,10 @@ def align(
         typer.Option(metavar="X,Y,Z", help="With --flange-face: point of the mesh that lies towards +x, mm."),
     ] = None,
     clock: Annotated[
-        float | None, typer.Option(help="With --toward: turn it by this about z, degrees.")
+        float | None, typer.Option(help="With --toward: turn by this angle about z, degrees.")
     ] = None,
     axes: Annotated[
-        bool, typer.Option("--axes", help="By the principal axes: longest along z, widest along x.")
+        bool, typer.Option("--axes", help="Use the principal axes: longest along z, widest along x.")
     ] = False,
     tip: Annotated[
         str | None, typer.Option(metavar="X,Y,Z", help="With --axes: a point of the mesh near the tip, mm.")
@@ -138,20 +140,20 @@ def align(
     noise_force: Annotated[
         float | None, typer.Option(help="With --touches: standard deviation of a force, N [0.05].")
     ] = None,
-    noise_torque: Annotated[float | None, typer.Option(help="The same of a torque, N·m [0.002].")] = None,
+    noise_torque: Annotated[float | None, typer.Option(help="The same for a torque, N·m [0.002].")] = None,
     placement: Annotated[
         float | None,
-        typer.Option(help="With --touches: how well a marker is hit, mm, one standard deviation [0.3]."),
+        typer.Option(help="With --touches: accuracy of hitting a marker, mm, one standard deviation [0.3]."),
     ] = None,
     again: Annotated[
-        bool, typer.Option("--again", help="The probe is in S already: correct it there.")
+        bool, typer.Option("--again", help="The probe is already in S: correct it there.")
     ] = False,
-    save: Annotated[Path | None, typer.Option(help="Write the alignment itself, .json.")] = None,
+    save: Annotated[Path | None, typer.Option(help="Also write the alignment itself, .json.")] = None,
 ) -> None:
     """Move a mesh from its own frame P into the sensor frame S.
 
     By one of: typed numbers, matching points, the face that sits on the sensor, the principal axes, or
-    touches of marked points. Exit code 1: touches do not bear out a better place than the present one,
+    touches of marked points. Exit code 1: the touches do not prove a better mount than the present one,
     which is kept.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
@@ -197,7 +199,7 @@ def align(
             write_file(save, found.to_json().encode())
         say(f"Wrote {out}.")
     else:
-        say("Nothing was written: the present mount stays.", "yellow")
+        say("Nothing was written: the present mount is kept.", "yellow")
     answer(_facts(found, by_touch, out if adopted else None))
     if not adopted:
         raise typer.Exit(1)
@@ -245,7 +247,7 @@ def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path |
     if save is not None:
         refuse_overwriting(save, inputs)
         if save.resolve() in (out.resolve(), out.with_suffix(".json").resolve()):
-            raise typer.BadParameter(f"--save {save} is where the probe goes: choose another name.")
+            raise typer.BadParameter(f"--save {save} is also the probe's file: choose another name.")
 
 
 def chosen_place(place: str | None, alignment: Path | None) -> Alignment | None:
@@ -259,7 +261,7 @@ def chosen_place(place: str | None, alignment: Path | None) -> Alignment | None:
     from contactbench.pipeline.preparation.prepare import alignment_of
 
     if place is not None and alignment is not None:
-        raise typer.BadParameter("--place and --alignment contradict each other: give one.")
+        raise typer.BadParameter("--place and --alignment contradict each other: give only one.")
     mount = None if place is None else numbers(place, 6, "--place")
     return alignment_of(ProbeSettings.checked({"mount": mount}), alignment)
 
@@ -277,7 +279,7 @@ def _by_touches(
 
     start = chosen_place(place, alignment)
     if start is None:
-        raise typer.BadParameter("--touches starts from where the probe is now: give --place or --alignment.")
+        raise typer.BadParameter("--touches needs the probe's present pose: give --place or --alignment.")
     with Bar("cross-validating", counted=True) as bar:
         return align_touches(
             content.probe,
@@ -355,10 +357,10 @@ def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) 
 
 @probe_app.command(example="probe inspect housing.stl")
 def inspect(file: MeshArgument, given: Units) -> None:
-    """Say what is wrong with a mesh, in words and numbers.
+    """Describe the defects of a mesh, in words and numbers.
 
-    Holes, parts, hidden and double walls, facets turned over or cutting through each other, slivers. Exit
-    code 1: something would spoil contacts.
+    Holes, parts, hidden and double walls, facets flipped or cutting through each other, slivers. Exit
+    code 1: a defect would spoil contacts.
     """
     from contactbench.pipeline.mesh.inspect import inspect as look
 
@@ -369,7 +371,7 @@ def inspect(file: MeshArgument, given: Units) -> None:
     for finding in found.findings:
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))
     if found.clear:
-        say("Nothing was found that would spoil contacts.")
+        say("No problems found.")
     answer(found.to_json())
     if not found.sound:
         raise typer.Exit(1)
@@ -381,10 +383,10 @@ def shell(
     out: OutOption,
     given: Annotated[ProbeSettings, Only("units", "close", "alpha", "gap")],
 ) -> None:
-    """Make the closed surface that a finger could touch.
+    """Make the closed outer surface that can be touched.
 
-    Inner walls and parts go; openings are closed by invented facets, which are marked. A mesh that needs
-    nothing is left as it is. Exit code 1: what could be made is not sound.
+    Inner walls and parts are removed; openings are closed by invented facets, which are marked. A mesh that
+    needs no repair stays unchanged. Exit code 1: the resulting surface is not valid.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.prepare import closings_of
@@ -409,9 +411,9 @@ def simplify(
     out: OutOption,
     given: Simplified,
 ) -> None:
-    """Give a probe fewer facets, and say what that costs.
+    """Reduce the facets of a probe, and report the resulting error.
 
-    Distances and angles are measured against the mesh as it came, both ways.
+    Distances and angles are measured against the input mesh, both ways.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.steps import simplify_step
@@ -443,16 +445,16 @@ def ladder(
     given: Annotated[ProbeSettings, Only("units", "max_contact_error", "forces", "engine", "region_ratio")],
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-ladder"),
     facets: Annotated[
-        str | None, typer.Option(metavar="N,N,...", help="Counts to try [250 to 20,000].")
+        str | None, typer.Option(metavar="N,N,...", help="Facet counts to try [250 to 20,000].")
     ] = None,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
     touches: Annotated[int, typer.Option(help="Touches to locate.")] = 4_000,
 ) -> None:
-    """Weigh accuracy against speed over a range of facet counts, and recommend one.
+    """Compare accuracy and speed over a range of facet counts, and recommend one.
 
     The same touches, with the sensor's noise, are located on the full mesh and on each simplified one.
-    Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh keeps the
+    Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh meets the
     goal.
     """
     from contactbench.pipeline.contact import WrenchNoise
@@ -496,13 +498,13 @@ def prepare(
     out: OutOption,
     given: ProbeSettings,
     alignment: Annotated[
-        Path | None, typer.Option(help="Or: what `probe align --save` wrote, .json.")
+        Path | None, typer.Option(help="Instead: the .json file written by `probe align --save`.")
     ] = None,
 ) -> None:
-    """All in one go: read, close, align, simplify, and write the probe with its history.
+    """Read, close, align and simplify a mesh, and write the probe with its history, all in one go.
 
-    Regions that the file holds are kept. Exit code 1: the result is not sound (open, crossing, folded or
-    inside out); nothing is written then.
+    Regions in the file are kept. Exit code 1: the result is not valid (open, crossing, folded or inside
+    out), and nothing is written.
     """
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepared

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.streams import Pair
 
 
-record_app = Noun("Record a sensor and a robot; look into recordings, and convert them.")
+record_app = Noun("Record a sensor and a robot; inspect and convert recordings.")
 
 _LOOK_S = 0.05  # how soon the end of a replay is noticed
 _STEPS = 500  # samples between looks at Ctrl-C
@@ -38,26 +38,26 @@ _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 @record_app.command(example="record start sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
 def start(
-    address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Of the sensor.")],
-    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
+    address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Address of the sensor.")],
+    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; never overwrites a file.")],
     pose: Annotated[
         str | None,
         typer.Option(
             metavar="ADDRESS",
-            help="Also the flange of a robot: elfin+tcp://, ur+tcp://, the same replay:// address,"
-            " poses:///file.csv, or one that stays: still://?rpy=0,90,0 (degrees).",
+            help="Also record a robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address,"
+            " poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).",
         ),
     ] = None,
-    seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
-    note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
+    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
+    note: Annotated[str, typer.Option(help="Note to keep with the recording.")] = "",
 ) -> None:
     """Record a force/torque sensor until Ctrl-C, or for some seconds.
 
-    ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and where it is; or
+    ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and its location; or
     replay:///recording.mcap?speed=4 (or speed=step: as fast as it can be read), which ends by itself and
-    keeps its times. Nothing but what it takes to stream is sent: no sensor is zeroed. A lost line is
-    opened again; a gap stays a gap. Exit code 1: one of them gave not one sample, a stream failed, or a
-    replay could not be read to its end; without a sample no file is kept.
+    keeps its times. Only the commands needed for streaming are sent: no sensor is zeroed. A lost connection
+    is reopened; the gap remains. Exit code 1: one of them sent no sample, a stream failed, or a replay could
+    not be read to its end; without samples no file is kept.
     """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
@@ -114,14 +114,14 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
 
 @record_app.command(example="record ports")
 def ports() -> None:
-    """List the serial ports of this machine, with a guess at what hangs on each."""
+    """List the serial ports of this machine, with a guess at the connected device."""
     from contactbench.pipeline.devices.transport import list_ports
 
     found = list_ports()
     for port in found:
         say(f"{port.path}: {port.description}" + (f"; try {port.url}" if port.url else ""))
     if not found:
-        say("There is no serial port: plug the sensor in, or give a network address.")
+        say("No serial port found: plug in the sensor, or give a network address.")
     rows = [{"path": p.path, "description": p.description, "url": p.url} for p in found]
     answer({"ports": rows})
 
@@ -248,7 +248,7 @@ def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool
         rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"
         jitter = "" if health.jitter is None else f", jitter {1e3 * health.jitter:.2f} ms"
         if health.lateness is not None:
-            jitter += f", at worst {1e3 * health.lateness[1]:.1f} ms late"
+            jitter += f", at most {1e3 * health.lateness[1]:.1f} ms late"
         say(
             f"{device}: {health.samples:,} samples at {rate}{jitter}; lost {counters.lost}, damaged"
             f" {counters.bad_checksums}, reconnected {health.reconnected} times."
@@ -258,8 +258,8 @@ def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool
     for _, what in recorder.suspicions:
         say(what, "yellow")
     if recorder.skipped:
-        say(f"{recorder.skipped} batches hold a sample that cannot be recorded.", "yellow")
-    say(f"Wrote {out}." if kept else "Not one sample came: nothing is kept.", "" if kept else "red")
+        say(f"{recorder.skipped} batches contain a sample that cannot be recorded.", "yellow")
+    say(f"Wrote {out}." if kept else "No sample arrived, so nothing was kept.", "" if kept else "red")
 
 
 def _facts(health: Health) -> dict[str, Any]:
@@ -276,7 +276,7 @@ _FLAGS = {
     "raw": "raw",
     "late": "slower than the rate",
     "error": "with a sensor error",
-    "clock": "with a guessed time",
+    "clock": "with an estimated time",
 }
 
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
@@ -284,13 +284,13 @@ FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, a
 
 @record_app.command(example="record info touches.mcap")
 def info(file: FileArgument) -> None:
-    """Say what is in a recording: devices, topics, samples, rates, and whether the file is whole.
+    """Show the contents of a recording: devices, topics, samples, rates, and whether the file is complete.
 
-    Counts lost and unusable samples, those that the sensor flagged, those whose time is a guess because
-    the device's count or clock had just leapt, and those that arrived more than 0.1 s after they were
-    measured.
+    Counts lost and unusable samples, those that the sensor flagged, those whose time is an estimate
+    because the device's counter or clock had just jumped, and those that arrived more than 0.1 s after they
+    were measured.
 
-    Exit code 1: it is cut off or damaged, or holds no samples.
+    Exit code 1: it is cut off or damaged, or contains no samples.
     """
     found = _read(file)
     topics = [
@@ -305,7 +305,7 @@ def info(file: FileArgument) -> None:
     _warn(found.warnings)
     whole = found.complete and not found.warnings and bool(topics)
     if not topics:
-        say("There are no samples in it.", "red")
+        say("It contains no samples.", "red")
     answer(
         {
             "complete": found.complete,
@@ -329,16 +329,17 @@ def convert(
     file: FileArgument,
     out: Annotated[Path, typer.Option(help="File to write: .csv or .npz.")],
     topic: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Only that topic [the one sensor, else the one robot].")
+        str | None,
+        typer.Option(metavar="NAME", help="Only this topic [the only sensor, else the only robot]."),
     ] = None,
 ) -> None:
     """Write a recording as .csv or .npz.
 
     CSV: one topic, as locate and calibrate captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
-    was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same moments; readings that the device
-    says are no good, or without a pose beside them, are left out. NPZ: everything, as it is.
+    was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same times; readings flagged as bad by
+    the device, or without a pose, are left out. NPZ: everything, unchanged.
 
-    Exit code 1: the recording is cut off or damaged; what can be read is written.
+    Exit code 1: the recording is cut off or damaged; the readable part is written.
     """
     ending = out.suffix.lower()
     if ending not in (".csv", ".npz"):
@@ -362,10 +363,10 @@ def convert(
 
 @record_app.command(example="record delay poses.mcap")
 def delay(file: FileArgument) -> None:
-    """Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.
+    """Estimate the delay of the sensor relative to the robot, from a stretch in which the tool was turned.
 
-    Needs no mount and no calibration: the weight must turn with the flange, touching nothing. Exit code
-    1: the motion does not show it, or shows it doubtfully.
+    Needs no mount and no calibration: the weight must turn with the flange without touching anything. Exit
+    code 1: the motion does not show the delay, or only doubtfully.
     """
     from contactbench.pipeline.recording import RecordingError
     from contactbench.pipeline.recording.delay import estimate_delay
@@ -373,8 +374,8 @@ def delay(file: FileArgument) -> None:
     found = _read(file)
     if len(found.wrenches) != 1 or len(found.flanges) != 1:
         raise RecordingError(
-            f"{file}: one sensor and one robot are needed, and it holds {len(found.wrenches)} and"
-            f" {len(found.flanges)}: record one of each."
+            f"{file}: one sensor and one robot are needed, but it contains {len(found.wrenches)}"
+            f" and {len(found.flanges)}: record one of each."
         )
     (wrenches,), (poses,) = found.wrenches.values(), found.flanges.values()
     estimate = estimate_delay(wrenches, poses)
@@ -402,16 +403,19 @@ def import_bag(
     flange: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of its flange.")] = None,
     header_stamps: Annotated[
         bool,
-        typer.Option("--header-stamps", help="Times are those in the headers, not when the bag got them."),
+        typer.Option(
+            "--header-stamps",
+            help="Use the times in the headers instead of those when the bag received them.",
+        ),
     ] = False,
 ) -> None:
-    """Make a recording of a ROS 2 bag in MCAP format; ROS is not needed.
+    """Convert a ROS 2 bag in MCAP format to a recording; ROS is not needed.
 
     Takes a topic of geometry_msgs/WrenchStamped, and the flange's pose from tf2_msgs/TFMessage,
-    geometry_msgs/PoseStamped, or sensor_msgs/JointState with --robot. Where there is one of a kind it is
-    taken; otherwise the message lists them.
+    geometry_msgs/PoseStamped, or sensor_msgs/JointState with --robot. A topic that is the only one of
+    its kind is used; otherwise the error lists them.
 
-    Exit code 1: something in the bag is damaged or missing; what can be read is written.
+    Exit code 1: something in the bag is damaged or missing; the readable part is written.
     """
     from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
     from contactbench.pipeline.robot import Robot

@@ -103,7 +103,7 @@ class ProbeRegions:
 
         text = self.model.undo_text
         if text is None:
-            say("The regions are like that already: nothing was written.")
+            say("The regions already have this state: nothing was written.")
             return
         regions = self.model.snapshot()
         areas = (1e6 * regions.areas(self.probe.areas)).round(3).tolist()
@@ -128,7 +128,7 @@ class ProbeRegions:
         steps, history = self._steps(), self._content.history
         taken, given = (steps.done, steps.undone) if way == "undo" else (steps.undone, steps.done)
         if not taken:
-            why = ": something else has changed the probe since" if steps.changed else ""
+            why = ": something else has changed the probe since then" if steps.changed else ""
             say(f"There is nothing to {way}{why}.", "yellow")
             raise typer.Exit(1)
         step = taken.pop()
@@ -217,10 +217,11 @@ def metres(text: str, option: str) -> NDArray[np.float64]:
 
 
 regions_app = Noun(
-    "Mark the parts of a probe that are meant to be touched, in order of priority.\n\n"
-    "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of them"
-    " nothing can touch). Each command changes both in one step, which `probe regions undo` takes back. Lengths are in"
-    " mm, in the sensor frame S. Exit code 1: facets were chosen, but none changed."
+    "Mark the parts of a probe that are meant to be touched, in order of priority.\n\nRegions are"
+    " stored in the probe's .ply (a rank per facet) and in the .json beside it (names, colours,"
+    " and which of them are untouchable). Each command changes both in one step, which `probe"
+    " regions undo` reverts. Lengths are in mm, in the sensor frame S. Exit code 1: facets were"
+    " chosen, but none changed."
 )
 
 ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the next of a palette]")]
@@ -228,7 +229,7 @@ ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the 
 
 @regions_app.command("list", example="probe regions list probe.ply")
 def list_regions(mesh: MeshArgument) -> None:
-    """Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it."""
+    """Show the regions of a probe: priority, name, colour, facets, area, and whether they are untouchable."""
     session = ProbeRegions(mesh)
     show(mesh, session.probe, session.model)
 
@@ -247,7 +248,7 @@ def add(
 
 @regions_app.command(example="probe regions remove probe.ply Lens")
 def remove(mesh: MeshArgument, region: RegionArgument) -> None:
-    """Remove a region; its facets belong to none, and the priorities behind it move up."""
+    """Remove a region; its facets then belong to none, and lower priorities move up."""
     session = ProbeRegions(mesh)
     rank = session.rank(region)
     count = int(session.mask(rank).sum())
@@ -284,12 +285,12 @@ def mark(
     mesh: MeshArgument,
     region: RegionArgument,
     untouchable: Annotated[
-        bool, typer.Option("--untouchable/--touchable", help="Whether nothing can touch it.")
+        bool, typer.Option("--untouchable/--touchable", help="Whether the region is untouchable.")
     ],
 ) -> None:
-    """Say whether nothing can touch a region, such as one that a clamp or a drape hides.
+    """Mark a region as untouchable or touchable, such as one hidden by a clamp or a drape.
 
-    A contact there counts as 1000 times less likely, and the places that remain are told apart better.
+    A contact there counts as 1000 times less likely, so the remaining places are easier to tell apart.
     """
     session = ProbeRegions(mesh)
     session.model.set_untouchable(session.rank(region), untouchable)
@@ -299,9 +300,9 @@ def mark(
 @regions_app.command(example="probe regions reorder probe.ply Lens Neck Handle")
 def reorder(
     mesh: MeshArgument,
-    order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Every region once.")],
+    order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Names of all regions, each once.")],
 ) -> None:
-    """Change the priorities: name all regions, the first priority first."""
+    """Change the priorities: name all regions, highest priority first."""
     session = ProbeRegions(mesh)
     session.model.reorder([session.rank(region) for region in order])
     session.finish(None)
@@ -309,17 +310,17 @@ def reorder(
 
 @regions_app.command(example="probe regions undo probe.ply")
 def undo(mesh: MeshArgument) -> None:
-    """Take back the last region command on a probe; up to 100, one after the other.
+    """Undo the last region command on a probe; up to 100, one after the other.
 
-    Both files are byte for byte what they were before it. The steps are kept beside the probe, in its
-    .undo file; they end where something else changes the probe. Exit code 1: there is nothing to undo.
+    Both files are restored byte for byte. The steps are kept beside the probe, in its .undo file; they end
+    when something else changes the probe. Exit code 1: there is nothing to undo.
     """
     ProbeRegions(mesh).turn("undo")
 
 
 @regions_app.command(example="probe regions redo probe.ply")
 def redo(mesh: MeshArgument) -> None:
-    """Do again what undo took back last. Exit code 1: there is nothing to redo."""
+    """Redo the last undone command. Exit code 1: there is nothing to redo."""
     ProbeRegions(mesh).turn("redo")
 
 
@@ -328,9 +329,9 @@ def export(
     mesh: MeshArgument,
     out: Annotated[Path, typer.Option(help="File to write, .json or .csv.")],
 ) -> None:
-    """Write the regions to a file of their own, .json or .csv.
+    """Export the regions to a .json or .csv file.
 
-    JSON holds names, colours, marks and facets, and fits this mesh only; CSV holds face,region.
+    JSON contains names, colours, marks and facets, and fits only this mesh; CSV contains face,region.
     """
     from contactbench.pipeline.mesh.regions import RegionError, save_regions
     from contactbench.pipeline.mesh.sidecar import sidecar_of
@@ -348,10 +349,10 @@ def import_regions(
     mesh: MeshArgument,
     file: Annotated[Path, typer.Argument(metavar="FILE", help=".json or .csv.")],
 ) -> None:
-    """Replace all regions of a probe by those of a file, .json or .csv.
+    """Replace all regions of a probe by those in a .json or .csv file.
 
-    A .json file fits the mesh that it was made for; for another one use transfer. From .csv names,
-    colours and marks stay, as far as there are any.
+    A .json file fits only the mesh it was made for; for another mesh use transfer. With .csv, existing
+    names, colours and marks are kept.
     """
     from contactbench.pipeline.mesh.regions import RegionSet, load_regions
 
@@ -367,14 +368,14 @@ def import_regions(
 @regions_app.command(example="probe regions transfer probe.ply probe-1000.ply")
 def transfer(
     old: Annotated[Path, typer.Argument(metavar="OLD", help="Probe with regions, .ply.")],
-    new: Annotated[Path, typer.Argument(metavar="NEW", help="Probe to give them to, .ply; is overwritten.")],
+    new: Annotated[Path, typer.Argument(metavar="NEW", help="Probe that gets them, .ply; is overwritten.")],
     reach: Annotated[
-        float | None, typer.Option(help="Facets further than this from OLD get none, mm [2 % of the size].")
+        float | None, typer.Option(help="Facets farther than this from OLD get none, mm [2 % of the size].")
     ] = None,
 ) -> None:
-    """Carry the regions of one mesh over to another of the same surface.
+    """Transfer the regions of one mesh to another mesh of the same surface.
 
-    The other may be simplified, made a shell, or exported again.
+    The other mesh may be simplified, a shell, or a new export.
 
     Both are in S. Each facet of NEW takes the region of the nearest facet of OLD that faces the same way.
     NEW's own regions are replaced. Exit code 1: a region vanished.
@@ -421,10 +422,10 @@ def _say_transferred(result: Transferred) -> None:
 _NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it
 _EMPTY = "the region has no facets"
 
-EraseOption = Annotated[bool, typer.Option("--erase", help="Take the facets out of REGION instead.")]
-ProtectOption = Annotated[bool, typer.Option("--protect", help="Facets of other regions stay theirs.")]
+EraseOption = Annotated[bool, typer.Option("--erase", help="Remove the facets from REGION instead.")]
+ProtectOption = Annotated[bool, typer.Option("--protect", help="Leave facets of other regions unchanged.")]
 RingsOption = Annotated[int | None, typer.Option(help="Rings of facets that share a vertex.")]
-DistanceOption = Annotated[float | None, typer.Option(help="Or so far along the surface, mm.")]
+DistanceOption = Annotated[float | None, typer.Option(help="Instead: distance along the surface, mm.")]
 PointOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="A point on the plane, mm.")]
 NormalOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="Normal of the plane, of any length.")]
 
@@ -470,7 +471,7 @@ def plane(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets on the side of a plane that its normal points to."""
+    """Give REGION the facets on the side of a plane to which its normal points."""
     from contactbench.pipeline.mesh.regions import half_space
 
     where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
@@ -483,12 +484,14 @@ def plane(
 def flood(
     mesh: MeshArgument,
     region: RegionArgument,
-    at: Annotated[str, typer.Option(metavar="X,Y,Z", help="Where to begin: the facet nearest to this, mm.")],
-    crease: Annotated[float, typer.Option(help="Sharpest edge that is crossed, degrees.")] = 30.0,
+    at: Annotated[
+        str, typer.Option(metavar="X,Y,Z", help="Where to start: the facet nearest to this point, mm.")
+    ],
+    crease: Annotated[float, typer.Option(help="Sharpest edge to cross, degrees.")] = 30.0,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets around a point, as far as no edge is sharper than --crease."""
+    """Give REGION the facets around a point, up to edges sharper than --crease."""
     from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at, "--at")
@@ -503,7 +506,7 @@ def brush(
     mesh: MeshArgument,
     region: RegionArgument,
     at: Annotated[list[str], typer.Option(metavar="X,Y,Z", help="A point of the stroke, mm.")],
-    radius: Annotated[float, typer.Option(help="Of the brush, mm.")],
+    radius: Annotated[float, typer.Option(help="Radius of the brush, mm.")],
     straight: Annotated[
         bool,
         typer.Option("--straight", help="Measure through space, not along the surface."),
@@ -511,10 +514,10 @@ def brush(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Paint REGION with a round brush, along the surface through the points nearest to --at.
+    """Paint REGION with a round brush along the surface, through the points nearest to --at.
 
-    --at is given once for a dab, several times for a stroke. A point further from the surface than the
-    radius, or 2 % of the size if that is more, is refused.
+    Give --at once for a dab, several times for a stroke. A point farther from the surface than the radius,
+    or 2 % of the size if that is more, is refused.
     """
     from contactbench.pipeline.mesh.regions import Brush
 
@@ -537,7 +540,7 @@ def grow(
     rings: RingsOption = None,
     distance: DistanceOption = None,
 ) -> None:
-    """Let REGION grow at its border, by rings of facets or a distance. Other regions stay as they are."""
+    """Grow REGION at its border, by rings of facets or a distance. Other regions stay unchanged."""
     from contactbench.pipeline.mesh.regions import grow as extend
 
     session = ProbeRegions(mesh)
@@ -553,7 +556,7 @@ def shrink(
     rings: RingsOption = None,
     distance: DistanceOption = None,
 ) -> None:
-    """Let REGION shrink at its border, by rings of facets or a distance."""
+    """Shrink REGION at its border, by rings of facets or a distance."""
     from contactbench.pipeline.mesh.regions import shrink as reduce
 
     session = ProbeRegions(mesh)
@@ -566,11 +569,13 @@ def shrink(
 def smooth(
     mesh: MeshArgument,
     region: RegionArgument,
-    rings: Annotated[int, typer.Option(help="What is narrower than about this many facets goes.")] = 2,
+    rings: Annotated[
+        int, typer.Option(help="Features narrower than about this many facets are removed.")
+    ] = 2,
 ) -> None:
     """Straighten the border of REGION, fill its holes and remove its specks.
 
-    Its area and other regions stay as they are.
+    Its area and other regions stay unchanged.
     """
     from contactbench.pipeline.mesh.regions import smooth as straighten
 
@@ -587,11 +592,11 @@ def mirror(
     normal: NormalOption,
     point: PointOption = "0,0,0",
     tolerance: Annotated[
-        float | None, typer.Option(help="How far a centroid may be off, mm [the mean edge].")
+        float | None, typer.Option(help="Tolerance of a centroid, mm [the mean edge].")
     ] = None,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION also the facets that lie where its own are after mirroring.
+    """Add the mirror images of its facets to REGION.
 
     Exit code 1: some facets have no counterpart, because the surface is not symmetric there.
     """
@@ -612,7 +617,7 @@ def mirror(
 
 @regions_app.command(example="probe regions clear probe.ply Lens")
 def clear(mesh: MeshArgument, region: RegionArgument) -> None:
-    """Take all facets out of REGION; its name, colour and priority stay."""
+    """Remove all facets from REGION; its name, colour and priority stay."""
     session = ProbeRegions(mesh)
     rank = session.rank(region)
     changed = session.model.assign(session.mask(rank), 0, text=f"clear {session.name(rank)}")
@@ -640,11 +645,11 @@ def _assign(
 def _kept_as(*, erase: bool, protect: bool) -> str:
     """Say why facets that were chosen stayed where they are."""
     if erase:
-        return "none of them is in it"
-    return "they are in it already" + (", or in others, where --protect leaves them" if protect else "")
+        return "none of them belongs to it"
+    return "they already belong to it" + (", or to others, where --protect leaves them" if protect else "")
 
 
 def _reshape(session: ProbeRegions, rank: int, chosen: NDArray[np.bool_], text: str) -> None:
-    why_not = "the region has that shape already" if session.mask(rank).any() else _EMPTY
+    why_not = "the region already has that shape" if session.mask(rank).any() else _EMPTY
     changed = session.model.set_region(rank, chosen, text=f"{text} {session.name(rank)}")
     session.finish_selection(len(changed), why_not)

@@ -44,13 +44,15 @@ _PATCH_S = 1.0  # a line about the patch in so long
 )
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    source: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the force/torque sensor, or a replay.")],
+    source: Annotated[
+        str, typer.Option(metavar="ADDRESS", help="Address of the force/torque sensor, or a replay.")
+    ],
     pose: Annotated[
         str,
         typer.Option(
             metavar="ADDRESS",
-            help="Of the robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address, poses:///file.csv,"
-            " still://?rpy=0,90,0 (degrees).",
+            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address,"
+            " poses:///file.csv, still://?rpy=0,90,0 (degrees).",
         ),
     ],
     out: Annotated[
@@ -58,35 +60,35 @@ def run(
     ] = None,
     mcap: Annotated[Path | None, typer.Option(help="New MCAP file for the contacts.")] = None,
     udp: Annotated[
-        str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a datagram.")
+        str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a UDP datagram.")
     ] = None,
     patch: PatchOption = None,
-    seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
+    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
     unverified: Annotated[
-        bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
+        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
     ] = False,
     other_sensor: Annotated[
-        bool, typer.Option("--other-sensor", help="Also with a sensor of another serial number.")
+        bool, typer.Option("--other-sensor", help="Also run with a sensor of another serial number.")
     ] = False,
     allow_remote: Annotated[
         bool, typer.Option("--allow-remote", help="Datagrams may go to another machine, unprotected.")
     ] = False,
 ) -> None:
-    """Run a bundle on live streams: say at every sample where the probe is touched.
+    """Run a bundle on live streams, and locate the contact at every sample.
 
-    It ends with Ctrl-C, after some seconds, or with a replay.
+    It ends with Ctrl-C, after --seconds, or at the end of a replay.
 
     Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on
-    those whose accepted is true. A sample takes the orientation at its own time, between two poses or
-    carried on from the last one as far as the bundle allows; without one its reason is stale. A typed
-    pose (still://) never gets old. Each contact says how old it is (latency_s) and what is wrong with the
-    sensor or the poses (health); while nothing comes, ten lines a second say silent. While nothing
-    touches the probe, the sensor's zero is watched; each contact says what is known of it (zero):
-    confirmed, with its age; off, which is an alarm; doubtful, where something may touch the probe; or
-    unknown. Contacts are never corrected by it. With --patch a line a second, on standard error, says
-    how the probe lies on what it presses; the contacts are the same. An output that is too slow loses
-    contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came, more than
-    5 % of them could not be used, a stream failed, or a replay could not be read to its end; 2: the
+    those whose accepted is true. A sample uses the orientation at its own time, interpolated between two
+    poses or extrapolated from the last one as far as the bundle allows; without one its reason is stale. A
+    typed pose (still://) never becomes stale. Each contact contains its age (latency_s) and the state of
+    sensor and poses (health); while no samples arrive, ten lines per second report silent. While nothing
+    touches the probe, the sensor's zero is watched; each contact reports it (zero): confirmed,
+    with its age; off, which is an alarm; doubtful, if something may touch the probe; or unknown. Contacts are
+    never corrected by it. With --patch, one line per second on standard error reports how the probe lies on
+    the surface it presses; the contacts do not change. An output that is too slow loses contacts, and their
+    number is reported; it never delays the sensor. Exit code 1: no sample arrived, more than 5 % of them
+    could not be used, a stream failed, or a replay could not be read to its end; 2: the
     bundle is refused, or an output failed.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -220,9 +222,7 @@ def _wait(
         for outlet in runner.outlets:
             if outlet.lost and outlet.name not in slow:
                 slow.add(outlet.name)
-                _say(
-                    f"{outlet.name}: too slow, contacts are not published there; they are counted.", "yellow"
-                )
+                _say(f"{outlet.name}: too slow, so contacts were dropped there; they are counted.", "yellow")
         if not settled and now - begun > _SETTLED_S:
             settled = True  # said early, not only at the end
             _say_rate(config, pair)
@@ -247,7 +247,8 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
         say(words, "yellow")
     if model.frames.quaternion_ES is None:
         say(
-            "The bundle does not know the mounting: poses are taken for those of the sensor itself.", "yellow"
+            "The bundle does not know the mounting: poses are treated as those of the sensor itself.",
+            "yellow",
         )
 
 
@@ -318,15 +319,15 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
         _say(words, "yellow")
     median, worst = runner.latencies.quantile(0.5), runner.latencies.quantile(0.99)
     if median is not None and worst is not None:
-        _say(f"latency: {1e3 * median:.1f} ms in the median, {1e3 * worst:.1f} ms for 99 of 100.")
+        _say(f"latency: median {1e3 * median:.1f} ms, 99th percentile {1e3 * worst:.1f} ms.")
     _say_zero_at_end(config, runner)
     if runner.unhealthy:
         wrong = ", ".join(f"{name} {count:,}" for name, count in runner.unhealthy.most_common())
         _say(f"unhealthy: {wrong}.", "yellow")
     if runner.reasons and not runner.good:
         _say(
-            f"{runner.unusable:.0%} of the samples could not be used: look at the reasons above, then at sensor, poses"
-            " and their rates.",
+            f"{runner.unusable:.0%} of the samples could not be used: check the reasons above,"
+            " then sensor, poses and their rates.",
             "red",
         )
     for outlet in runner.outlets:

@@ -30,26 +30,28 @@ _WRONG = 1
 @session_app.command(example="session record bench-1 --source sri+tcp://192.168.0.108:4008 --seconds 60")
 def record(
     folder: FolderArgument,
-    source: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the sensor, as for record start.")],
+    source: Annotated[
+        str, typer.Option(metavar="ADDRESS", help="Address of the sensor, as for record start.")
+    ],
     pose: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Of a robot: also record its flange.")
+        str | None, typer.Option(metavar="ADDRESS", help="Address of a robot: also record its flange.")
     ] = None,
-    seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
+    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
     serial: Annotated[
-        str | None, typer.Option(metavar="SN", help="Serial number of the sensor: say it, if it is known.")
+        str | None, typer.Option(metavar="SN", help="Serial number of the sensor, if known.")
     ] = None,
     name: Annotated[
         str | None,
-        typer.Option(metavar="NAME.mcap", help="Name of the recording [with the time of its start]."),
+        typer.Option(metavar="NAME.mcap", help="Name of the recording [with its start time]."),
     ] = None,
-    note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
+    note: Annotated[str, typer.Option(help="Note to keep with the recording.")] = "",
 ) -> None:
     """Record a sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.
 
-    The raw streams are on the disk half a second later; when it ends, the recording becomes an input of
-    the kind recording, with the counters of its streams. Should this process or the power die,
-    `contactbench session repair` adopts what was recorded. Nothing but what it takes to stream is sent:
-    no sensor is zeroed. Exit code 1: not one sample came from one of them.
+    The raw streams are on disk within half a second; at the end, the recording becomes an input of the kind
+    recording, with the counters of its streams. After a crash or a power failure, recover the recording
+    with `contactbench session repair`. Only the commands needed for streaming are sent: no sensor is
+    zeroed. Exit code 1: one of them sent no sample.
     """
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
@@ -126,19 +128,20 @@ def _keep(live: LiveRecording, streams: dict[str, Health]) -> str | None:
 
     if not any(health.samples for health in streams.values()):
         live.discard()
-        say("Not one sample came: nothing is kept.", "red")
+        say("No sample arrived, so nothing was kept.", "red")
         return None
     record = live.keep({device: health_facts(health) for device, health in streams.items()})
     path = files_of(record.action)[0].path
     say(f"{live.name} is kept as {path}.")
     if live.recorder.dropped:
         say(
-            f"{live.recorder.dropped:,} samples are missing, for the disk was too slow: events `dropped` say when.",
+            f"{live.recorder.dropped:,} samples are missing because the disk was too slow: events"
+            " `dropped` show when.",
             "yellow",
         )
     if live.recorder.suspicions:
         say(
-            "If the sensor was re-zeroed, say so with `contactbench session rezero`, and record again.",
+            "If the sensor was re-zeroed, note it with `contactbench session rezero`, and record again.",
             "yellow",
         )
     return path
@@ -157,7 +160,7 @@ def _stream_facts(live: LiveRecording, streams: dict[str, Health]) -> dict[str, 
 
 @session_app.command(example="session verify bench-1")
 def verify(folder: FolderArgument) -> None:
-    """Check the hash chain, every record, and size and content of every file. Exit code 1: something is wrong."""
+    """Check the hash chain, every record, and size and content of every file. Exit code 1: a problem was found."""
     from contactbench.pipeline.session.check import check
 
     with Bar("checking files", counted=True) as bar:
@@ -167,7 +170,7 @@ def verify(folder: FolderArgument) -> None:
     for problem in found.problems:
         say(f"wrong: {problem}", "red")
     if found.sound:
-        say(f"{folder}: {found.records} records and {found.files} files are what they were.", "green")
+        say(f"{folder}: {found.records} records and {found.files} files are unchanged.", "green")
     answer({**vars(found), "sound": found.sound})
     if not found.sound:
         raise typer.Exit(_WRONG)
@@ -175,9 +178,9 @@ def verify(folder: FolderArgument) -> None:
 
 @session_app.command(example="session repair bench-1")
 def repair(folder: FolderArgument) -> None:
-    """Cut an unfinished or damaged record off the journal's end, and adopt recordings that ended abruptly.
+    """Cut an unfinished or damaged record off the journal's end, and recover recordings that ended abruptly.
 
-    Never a whole record; the journal as it was is kept. Exit code 1: a recording could not be adopted.
+    Intact records are never removed, and the previous journal is kept. Exit code 1: a recording could not be recovered.
     """
     from contactbench.pipeline.session.check import repair as run
 
@@ -195,10 +198,10 @@ def repair(folder: FolderArgument) -> None:
 def salvage(
     folder: FolderArgument,
     out: Annotated[
-        Path | None, typer.Option(metavar="NEW", help="Folder to make [DIR-salvaged, beside DIR].")
+        Path | None, typer.Option(metavar="NEW", help="Folder to create [DIR-salvaged, beside DIR].")
     ] = None,
 ) -> None:
-    """Copy all that is whole in a damaged session into a new one, and mark what rests on the rest as stale.
+    """Copy everything intact in a damaged session into a new one, and mark results that depend on lost data as stale.
 
     The damaged session is not changed. Exit code 1: a record or a file is lost.
     """
@@ -212,7 +215,8 @@ def salvage(
         say(f"{title} is stale: {reasons[0]}", "yellow")
     for place in done.unclaimed:
         say(
-            f"{done.out / place} belongs to no record: if it is needed, `contactbench session add` it.",
+            f"{done.out / place} belongs to no record: if you need it, add it with `contactbench"
+            " session add`.",
             "yellow",
         )
     lost = "nothing is lost" if done.whole else "not everything could be saved"
@@ -229,14 +233,14 @@ def export(
     folder: FolderArgument,
     out: Annotated[Path, typer.Option(help="Zip file to write.")],
 ) -> None:
-    """Pack a session into one zip file, after checking it. Exit code 1: a recording that is being made is not in it."""
+    """Check a session and pack it into one zip file. Exit code 1: a recording in progress is not included."""
     from contactbench.pipeline.session.archive import export_archive
 
     done = export_archive(folder, out)
     for note in done.notes:
         say(f"note: {note}", "yellow")
     for place in done.left_out:
-        say(f"{place} is not in it: this recording is being made.", "yellow")
+        say(f"{place} is not included: this recording is in progress.", "yellow")
     say(f"{out}: {done.files} files.")
     answer({"out": str(out), **vars(done)})
     if done.left_out:
@@ -245,25 +249,25 @@ def export(
 
 @session_app.command("import-archive", example="session import-archive bench-1.zip --out bench-1")
 def unpack(
-    archive: Annotated[Path, typer.Argument(metavar="ZIP", help="What export-archive wrote.")],
-    out: Annotated[Path, typer.Option(help="Folder to make.")],
+    archive: Annotated[Path, typer.Argument(metavar="ZIP", help="Archive written by export-archive.")],
+    out: Annotated[Path, typer.Option(help="Folder to create.")],
 ) -> None:
-    """Unpack a session into a new folder, checking every byte of it first."""
+    """Check every byte of an archive, and unpack it into a new folder."""
     from contactbench.pipeline.session.archive import import_archive
 
     import_archive(archive, out)
-    say(f"{out}: a whole session.")
+    say(f"{out}: a complete session.")
     answer({"out": str(out)})
 
 
 @session_app.command(example="session new bench-1")
 def new(folder: FolderArgument) -> None:
-    """Make a session in a folder that is new or empty."""
+    """Create a session in a new or empty folder."""
     from contactbench.pipeline.session import Session
 
     with Session.create(folder) as session:
         identity = session.state.id
-    say(f"{folder}: a new session.")
+    say(f"{folder}: new session created.")
     answer({"session": str(folder), "id": identity})
 
 
@@ -272,23 +276,25 @@ def add(
     folder: FolderArgument,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to copy into the session.")],
     kind: Annotated[
-        str, typer.Option(help="What it is: mesh, poses, recording, ...; a mesh replaces the one before.")
+        str, typer.Option(help="Kind of file: mesh, poses, recording, ...; a mesh replaces the previous one.")
     ],
     serial: Annotated[
-        str | None, typer.Option(help="Serial number of the sensor that it was recorded with.")
+        str | None, typer.Option(help="Serial number of the sensor it was recorded with.")
     ] = None,
     companion: Annotated[
         list[Path] | None,
         typer.Option(
             metavar="FILE",
-            help="File that belongs beside it; may be repeated. The JSON file of a probe is found by itself.",
+            help=(
+                "File that belongs with it; may be repeated. The JSON file of a probe is found automatically."
+            ),
         ),
     ] = None,
     name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="What it is called in the session [as the file].")
+        str | None, typer.Option(metavar="NAME", help="Name in the session [the file's name].")
     ] = None,
 ) -> None:
-    """Copy a raw input into a session; what was computed from one that it replaces becomes stale."""
+    """Copy a raw input into a session; results computed from an input that it replaces become stale."""
     from contactbench.pipeline.session.actions import files_of
     from contactbench.pipeline.session.companions import about_of, companions_of
 
@@ -302,7 +308,7 @@ def add(
     for name, other in zip(beside, others, strict=True):
         say(f"{name}, which belongs to it, is kept as {other.path}.")
     for title in sorted(newly):
-        say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
+        say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
     answer(
         {
             "record": record.number,
@@ -335,8 +341,8 @@ def compute(
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help="Parameter, as JSON or text; may be repeated. Others are those that `session set` or the window"
-            " left for this kind.",
+            help="Parameter, as JSON or text; may be repeated. Others keep the values set by `session"
+            " set` or the window for this kind.",
         ),
     ] = None,
     inputs: Annotated[
@@ -344,11 +350,11 @@ def compute(
         typer.Option(
             "--input",
             metavar="ROLE=NAME",
-            help="Not the newest recording, poses or alignment, but this one; without a name: none.",
+            help="Use this recording, poses or alignment instead of the newest; without a name: none.",
         ),
     ] = None,
 ) -> None:
-    """Compute a result from the newest inputs of its kind, raw or computed, and record it with all it follows from."""
+    """Compute a result from the newest inputs of its kind, raw or computed, and record it with its origin."""
     from contactbench.pipeline.session.actions import files_of
     from contactbench.pipeline.session.recompute import compute as run
     from contactbench.pipeline.session.recompute import newest_inputs, settings_of
@@ -368,7 +374,7 @@ def compute(
     files = [ref.path for ref in files_of(record.action)]
     say(f"{kind} {name} is kept as {', '.join(files)}.")
     for reason in stale:
-        say(f"it is stale already: {reason}", "yellow")
+        say(f"it is already stale: {reason}", "yellow")
     answer({"record": record.number, "files": files, "stale": list(stale)})
 
 
@@ -391,16 +397,16 @@ def _setting(text: str) -> tuple[str, Any]:
 
 @session_app.command(example="session info bench-1 --json")
 def info(folder: FolderArgument) -> None:
-    """Say what a session holds, and which results are stale and why; also while it is being written, or read-only.
+    """Show the contents of a session, and which results are stale and why; works read-only, and while it is in use.
 
-    Of a damaged session, what is whole. Nothing is written. Exit code 1: it is damaged.
+    Of a damaged session, the intact part is shown. Nothing is written. Exit code 1: the session is damaged.
     """
     from contactbench.pipeline.session import Session
 
     with Session.open(folder, write=False, damaged=True) as session:
         state, stale, notes, damage = session.state, session.stale(), session.notes, session.damage
     if damage:
-        say(f"{folder}: {damage}: `contactbench session salvage` copies all that is whole.", "red")
+        say(f"{folder}: {damage}: `contactbench session salvage` copies everything intact.", "red")
     for note in notes:
         say(f"warning: {note}", "yellow")
     say(f"Session {state.id}: {state.count} records.")
@@ -464,9 +470,9 @@ def _result(result: Result, reasons: tuple[str, ...]) -> dict[str, Any]:
 @session_app.command(example="session note bench-1 'new cable'")
 def note(
     folder: FolderArgument,
-    text: Annotated[str, typer.Argument(metavar="TEXT", help="A few words.")],
+    text: Annotated[str, typer.Argument(metavar="TEXT", help="Text of the note.")],
 ) -> None:
-    """Write words into a session's journal, with who and when."""
+    """Write a note into a session's journal, with author and time."""
     with _writing(folder) as session:
         record = session.note(text)
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}.")
@@ -481,12 +487,14 @@ def set_parameters(
     folder: FolderArgument,
     settings: Annotated[
         list[str],
-        typer.Argument(metavar="KIND.NAME=VALUE...", help="Parameters, as JSON or text; null: the default."),
+        typer.Argument(
+            metavar="KIND.NAME=VALUE...", help="Parameters, as JSON or text; null restores the default."
+        ),
     ],
 ) -> None:
-    """Set parameters that results are computed with, devices are opened with and bundles are exported with.
+    """Set parameters for computing results, opening devices and exporting bundles.
 
-    What was computed with another value becomes stale.
+    Results computed with another value become stale.
     """
     given = dict(_setting(text) for text in settings)
     with _writing(folder) as session:
@@ -495,7 +503,7 @@ def set_parameters(
         newly = sorted(_stale_titles(session) - before)
     say(f"Set {', '.join(given)}.")
     for title in newly:
-        say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
+        say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
     answer({"records": [record.number for record in records], "stale": newly})
 
 
@@ -503,9 +511,9 @@ def set_parameters(
 def rezero(
     folder: FolderArgument,
     serial: Annotated[str, typer.Option(help="Serial number of the sensor.")],
-    reason: Annotated[str, typer.Option(help="Why, in a few words.")],
+    reason: Annotated[str, typer.Option(help="Reason, in a few words.")],
 ) -> None:
-    """Record that a sensor's zero was moved, by hand or by its box; what rests on older recordings becomes stale.
+    """Note that a sensor was re-zeroed, by hand or by its box; results of older recordings become stale.
 
     Nothing is sent to the sensor.
     """
@@ -515,13 +523,13 @@ def rezero(
         newly = sorted(_stale_titles(session) - before)
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {serial} was re-zeroed.")
     for title in newly:
-        say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
+        say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
     answer({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
 
 
 @session_app.command(example="session replay bench-1")
 def replay(folder: FolderArgument) -> None:
-    """Compute every result again from raw inputs and compare the bytes. Exit code 1: one differs or cannot be."""
+    """Recompute every result from raw inputs and compare the bytes. Exit code 1: one differs or fails."""
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.replay import ReplayOutcome
     from contactbench.pipeline.session.replay import replay as run
@@ -532,7 +540,7 @@ def replay(folder: FolderArgument) -> None:
     for each in found:
         say(each.sentence, "red" if each in wrong else "")
     same = sum(each.outcome is ReplayOutcome.SAME for each in found)
-    say(f"{same} of {len(found)} results are the same to the byte.")
+    say(f"{same} of {len(found)} results are identical, byte for byte.")
     answer({"same": same, "results": [vars(each) for each in found]})
     if wrong:
         raise typer.Exit(_WRONG)

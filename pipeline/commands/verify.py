@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 _FAILED = 1
 
-verify_app = Noun("Judge contact points by touches of markers, and write what was found as a page.")
+verify_app = Noun("Judge contact points by touches of markers, and write the results as a page.")
 
 
 @verify_app.command(
@@ -39,7 +39,7 @@ verify_app = Noun("Judge contact points by touches of markers, and write what wa
 def touches(
     recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="Touches: .mcap or .csv.")],
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
-    calibration: Annotated[Path, typer.Option(help="What contactbench calibrate fit wrote.")],
+    calibration: Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")],
     markers: Annotated[Path, typer.Option(help="CSV file: name,x_mm,y_mm,z_mm, sensor frame.")],
     said: VerificationSettings,
     force: Annotated[
@@ -48,13 +48,13 @@ def touches(
     ] = None,
     order: Annotated[
         str | None,
-        typer.Option(metavar="NAME,...", help="Markers in the order they must be touched in [any]."),
+        typer.Option(metavar="NAME,...", help="Markers in the order in which they must be touched [any]."),
     ] = None,
     leave_out: Annotated[
         list[str] | None,
         typer.Option(
             metavar="NAME=WHY",
-            help="A marker that need not be touched, and why; may be repeated. The verdict says so.",
+            help="A marker to skip, and the reason; may be repeated. The verdict mentions it.",
         ),
     ] = None,
     limit_time: Annotated[float, typer.Option(help="Largest p99 of the time of a solve, ms.")] = 1.0,
@@ -63,14 +63,14 @@ def touches(
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
 ) -> None:
-    """Find the touches of markers in a recording, and judge how far the contact points are off.
+    """Find the touches of markers in a recording, and judge the errors of the contact points.
 
     RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
     readings) and orientations, as for calibrate compensate. Every press is accepted or rejected, with the reason.
-    The file of --out is the same for the same input, but for the times of solves (times, and what the
-    verdict says of them).
+    The file of --out is the same for the same input, except for the solve times and the parts of the
+    verdict about them.
 
-    Exit code 1: a limit is not kept, or markers are missing. Needs no hardware.
+    Exit code 1: a limit is exceeded, or markers are missing. Needs no hardware.
     """
     inputs = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
     if reference is not None:
@@ -103,7 +103,9 @@ def touches(
 def _left_out(text: str) -> tuple[str, str]:
     name, _, why = (part.strip() for part in text.partition("="))
     if not name or not why:
-        raise typer.BadParameter(f"--leave-out {text}: give the marker and why: M3='nothing reaches it'.")
+        raise typer.BadParameter(
+            f"--leave-out {text}: give the marker and the reason: M3='nothing reaches it'."
+        )
     return name, why
 
 
@@ -128,7 +130,7 @@ def _show(found: Verification) -> None:
         low, high = found.ci.mean_mm
         say(f"mean error between {low:.2f} and {high:.2f} mm (95 %)")
     if found.ratio is not None:
-        say(f"error over what noise and calibration predict: {found.ratio:.1f}")
+        say(f"error relative to the prediction of noise and calibration: {found.ratio:.1f}")
     if found.times is not None:
         say(f"a solve takes {1e6 * found.times.median_s:.1f} µs, p99 {1e6 * found.times.p99_s:.1f} µs")
     if found.force is not None:
@@ -178,27 +180,29 @@ def _size(value: float | None) -> str:
     example=("verify report --verification v.json --calibration c.json --probe p.ply --out report.html"),
 )
 def report(
-    verification: Annotated[Path, typer.Option(help="What contactbench verify touches --out wrote.")],
-    probe: Annotated[Path, typer.Option(help="The probe that was verified, .ply.")],
+    verification: Annotated[Path, typer.Option(help="File written by contactbench verify touches --out.")],
+    probe: Annotated[Path, typer.Option(help="The verified probe, .ply.")],
     out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
     said: ReportSettings,
-    calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate fit wrote.")] = None,
+    calibration: Annotated[
+        Path | None, typer.Option(help="File written by contactbench calibrate fit.")
+    ] = None,
     known_weight: Annotated[
-        Path | None, typer.Option(help="What contactbench calibrate check weight --out wrote.")
+        Path | None, typer.Option(help="File written by contactbench calibrate check weight --out.")
     ] = None,
     known_touch: Annotated[
-        Path | None, typer.Option(help="What contactbench calibrate check touch --out wrote.")
+        Path | None, typer.Option(help="File written by contactbench calibrate check touch --out.")
     ] = None,
     serial: SerialOption = None,
 ) -> None:
-    """Write what a verification found as a report that anybody can read: HTML, or PDF on A4.
+    """Write the results of a verification as a report: HTML, or PDF on A4.
 
     Its first page says who, what, when and with which sensor, the verdict and the uncertainty budget, with room for a
-    signature; the details follow. The HTML file needs nothing beside itself. A PDF needs WeasyPrint:
+    signature; the details follow. The HTML file is self-contained. A PDF needs WeasyPrint:
     pip install 'contactbench[pdf]'.
     """
     if out.suffix.lower() not in (".html", ".pdf"):
-        raise typer.BadParameter(f"--out {out}: name a file that ends in .html or .pdf.")
+        raise typer.BadParameter(f"--out {out}: give a name that ends in .html or .pdf.")
     optional = {"calibration": calibration, "known_weight": known_weight, "known_touch": known_touch}
     inputs = {"verification": verification, "probe": probe}
     inputs |= {role: file for role, file in optional.items() if file is not None}

@@ -100,9 +100,9 @@ def vertical_residual(model: GravityModel, down_W: ArrayLike = DOWN_W) -> Vertic
     along = float(model.gravity_W @ np.asarray(down_W, dtype=np.float64))
     if points_away(model, down_W):
         raise InputError(
-            f"gravity_W: gravity points up (by {-along:.3g} N) against the direction that was given as down. The"
-            " sensor reports the opposite sign, or the orientations are turned over: mend that; or the robot"
-            " does not stand: give --down, and calibrate again."
+            f"gravity_W: gravity points up (by {-along:.3g} N) against the declared direction of"
+            " down. The sensor reports the opposite sign, or the orientations are inverted:"
+            " correct that. If the robot is not mounted upright, give --down and recalibrate."
         )
     return residual_of(model, max(along, 0.0), down_W)
 

@@ -42,7 +42,7 @@ def spread(probe: Probe, count: int) -> tuple[NDArray[np.float64], NDArray[np.fl
         places, normals = _seen_from_above(probe, index, low, high, cell)
         if not len(places):
             raise InputError(
-                f"probe {probe.name}: nothing of it lies within 12 mm of its tip: is it aligned?"
+                f"probe {probe.name}: no part of it lies within 12 mm of its tip: check that it is aligned."
             )
         cell, area = cell * len(places) / count, cell
     return places, normals, area

@@ -1,4 +1,4 @@
-"""When an answer is given, and when it is not."""
+"""The limits that decide when an answer is given."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -20,59 +20,59 @@ _UNLIMITED = (inf, inf, inf, inf, inf, inf)
 class Gates:
     """Limits and odds behind the reason codes; lengths in metres, force in newtons, odds as "so many to one".
 
-    A touch is judged by d2, how badly it explains the wrench, in standard deviations squared. Odds are in the same
+    A touch is judged by d2, its misfit to the wrench, in standard deviations squared. Odds are in the same
     unit: odds of o to 1 are worth 2 ln(o).
 
     Parameters
     ----------
     min_force : float
-        ``low_force`` under this |F|, N. Default 0.5: with 0.05 N of noise the force direction is then known
-        to 6 degrees and the point to some 15 mm; below, an answer would only be noise.
+        ``low_force`` below this |F|, N. Default 0.5: with 0.05 N of noise the force direction is then known
+        to 6 degrees and the point to about 15 mm; below it, an answer would be pure noise.
     friction_angle : float
         Largest angle between -F and the outward normal, degrees, under 90. Default 75: friction would
         have to exceed 3.7, and the noise bound is already four times that of a perpendicular touch.
-        Where only a touch beyond it explains the wrench, the reason is ``tangential``.
+        If only a touch beyond it explains the wrench, the reason is ``tangential``.
     implausible_probability : float
-        ``implausible`` where a touch would leave as much unexplained by chance this rarely (chi-square, one degree
-        of freedom). Default 0.001: d2 over 10.8.
+        ``implausible`` if a touch leaves a misfit that chance alone reaches with at most this probability
+        (chi-square, one degree of freedom). Default 0.001: d2 over 10.8.
     rival_odds : float
-        ``ambiguous`` unless the likeliest place is this much likelier than any other. Default 100.
+        ``ambiguous`` unless the likeliest place is this many times likelier than any other. Default 100.
     ambiguity_distance : float
-        Places nearer to each other than this, or than 4.5 standard deviations, are the same touch, m. Default 5 mm:
-        less is within the spread of a light touch and does no harm to a controller.
+        Places closer together than this, or than 4.5 standard deviations, count as the same touch, m. Default 5 mm:
+        smaller distances lie within the scatter of a light touch and do not disturb a controller.
     region_odds : float
-        How much likelier a touch in the first region of priority is than elsewhere; each further region a tenth of
-        it, at least 10. Default 1000.
+        Odds of a touch in the region of highest priority relative to elsewhere; each further region a tenth of it,
+        at least 10. Default 1000.
     untouchable_odds : float
-        How much less likely a touch of an untouchable facet is than of any other. Default 1000.
+        Factor by which a touch of an untouchable facet is less likely than of any other. Default 1000.
     first_odds : float
-        How much likelier the surface that the line of force meets first is touched than one behind it. Default
-        e squared, about 7: enough to decide between equals, too little to hide a doubt.
+        Odds that the first surface on the line of force is touched rather than one behind it. Default e squared,
+        about 7: enough to decide between equals, too little to hide an ambiguity.
     follow_odds : float
-        How much likelier a touch stays near the previous one than jumps. Default 1000.
+        Odds that a touch stays near the previous one rather than jumps. Default 1000.
     follow_distance : float
-        What is near, m. Default 10 mm: at 200 Hz a probe that slides at 1 m/s moves 5 mm, and a light touch scatters
-        by 5 mm.
+        Distance that counts as near, m. Default 10 mm: at 200 Hz a probe sliding at 1 m/s moves 5 mm, and a light
+        touch scatters by 5 mm.
     recent_samples : int
         The previous contact is forgotten after this many samples in a row without an accepted one.
         Default 20: 0.1 s at 200 Hz, shorter than any deliberate lift and touch.
     max_age : float
         ``stale`` when a sample is older, s. Default 0.1: five control cycles of a 50 Hz robot.
     saturation : tuple of 6 floats
-        ``saturated`` when a channel reaches this, N and N·m. Default none: take it from the data sheet
-        of the sensor, because a clipped channel looks like any other number.
+        ``saturated`` when a channel reaches this, N and N·m. Default none: take it from the sensor's data
+        sheet, because a clipped channel looks like any other number.
     region_only : bool
         ``outside_region`` for a contact outside every declared region. Default off: regions are a
         preference among candidates, not a fence.
     accept_by_region : bool
-        Whether ``by_region``, sure only because of the declared regions, counts as accepted. Default on: whoever
-        declares a region says that touches are there. A press along the probe's axis is hardly ever sure without,
-        because the line of force also meets the shoulder of the flange.
+        Whether ``by_region``, certain only because of the declared regions, counts as accepted. Default on: declaring
+        a region states that touches are expected there. A press along the probe's axis is rarely certain without
+        it, because the line of force also meets the shoulder of the flange.
 
     Raises
     ------
     InputError
-        A limit is out of its range.
+        A limit is out of range.
     """
 
     min_force: float = 0.5
@@ -129,13 +129,13 @@ class Gates:
         region : (m,) int32
             Number of each facet's region, 0 for none.
         untouchable : iterable of int
-            Numbers of the regions that nothing can touch.
+            Numbers of the untouchable regions.
         """
         count = int(region.max(initial=0))
         return np.array([0.0, *(2 * log(odds) for odds in self.odds(count, untouchable))])[region]
 
     def odds(self, count: int, untouchable: Iterable[int] = ()) -> list[float]:
-        """Return the odds of a touch in each of so many regions, numbered from 1, against one elsewhere."""
+        """Return the odds of a touch in each of `count` regions, numbered from 1, relative to one elsewhere."""
         hidden = set(untouchable)
         odds, listed = self.region_odds, []
         for number in range(1, count + 1):

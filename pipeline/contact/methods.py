@@ -151,5 +151,5 @@ def make(
         There is no method of this name.
     """
     if name not in METHODS:
-        raise InputError(f"there is no method {name!r}; choose one of {', '.join(METHODS)}")
+        raise InputError(f"there is no method {name!r}: choose one of {', '.join(METHODS)}")
     return METHODS[name](probe, noise, gates, model)

@@ -22,12 +22,12 @@ class WrenchNoise:
     torque : float or array_like (3,)
         Standard deviation of each torque component, N·m, about the sensor origin.
     extra : array_like (6, 6), optional
-        Covariance to add, force before torque, N², N²·m, N²·m²: what a calibration leaves uncertain.
+        Covariance to add, force before torque, N², N²·m, N²·m²: the uncertainty of the calibration.
 
     Raises
     ------
     InputError
-        A value is negative or not finite, a shape is wrong, or `extra` is no covariance.
+        A value is negative or not finite, a shape is wrong, or `extra` is not a covariance.
     """
 
     force: float | ArrayLike = 0.05
@@ -65,7 +65,7 @@ def _checked_covariance(extra: ArrayLike) -> NDArray[np.float64]:
         raise InputError(f"WrenchNoise.extra: give a finite (6, 6) covariance of {' '.join(_CHANNELS)}")
     size = float(np.abs(array).max())
     if not np.allclose(array, array.T, rtol=0, atol=1e-12 * size):
-        raise InputError("WrenchNoise.extra: a covariance is symmetric; this matrix is not")
+        raise InputError("WrenchNoise.extra: the covariance is not symmetric")
     if np.linalg.eigvalsh(array)[0] < -1e-9 * size:
-        raise InputError("WrenchNoise.extra: a covariance has no negative eigenvalue; this matrix has one")
+        raise InputError("WrenchNoise.extra: the covariance has a negative eigenvalue")
     return 0.5 * (array + array.T)

@@ -76,7 +76,8 @@ class Bed:
             x, y = (float(each) for each in text.split(","))
         except ValueError:
             raise InputError(
-                f"patch {text[:40]!r}: give flat, or the radii of what is touched along S's x and y, mm, such as 80,0."
+                f"patch {text[:40]!r}: give flat, or the radii of the touched surface along S's x"
+                " and y, mm, such as 80,0."
             ) from None
         return cls((1000 / x if x else 0.0, 1000 / y if y else 0.0))
 
@@ -89,7 +90,7 @@ class Bed:
             raise InputError(f"Bed.modulus {self.modulus}: give a pressure per depth above 0, N/m³.")
         if not 1 <= self.factor < np.inf:
             raise InputError(
-                f"Bed.factor {self.factor}: give how many times off the modulus may be, 1 or more."
+                f"Bed.factor {self.factor}: give the factor by which the modulus may be off, 1 or more."
             )
 
 

@@ -76,15 +76,18 @@ class Plausibility:
     def sentences(self) -> tuple[str, ...]:
         """Return what is wrong, the likeliest cause, and the remedy."""
         figures = (
-            f"No single touch of the probe explains most of the wrenches: {self.plausible} of {self.rows} rows tried"
-            f" are plausible. Median arm (torque over force): {self.arm_m:.3g} m; the probe reaches"
-            f" {self.reach_m:.2g} m. The line of force passes the probe by {1e3 * self.miss_m:.0f} mm (median)."
-            f" Smallest force in the file: {self.smallest_force_N:.2g} N."
+            f"No single touch of the probe explains most of the wrenches: {self.plausible} of"
+            f" {self.rows} rows tried are plausible. Median arm (torque over force):"
+            f" {self.arm_m:.3g} m; the probe reaches {self.reach_m:.2g} m. The line of force"
+            f" misses the probe by {1e3 * self.miss_m:.0f} mm (median). Smallest force in the"
+            f" file: {self.smallest_force_N:.2g} N."
         )
         if not self.likely:
             return (figures, _NO_CAUSE)
         first, *others = self.likely
-        also = f" As many fit if {' or if '.join(trial.cause for trial in others[:2])}." if others else ""
+        also = (
+            f" Equally many fit if {' or if '.join(trial.cause for trial in others[:2])}." if others else ""
+        )
         cause = (
             f"Most likely {first.cause}: {first.plausible} of {first.rows} rows ({100 * first.share:.0f} %) are then"
             f" plausible. {first.remedy}{also}"
@@ -93,9 +96,10 @@ class Plausibility:
 
 
 _NO_CAUSE = (
-    "None of the usual mistakes makes most of them plausible (torques in N·mm, forces reversed, a mount turned by right"
-    " angles, weight not compensated). Check the position in --place, and that nothing else touches or pulls the probe:"
-    " two touches at once, or a cable, look like this."
+    "None of the usual mistakes makes most of them plausible (torques in N·mm, reversed forces, a"
+    " mount turned by right angles, uncompensated weight). Check the position in --place, and"
+    " that nothing else touches or pulls the probe: two touches at once, or a cable, look like"
+    " this."
 )
 
 
@@ -170,14 +174,14 @@ def _mistakes(
     yield (
         "reversed",
         "the signs are reversed",
-        "Negate all six channels: the file must hold what the tissue does to the probe.",
+        "Negate all six channels: the file must contain the force of the tissue on the probe.",
         -wrenches,
     )
     rest = _at_rest(wrenches)
     if np.linalg.norm(rest[:3]) > _HEAVY_N:
         yield (
             "not_compensated",
-            f"weight or offset is still in the wrenches ({np.linalg.norm(rest[:3]):.2g} N, read again and again)",
+            f"weight or offset is still in the wrenches ({np.linalg.norm(rest[:3]):.2g} N, repeatedly)",
             "Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.",
             wrenches - rest,
         )

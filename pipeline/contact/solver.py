@@ -1,4 +1,4 @@
-"""The solver: from a wrench to a contact point, and how sure that is."""
+"""The solver: from a wrench to a contact point and its confidence."""
 
 from functools import cached_property
 
@@ -16,36 +16,36 @@ from contactbench.pipeline.mesh import Probe
 class ContactSolver(kernel.Solver):
     """Locate contacts on one probe.
 
-    A touch at p with outward normal n and local torque k obeys ``M - p x F = k n`` (Cao et al. 2023, Eq. 4). What is
-    left of that, against what noise, calibration, model and mesh allow, is d2, in standard deviations squared; the
-    contact is the place of least d2 less the prior odds, among those with ``F . n < 0`` inside the friction cone.
-    With no limit on k it would be the closed form of the paper, with k = 0 the wrench axis.
+    A touch at p with outward normal n and local torque k obeys ``M - p x F = k n`` (Cao et al. 2023, Eq. 4). Its
+    misfit d2, in standard deviations squared, is the residual relative to the uncertainty of noise, calibration,
+    model and mesh. The contact is the place with the least d2 minus prior odds, among those with ``F . n < 0`` inside
+    the friction cone. Without a limit on k this is the closed form of the paper, with k = 0 the wrench axis.
 
     Parameters
     ----------
     probe : Probe
         The surface in the sensor frame S, metres.
     noise : WrenchNoise, optional
-        Uncertainty of the wrenches to come, the model's error apart.
+        Uncertainty of the wrenches, without the model error.
     gates : Gates, optional
         Limits and odds behind the reason codes.
     model : TouchModel, optional
-        Torsion, mesh, and what the wrench's model leaves out.
+        Torsion, mesh deviation and model error.
 
     Attributes
     ----------
     covariance : (6, 6) float64
-        Of a wrench with everything: noise and model error; N², N²·m, N²·m².
+        Total covariance of a wrench, noise and model error; N², N²·m, N²·m².
 
     Notes
     -----
     ``locate(wrench)`` and ``locate(wrench, previous)`` are pure: the same arguments give the same bits.
     ``locate_batch(wrenches)`` takes (n, 6) and releases the interpreter's lock.
     ``track(wrench)`` follows one stream and equals ``locate`` with the last accepted contact, except where a second
-    touch joins it; ``reset()`` begins another; calls from several threads wait for each other.
-    Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they describe
-    what the tissue does to the probe. A wrench that is not finite is answered with
-    ``Reason.NOT_FINITE``; one of another shape or type raises TypeError.
+    touch joins it; ``reset()`` starts another stream; calls from several threads wait for each other.
+    Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they are
+    the force and torque of the tissue on the probe. A wrench that is not finite gives ``Reason.NOT_FINITE``; one of
+    another shape or type raises TypeError.
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class ContactSolver(kernel.Solver):
         )
 
     def on(self, contact: kernel.Contact) -> str | None:
-        """Give what a contact lies on, of `contactbench.pipeline.contact.facet_marks.MARKS`; None: it has no facet."""
+        """Return a contact's mark, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: no facet."""
         return None if contact.face is None else MARKS[self._marks[contact.face]]
 
     @cached_property

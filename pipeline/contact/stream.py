@@ -214,7 +214,7 @@ class _Tracked(_Untracked):
             return ()
         sentences = (
             f"Rows that are not later than all rows before them: {self._stale}, the first on line"
-            f" {self._first_stale}. They are answered with stale. If recordings were joined, split them."
+            f" {self._first_stale}. Their answer is stale. If recordings were joined, split them."
         )
         return (sentences,)
 
@@ -306,8 +306,10 @@ class _Tally:
 
     def warnings(self) -> tuple[str, ...]:
         sentences = {
-            INVENTED: "Contacts on invented facets: {} of {}. Where the mesh file had an opening, the surface is a"
-            " guess, and so are they.",
+            INVENTED: (
+                "Contacts on invented facets: {} of {}. The mesh file had an opening there, so"
+                " surface and contacts are guesses."
+            ),
             UNTOUCHABLE: "Contacts on untouchable regions: {} of {}. Nothing should be able to touch there: check the"
             " region, then the mount and the compensation.",
         }
@@ -336,7 +338,7 @@ def refuse_overwriting(out: Path | BinaryIO, source: Path | BinaryIO) -> None:
     except (OSError, ValueError):  # ValueError: a path that no file system can hold
         return  # one of them does not exist, or opening it will say what is wrong
     if same:
-        raise WrenchFileError(f"{out}: the output would replace the input: choose another name for it.")
+        raise WrenchFileError(f"{out}: the output would overwrite the input: choose another name for it.")
 
 
 @contextmanager

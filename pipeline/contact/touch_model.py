@@ -1,4 +1,4 @@
-"""What is known of a touch beside the sensor's noise: its torsion, the mesh, and what the wrench's model leaves out."""
+"""The model of a touch beside the sensor's noise: torsion, mesh deviation and model error."""
 
 from dataclasses import dataclass, field
 from math import isfinite
@@ -17,15 +17,16 @@ class TouchModel:
     ----------
     torsion_arm : float
         One sigma of the local torque k over the force, m. Default 1 mm: a hard tip has 0.3, soft tissue 1 to 5.
-        Infinity would be the closed form for any k, 0 the wrench axis.
+        Infinity gives the closed form for any k, 0 the wrench axis.
     model_error : WrenchNoise
-        What drift, cable, hysteresis and mount leave in the wrench. Default 0.05 N and 1 mN·m: an unmodelled pull of
-        0.2 N on a 7 N press then makes none in a thousand answers sure and wrong. Verification measures it.
+        Error that drift, cable, hysteresis and mount leave in the wrench. Default 0.05 N and 1 mN·m: with an
+        unmodelled pull of 0.2 N on a 7 N press, fewer than one in a thousand answers is then confident and wrong.
+        Verification measures it.
     mesh_deviation : float
-        Root mean square between mesh and surface beyond what its curvature tells, m.
+        Root mean square between mesh and surface, beyond the effect of its curvature, m.
     mesh_curved : bool
-        Facets that turn by less than 40 degrees to their neighbours stand for a curved surface: their normals and
-        places are off by what that implies. Off for a body that truly has flat facets.
+        Facets that turn by less than 40 degrees to their neighbours represent a curved surface, so their normals and
+        positions have the corresponding error. Off for a body that truly has flat facets.
 
     Raises
     ------

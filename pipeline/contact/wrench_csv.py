@@ -34,7 +34,7 @@ _WORDING = Wording(
     header=",".join(COLUMNS),
     rows="wrenches",
     meaning="forces in N, torques in N·m, in the sensor frame S",
-    not_finite="remove the row, or pass --allow-nan to have it answered with not_finite.",
+    not_finite="remove the row, or pass --allow-nan to get the answer not_finite.",
     text="a time",
     error=WrenchFileError,
 )
@@ -99,9 +99,10 @@ class WrenchReader:
         raw = [name for name in self._table.names if name in RAW_COLUMNS]
         if raw:
             what = (
-                f"column{'s' * (len(raw) > 1)} {', '.join(raw)}: this is a raw recording, with the tool's weight and"
-                " the sensor's offset in it. Compensate it first: contactbench calibrate compensate calibration.json"
-                " RECORDING --out WRENCHES; or pass --compensated if that is done."
+                f"column{'s' * (len(raw) > 1)} {', '.join(raw)}: this is a raw recording that"
+                " includes the tool's weight and the sensor's offset. Compensate it first:"
+                " contactbench calibrate compensate calibration.json RECORDING --out WRENCHES; or"
+                " pass --compensated if that is done."
             )
             raise self._table.error(what, 1)
 

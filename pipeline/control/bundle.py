@@ -69,12 +69,13 @@ def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike 
     given = None if quaternion_ES is None else np.asarray(quaternion_ES, dtype=np.float64)
     if told is None and given is None:
         raise InputError(
-            "bundle: frames.quaternion_ES is null, its orientations were the sensor's own: say how the sensor sits on"
-            " the flange."
+            "bundle: frames.quaternion_ES is null because its orientations were the sensor's own:"
+            " give the rotation of the sensor on the flange."
         )
     if told is not None and given is not None and abs(float(np.dot(told, given))) < 1 - 1e-6:
         raise InputError(
-            f"bundle: frames.quaternion_ES is {told}, but {given.tolist()} was given: leave it out, or calibrate anew."
+            f"bundle: frames.quaternion_ES is {told}, but {given.tolist()} was given: leave it"
+            " out, or recalibrate."
         )
     quaternion = given if told is None else np.array(told)
     R_ES = Rotation.from_quat(np.asarray(quaternion), scalar_first=True).as_matrix()

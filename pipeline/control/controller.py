@@ -244,7 +244,9 @@ class Controller:
         """Return where the arm is, and whether that is near to where the last set-point should have brought it."""
         here = np.asarray(q_measured, dtype=np.float64)
         if here.shape != self._q.shape:
-            raise InputError(f"controller: joints {here.shape} of an arm that has {self._q.shape}: give all.")
+            raise InputError(
+                f"controller: {here.shape} joints for an arm that has {self._q.shape}: give all of them."
+            )
         if not np.isfinite(here).all():
             return self._q, False
         if (here == self._q).all():

@@ -166,7 +166,7 @@ class _Search:
         gain = self._highest(axis)
         self._gains[axis] = gain
         slower = "" if self._bandwidths[axis] == usual else f", lead slowed to {self._bandwidths[axis]:.3g}/s"
-        self.reached[axis] = ("as fast as is of use" if gain == fastest else "the margins") + slower
+        self.reached[axis] = ("as fast as is useful" if gain == fastest else "the margins") + slower
 
     def _left(self, axis: Axis, gain: float) -> bool:
         self._gains[axis] = gain
@@ -183,8 +183,8 @@ class _Search:
             return high
         if not self._left(axis, low):
             raise InputError(
-                f"tuning: {axis}: even a gain of {low:g}/s leaves less than the wanted margins: ask for less, or for a"
-                " smaller spread of stiffness."
+                f"tuning: {axis}: even a gain of {low:g}/s leaves less than the wanted margins:"
+                " lower the margins or the spread of stiffness."
             )
         for _ in range(_STEPS):
             middle = math.sqrt(low * high)

@@ -117,7 +117,7 @@ class Loop:
             There was no step yet.
         """
         if not self._rows:
-            raise InputError("closed loop: nothing happened yet: go on by at least one step.")
+            raise InputError("closed loop: nothing has happened yet: run at least one step.")
         columns = {name: np.array([row[name] for row in self._rows]) for name in self._rows[0]}
         return Trace(**columns, changes=tuple(self.controller.safety.changes))
 

@@ -117,8 +117,9 @@ class ControlSettings:
                 raise InputError(f"control settings: {each.name} is {value}: give positive, finite numbers.")
         if not self.touch_force < self.desired_force < 0.8 * self.max_force:
             raise InputError(
-                f"control settings: a wanted force of {self.desired_force:g} N must be above {self.touch_force:g} N and"
-                f" below 80 % of the limit of {self.max_force:g} N: change one of them."
+                f"control settings: the wanted force of {self.desired_force:g} N must be above"
+                f" {self.touch_force:g} N and below 80 % of the limit of {self.max_force:g} N:"
+                " change one of them."
             )
         if self.max_tilt >= math.pi / 2:
             raise InputError(

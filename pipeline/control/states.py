@@ -181,13 +181,13 @@ class Safety:
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
                 sensed.fault is not None
             ):
-                self._wait(f"the sensor is {sensed.fault.value}: nothing moves on old readings.", rising)
+                self._wait(f"the sensor is {sensed.fault.value}: no motion on stale readings.", rising)
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
                 self._delayed > _DELAYED_S
             ):
                 late_ms = 1e3 * poses_late
                 self._to(
-                    ControlState.RETRACT, f"the poses are {late_ms:.0f} ms late: where it is cannot be known."
+                    ControlState.RETRACT, f"the poses are {late_ms:.0f} ms late, so the position is unknown."
                 )
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if late:
                 self._behind(rising)
@@ -235,9 +235,9 @@ class Safety:
         if self._stop:
             return "it was stopped."
         if sensed.fault is SensingFault.SATURATED:
-            return "the sensor is at the end of its range: the force may be anything."
+            return "the sensor is at the end of its range, so the force is unknown."
         if self._blocked > _STOPPED_S and self.state is not ControlState.HOLD:
-            return "the arm can go no farther: a joint limit or a singularity."
+            return "the arm cannot move farther: joint limit or singularity."
         return None
 
     def _overload(self, sensed: Sensed, dt: float) -> str | None:
@@ -251,15 +251,21 @@ class Safety:
         limits = ("N", self.settings.max_force), ("N·m", self.settings.max_torque)
         for (unit, most), size, old in zip(limits, self._loads, before, strict=True):
             if size > _ALARM * most:
-                return f"{size:.1f} {unit} come too near to the limit of {most:g} {unit}."
+                return f"{size:.1f} {unit} come too close to the limit of {most:g} {unit}."
             rate = (size - old) / age
             if size + _REACTION_S * rate > most:  # never of NaN, as at first
-                return f"{size:.1f} {unit} grow by {rate:.0f} {unit} per s: soon over the limit of {most:g} {unit}."
+                return (
+                    f"{size:.1f} {unit} grow by {rate:.0f} {unit} per s and will soon exceed the limit"
+                    f" of {most:g} {unit}."
+                )
         return None
 
     def _askew(self, turned: float) -> str | None:
         if self.state in (ControlState.CONTACT, ControlState.TRACK) and turned > self.settings.max_tilt:
-            return f"it is turned by {math.degrees(turned):.0f} degrees from where it began: no tissue asks for that."
+            return (
+                f"it has turned by {math.degrees(turned):.0f} degrees from the start, more than any"
+                " tissue requires."
+            )
         return None
 
     def _squeezed(self, sensed: Sensed, force: float) -> str | None:
@@ -268,17 +274,17 @@ class Safety:
             and sensed.fresh
             and force > _PRESSED * self.settings.desired_force
         ):
-            return f"the tissue pushes with {force:.1f} N while it stands still."
+            return f"the tissue pushes with {force:.1f} N while the arm stands still."
         return None
 
     # ---- one state each --------------------------------------------------------------------------
 
     def _approach(self, force: float, travelled: float) -> None:
         if force > self.settings.touch_force:
-            self._to(ControlState.CONTACT, f"it touches, with {force:.1f} N.")
+            self._to(ControlState.CONTACT, f"in contact, with {force:.1f} N.")
         elif travelled > self.settings.approach_travel:
             far = 1000 * self.settings.approach_travel
-            self._to(ControlState.RETRACT, f"there was no tissue within {far:.0f} mm.")
+            self._to(ControlState.RETRACT, f"no tissue found within {far:.0f} mm.")
 
     def _contact(self, force: float, probed: bool, dt: float) -> None:
         if self._again():
@@ -290,9 +296,7 @@ class Safety:
 
     def _track(self) -> None:
         if not self._again() and self._lost > _GIVEN_UP_S:
-            self._to(
-                ControlState.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s{self._unsure}."
-            )
+            self._to(ControlState.RETRACT, f"the contact was unknown for {_GIVEN_UP_S:g} s{self._unsure}.")
 
     def _again(self) -> bool:
         if self._low < _LOW_S:
@@ -301,25 +305,26 @@ class Safety:
         if self._attempts > self.settings.attempts:
             self._to(ControlState.RETRACT, f"the tissue was lost {self._attempts} times.")
         else:
-            self._to(ControlState.APPROACH, "the tissue was lost: it looks for it again.")
+            self._to(ControlState.APPROACH, "the tissue was lost: searching for it again.")
         return True
 
     def _behind(self, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(ControlState.RETRACT, f"the arm was not where it was sent {self._attempts} times.")
+            self._to(ControlState.RETRACT, f"the arm missed its commanded position {self._attempts} times.")
         else:
-            self._wait("the arm is not where it was sent: nothing moves until it is.", rising)
+            self._wait("the arm is not at its commanded position: motion waits until it is.", rising)
 
     def _swings(self, amplitude: float, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
             self._to(
-                ControlState.RETRACT, f"the force swung {self._attempts} times, now by {amplitude:.1f} N."
+                ControlState.RETRACT,
+                f"the force oscillated {self._attempts} times, now by {amplitude:.1f} N.",
             )
         else:
             self._wait(
-                f"the force swings by {amplitude:.1f} N although the gain was lowered: it stands still.",
+                f"the force oscillates by {amplitude:.1f} N although the gain was lowered: holding still.",
                 rising,
             )
             # On this tissue nothing is known any more.
@@ -332,11 +337,9 @@ class Safety:
             after = ControlState.CONTACT if force > self.settings.touch_force else ControlState.APPROACH
             if self._held_from is ControlState.TRACK and after is ControlState.CONTACT:
                 after = ControlState.TRACK  # all is known; and tissue that moves does not wait
-            self._to(after, "the readings are fresh, and the arm is where it should be.")
+            self._to(after, "the readings are fresh, and the arm is at its commanded position.")
         elif self.elapsed > self._patience:
-            self._to(
-                ControlState.RETRACT, f"{self.elapsed:.2g} s did not help: it goes back the way it came."
-            )
+            self._to(ControlState.RETRACT, f"{self.elapsed:.2g} s did not help: retracting along its path.")
 
     def _wait(self, reason: str, rising: float) -> None:
         """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
@@ -351,7 +354,7 @@ class Safety:
         free = not sensed.fresh or force < self.settings.low_force
         stuck = self.elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
         if (away and free) or travelled >= 2 * self.settings.retract_travel or stuck:
-            self._to(ControlState.SAFE, "it has gone back." if not stuck else "it can go back no farther.")
+            self._to(ControlState.SAFE, "fully retracted." if not stuck else "it cannot retract farther.")
 
     def _to(self, state: ControlState, reason: str) -> None:
         self.changes.append(StateChange(self._now, self.state, state, reason))

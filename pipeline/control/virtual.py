@@ -105,8 +105,9 @@ def check_address(address: str) -> None:
     """
     if address not in ROBOTS:
         raise InputError(
-            f"robot {address!r}: motion is only ever sent to a virtual robot, never to a real one: give"
-            f" {' or '.join(ROBOTS)}. A real arm is for the controller of its maker, which loads the same bundle."
+            f"robot {address!r}: motion is only sent to a virtual robot, never to a real one: give"
+            f" {' or '.join(ROBOTS)}. A real arm needs its maker's controller, which loads the"
+            " same bundle."
         )
 
 

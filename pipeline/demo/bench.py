@@ -128,8 +128,8 @@ def _has_bench(notes: list[str]) -> bool:
         physics()
     except InputError as error:
         notes.append(
-            "No marker was pressed, so there is no verification and no bundle; poses and touches were drawn by"
-            f" formula: {error}."
+            "No marker was pressed, so there is no verification and no bundle; poses and touches"
+            f" were computed by formula: {error}."
         )
         return False
     return True
@@ -184,7 +184,7 @@ def _locate(
         touched, found = _compare(job, probe, job.folder, job.pressed, said)
         if job.pressed.slipped:
             said.append(
-                f"{job.name}: the tip slipped off at {job.pressed.slipped} touches: they are left out."
+                f"{job.name}: the tip slipped off in {job.pressed.slipped} touches; these are left out."
             )
     make_folder(job.folder / _DRAWN)
     points = draw_points(job.folder / _DRAWN, job.name, touches, job.tool, job.chance(3))
@@ -211,7 +211,7 @@ def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path
         write_file(file, draw(located))
     except PictureError as error:
         file.unlink(missing_ok=True)  # an older one would not show these contacts
-        notes.append(f"There is no picture: {error}")
+        notes.append(f"No picture was made: {error}")
         return None
     return file
 
@@ -219,7 +219,7 @@ def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path
 def _checked(probes: Sequence[str], touches: int, seed: int) -> list[str]:
     names = check_bundled(probes)
     if touches < FEWEST_TOUCHES:
-        raise InputError(f"{touches} touches say nothing about an error: ask for at least {FEWEST_TOUCHES}.")
+        raise InputError(f"{touches} touches are too few to judge an error: give at least {FEWEST_TOUCHES}.")
     if seed < 0:
         raise InputError(f"the seed must be at least 0, not {seed}.")
     return names
@@ -231,4 +231,4 @@ def _prepared(folder: Path, name: str) -> Prepared:
     try:
         return prepare_probe(folder, name), None
     except EngineError as error:
-        return None, f"The probes' meshes were not prepared, their designs were used: {error}"
+        return None, f"The probes' meshes were not prepared, so their designs were used: {error}"

@@ -150,7 +150,7 @@ def run_days(
         prepare_probe(made, name)
         for reality in realities:
             for number in range(seed, seed + seeds):
-                progress(f"{name}: a day on a bench that is {reality}, seed {number}")
+                progress(f"{name}: a day on a {reality} bench, seed {number}")
                 folder = out / str(reality).replace(",", "_") / name / str(number)
                 make_folder(folder)
                 days.append(_day(folder, made, name, reality, number))
@@ -349,9 +349,12 @@ def _report(days: list[DayResult], seeds: int, seed: int) -> StudyReport:
 
 
 _NOTES = (
-    "Errors are from the true points, of sure answers to touches that were not used before; the spread is over days.",
-    "Sure: no other place explains the wrench as well; how near this one is, the answer's covariance says.",
-    "Not to say so: to be off by more than twice the standard deviation that the answer's covariance tells.",
+    "Errors against the true points, for confident answers to held-out touches; the spread is over days.",
+    (
+        "Sure: no other place explains the wrench equally well; the covariance of the answer"
+        " states its accuracy."
+    ),
+    "Not said: off by more than twice the standard deviation stated by the covariance of the answer.",
     "Floor: what the wrenches are off beyond noise, as an error of the contact, rms; told by verification over true.",
 )
 _HEADINGS = (
@@ -370,8 +373,8 @@ def _figures(reality: str, days: list[DayResult]) -> list[Figure]:
     by_seed = [_ratio([d for d in days if d.seed == seed]) for seed in dict.fromkeys(d.seed for d in days)]
     return [
         Figure.of(reality, "mean error", means, "mm", measured=float(errors.mean()), most=0.6 if typical else None),
-        Figure.share(reality, "sure and more than 5 mm off", far, touches, most=0.2 if typical else None),
-        Figure.share(reality, "the same, and by more than twice what they say", unsaid, touches),
+        Figure.share(reality, "confident and more than 5 mm off", far, touches, most=0.2 if typical else None),
+        Figure.share(reality, "the same, and by more than twice the stated sigma", unsaid, touches),
         Figure.of(reality, "floor, told over true, rms of all days", by_seed, measured=_ratio(days),
                   least=0.75 if typical else None, most=1.25 if typical else None),
     ]  # fmt: skip

@@ -136,7 +136,7 @@ class GravityResult:
             f" {self.mass:.4f} ± {self.mass_sigma:.4f} kg (true {self.true_mass:.4f}). The calibration is"
             f" {self.verdict}: it adds up to {self.contact_error_mm:.2f} mm (1 sigma) to a contact point"
         )
-        return f"{found}." if self.verified else f"{found}. FAILED: it is not what its uncertainty says."
+        return f"{found}." if self.verified else f"{found}. FAILED: the error exceeds its stated uncertainty."
 
 
 _TOO_FAR = 2.0  # times the 95 % limit: once in 100,000

@@ -64,7 +64,7 @@ class MeshResult:
             f" ({100 * self.invented_share:.1f} % of it invented, where the cable leaves); 95 % of its head lie"
             f" within {self.deviation_mm:.3f} mm of the design"
         )
-        return f"{found}." if self.verified else f"{found}. FAILED: it is not the design."
+        return f"{found}." if self.verified else f"{found}. FAILED: it differs from the design."
 
 
 def prepare_probe(folder: Path, name: str) -> MeshResult:

@@ -99,10 +99,10 @@ class CheckResult:
 
     def _run(self) -> str:
         if self.failed:
-            return "no bundle is made of it"
+            return "no bundle was made"
         if self.refused is not None:
-            return f"FAILED, the bundle is refused: {self.refused.rstrip('.')}"
-        found = f"the bundle is sound; {self.located:,} of {self.samples:,} samples located by it"
+            return f"FAILED, the bundle was refused: {self.refused.rstrip('.')}"
+        found = f"the bundle is intact; it located {self.located:,} of {self.samples:,} samples"
         if self.apart_mm is None or self.sigma_mm is None:
             return f"{found}, FAILED: none of the touches"
         apart = f"on average {self.apart_mm:.2f} mm from the verified points, with {self.sigma_mm:.2f} mm expected"

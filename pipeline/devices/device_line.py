@@ -56,7 +56,7 @@ class PtyLine:
 
     def __init__(self, name: str) -> None:
         if os.name == "nt":
-            raise EmulatorError("--pty: this system has no pseudo-terminals: use --port.")
+            raise EmulatorError("--pty: this system has no pseudo-terminals. Use --port.")
         self._folder = tempfile.TemporaryDirectory(prefix="contactbench-")
         self._link = Path(self._folder.name) / name
         self.where = str(self._link)
@@ -110,7 +110,7 @@ class PtyLine:
 
     def _master(self) -> int:
         if self._ends is None:
-            raise EmulatorError(f"{self.where}: the line is broken: restore it first.")
+            raise EmulatorError(f"{self.where}: the line is broken. Restore it first.")
         return self._ends[0]
 
     def _flush(self, master: int) -> None:
@@ -273,4 +273,4 @@ class UdpServerLine:
 
 
 def _taken(port: int, error: Exception) -> EmulatorError:
-    return EmulatorError(f"port {port}: it cannot be used ({error}): choose another, or 0 for any free one.")
+    return EmulatorError(f"port {port} cannot be used ({error}): choose another, or 0 for any free port.")

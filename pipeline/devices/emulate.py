@@ -378,9 +378,9 @@ def emulator(
     kind = Protocol(protocol)
     carriers = carriers_of(kind)
     if carrier is not None and carrier not in list(carriers):
-        raise EmulatorError(f"{kind} over {carrier}: it speaks over {', '.join(carriers)}.")
+        raise EmulatorError(f"{kind} over {carrier} is not supported: use {', '.join(carriers)}.")
     if tool is not None and kind is not Protocol.UR:
-        raise EmulatorError(f"tool {tool}: {kind} has none: leave it out.")
+        raise EmulatorError(f"tool {tool}: {kind} has no tool option: leave it out.")
     model = emulated(rate, quirks)
     query = ""
     if isinstance(model, RdtModel):
@@ -413,7 +413,7 @@ def possible_faults(protocol: Protocol | str) -> frozenset[Fault]:
 
 def _emulated(protocol: Protocol | str) -> type[Model]:
     if protocol not in list(EMULATED):
-        raise EmulatorError(f"device {str(protocol)!r}: there are {', '.join(EMULATED)}.")
+        raise EmulatorError(f"unknown device {str(protocol)!r}. Known: {', '.join(EMULATED)}.")
     return PROTOCOLS[Protocol(protocol)].emulated
 
 

@@ -97,13 +97,13 @@ class FaultEvent:
         names = ", ".join(fault.value for fault in Fault)
         if not found or found["fault"] not in list(Fault):
             raise EmulatorError(
-                f"fault {text!r}: write NAME@START+DURATION in s, such as stall@2+0.5; names: {names}."
+                f"fault {text!r}: write it as NAME@START+DURATION in s, such as stall@2+0.5. Names: {names}."
             )
         try:
             start, duration = float(found["start"]), float(found["duration"] or 1)
             size = float(found["size"]) if found["size"] else None
         except ValueError as error:
-            raise EmulatorError(f"fault {text!r}: {error}: write the numbers as in stall@2+0.5.") from error
+            raise EmulatorError(f"fault {text!r}: {error}. Write the numbers as in stall@2+0.5.") from error
         return cls(start, Fault(found["fault"]), duration, size)
 
     @property
@@ -162,7 +162,7 @@ class Script:
         for event in self.events:
             if event.fault not in possible:
                 names = ", ".join(sorted(possible))
-                raise EmulatorError(f"fault {event.fault}: {device} cannot have it: choose from {names}.")
+                raise EmulatorError(f"fault {event.fault}: not available for {device}. Choose from {names}.")
 
 
 # ---- what is measured, and what faults make of it ------------------------------------------------
@@ -229,7 +229,7 @@ def recorded(times: Sequence[float], rows: Sequence[Sequence[float]]) -> Signal:
         There are no rows, or times that do not increase.
     """
     if len(times) != len(rows) or len(times) < 2 or any(b <= a for a, b in itertools.pairwise(times)):
-        raise EmulatorError("recording: it needs two or more rows of six numbers, at times that increase.")
+        raise EmulatorError("recording: two or more rows of six numbers with increasing times are needed.")
     values = [_six(row) for row in rows]
     span = (times[-1] - times[0]) * len(times) / (len(times) - 1)  # the last row lasts as long as the others
     return lambda time: values[bisect.bisect_right(times, times[0] + time % span) - 1]
@@ -237,7 +237,7 @@ def recorded(times: Sequence[float], rows: Sequence[Sequence[float]]) -> Signal:
 
 def _six(row: Sequence[float]) -> Six:
     if len(row) != 6:
-        raise EmulatorError(f"signal: {len(row)} numbers: give six.")
+        raise EmulatorError(f"signal: {len(row)} numbers were given: give six.")
     return (row[0], row[1], row[2], row[3], row[4], row[5])
 
 

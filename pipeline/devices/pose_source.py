@@ -140,7 +140,10 @@ def file_track(address: DeviceAddress) -> Track:
     wording = Wording(
         header=",".join(("t", *names)),
         rows="poses",
-        meaning="time in s and the flange in the robot's base, as a quaternion; joints, in degrees, need ?robot=NAME",
+        meaning=(
+            "time in s and the flange pose in the robot's base as a quaternion; joints, in degrees,"
+            " need ?robot=NAME"
+        ),
         error=PoseTrackError,
     )
     table = _Table(names, _POSITION if robot is None else ())
@@ -202,7 +205,7 @@ class _Table:
         there = [name in reader.names for name in self._position]
         if any(there) and not all(there):
             raise reader.error(
-                "a position needs all of x, y, z: add what is missing, or rename the others.", 1
+                "a position needs all of x, y, z: add the missing columns, or rename the others.", 1
             )
         reader.select(("t", *self._names), optional=self._position, allow_nan=self._position)
 
@@ -212,7 +215,7 @@ def _times(reader: TableReader, rows: TableRows) -> NDArray[np.float64]:
     times: NDArray[np.float64] = rows.column("t") - rows.column("t")[0]
     wrong = np.append(False, np.diff(times) < 0) | ~(np.abs(times) <= _LONGEST_S)
     if wrong.any():
-        what = "column t goes back, or far away: sort the rows by time, and write seconds."
+        what = "column t runs backwards or jumps far: sort the rows by time, and write seconds."
         raise reader.error(what, int(rows.lines[int(np.argmax(wrong))]))
     return times
 

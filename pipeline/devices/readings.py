@@ -87,18 +87,19 @@ class Readings:
             # With an error no reading is a measurement: the error is what can be mended.
             found.pop("INVALID", None)
         if self._now - self._beyond <= _HELD_S:
-            found["range"] = "A channel is beyond the sensor's range: take the load off, and use less force."
+            found["range"] = "A channel is beyond the sensor's range: remove the load, and use less force."
         at_end = [k for k in range(6) if self._at_end(k)]
         if at_end and self._last is not None:
             which = ", ".join(f"{_CHANNELS[k]} at {self._last[k]:.4g} {_UNITS[k]}" for k in at_end)
             found["end"] = (
-                f"{which}: exactly the same for {min(self._same[k] for k in at_end)} samples, and further than ever"
-                " before: it looks like the end of the range. Take the load off, and use less force."
+                f"{which}: exactly the same for {min(self._same[k] for k in at_end)} samples, and"
+                " farther than ever before: this looks like the end of the range. Remove the"
+                " load, and use less force."
             )
         elif self._frozen:
             found["frozen"] = (
-                f"The readings have not changed in any channel for {min(self._same)} samples: the sensor hangs, or is"
-                " not connected to its box. Switch it off and on."
+                f"No channel has changed for {min(self._same)} samples: the sensor hangs, or is"
+                " disconnected from its box. Switch it off and on."
             )
         return found | self._warmed()
 
@@ -139,16 +140,20 @@ class Readings:
         if abs(warmer) <= _WARMER_K:
             return {}
         return {
-            "temperature": f"The sensor is {abs(warmer):.1f} K {'warmer' if warmer > 0 else 'colder'} than at the"
-            " start, and its zero moves with that: let it settle, then calibrate again."
+            "temperature": (
+                f"The sensor is {abs(warmer):.1f} K {'warmer' if warmer > 0 else 'colder'} than at the"
+                " start, and its zero drifts with it: let it settle, then recalibrate."
+            )
         }
 
 
 _FLAGS = {
-    Status.OVERRANGE: "A channel is at the end of its range: take the load off, and use less force.",
-    Status.INVALID: "The sensor says that its readings are not measurements: switch it off and on.",
-    Status.ERROR: "The sensor reports an error or too much load: take the load off; if that does not help, see its own"
-    " display or manual.",
-    Status.LATE: "The sensor cannot keep its rate: ask for a lower one.",
+    Status.OVERRANGE: "A channel is at the end of its range: remove the load, and use less force.",
+    Status.INVALID: "The sensor reports that its readings are invalid: switch it off and on.",
+    Status.ERROR: (
+        "The sensor reports an error or overload: remove the load. If that does not help, check its"
+        " own display or manual."
+    ),
+    Status.LATE: "The sensor cannot keep its rate: choose a lower one.",
     Status.RAW: "The readings are raw, not calibrated by the sensor: set it to engineering units.",
 }

@@ -196,8 +196,8 @@ class ReconnectingStream(Stream[Sample]):
                     begun_again = time.monotonic()
             if self.address.carrier is Carrier.TCP and chunk.time - self._heard > _DEAD_S:
                 raise LineLost(
-                    f"{self._line.name}: nothing came for {_DEAD_S:g} s: check cable and device; the line is opened"
-                    " again."
+                    f"{self._line.name}: nothing received for {_DEAD_S:g} s: check cable and"
+                    " device. Reconnecting."
                 )
             self._review(chunk.time)
 
@@ -209,8 +209,8 @@ class ReconnectingStream(Stream[Sample]):
 
     def _silence(self, now: float) -> str:
         return (
-            f"{self.address}: no sample for {now - self._last:.1f} s: check that the device has power and that nothing"
-            " else uses its line."
+            f"{self.address}: no sample for {now - self._last:.1f} s: check that the device has"
+            " power and that no other program uses its line."
         )
 
     def _take(self, data: bytes, arrived: float) -> bool:

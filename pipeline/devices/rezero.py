@@ -36,8 +36,9 @@ class ZeroStep:
     def __str__(self) -> str:
         """Return what an operator is told."""
         return (
-            f"The reading stepped by {self.force:.1f} N and {self.torque:.2f} N·m within one sample, to nearly zero in"
-            " all six channels, and stayed: someone may have re-zeroed the sensor. If so, calibrate again."
+            f"The reading jumped by {self.force:.1f} N and {self.torque:.2f} N·m within one"
+            " sample, to nearly zero in all six channels, and stayed there: the sensor may have"
+            " been re-zeroed. If so, recalibrate."
         )
 
 

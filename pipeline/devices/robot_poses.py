@@ -88,8 +88,11 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
             return {}
         return {
-            "tool": "The tool of the robot's pendant is not known, for its controller does not tell: the orientation is"
-            " that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as on the pendant."
+            "tool": (
+                "The controller does not report the tool set on the pendant, so the orientation is"
+                " that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on"
+                " the pendant."
+            )
         }
 
     def _end(self) -> None:
@@ -167,8 +170,8 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
             self._asked = None
         elif waited > _UNANSWERED_S:
             raise LineLost(
-                f"{self._line.name}: a question had no answer for {_UNANSWERED_S:g} s: check that the controller is not"
-                " busy; the line is opened again."
+                f"{self._line.name}: no answer for {_UNANSWERED_S:g} s: check that the controller"
+                " is not busy. Reconnecting."
             )
 
     def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
@@ -213,9 +216,9 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
         found = {"answer": self._trouble} if self._trouble else {}
         if time.monotonic() - self._late_at < _SHOWN_S:
             found["late"] = (
-                f"{self._late} answers of the robot were dropped, for they took longer than {1e3 * _LATEST_S:.0f} ms;"
-                f" the last one took {1e3 * self._lateness:.0f} ms: check network and controller, or ask for a lower"
-                " rate."
+                f"{self._late} answers of the robot were dropped because they took longer than"
+                f" {1e3 * _LATEST_S:.0f} ms; the last took {1e3 * self._lateness:.0f} ms: check"
+                " network and controller, or choose a lower rate."
             )
         return found
 
@@ -236,4 +239,4 @@ def poses_from(
         return UrPoses(where, on_samples, on_change, tool=where.tool)
     if where.protocol is Protocol.ELFIN:
         return ElfinPoses(where, on_samples, on_change)
-    raise AddressError(f"address {str(where)!r}: it is no robot: give the address of one.")
+    raise AddressError(f"address {str(where)!r}: not a robot. Give the address of a robot.")

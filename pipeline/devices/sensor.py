@@ -101,8 +101,8 @@ class SensorStream(ReconnectingStream[WrenchSample]):
         shown = command.data.decode("ascii", "backslashreplace").strip()
         with self._watching:
             self._unaccepted[shown] = (
-                f"The device did not accept {shown[:60]!r} (it {what}): its rate or units may be others; check that its"
-                " firmware is known here."
+                f"The device did not accept {shown[:60]!r} (it {what}): its rate or units may"
+                " differ. Check that its firmware is supported."
             )
 
     def _feed(self, data: bytes, arrived: float) -> list[WrenchSample]:

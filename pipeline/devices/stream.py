@@ -226,7 +226,7 @@ class SourceStream(Stream[Sample]):
             It does not go by steps.
         """
         if not self.source.stepwise:
-            raise RuntimeError("only a replay or a virtual bench goes by steps: open it with ?speed=step")
+            raise RuntimeError("only a replay or a virtual bench can be stepped: open it with ?speed=step")
         return self.source.step(count)
 
     def take(self, samples: Sequence[Sample], findings: tuple[str, ...] = ()) -> None:

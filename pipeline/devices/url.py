@@ -82,7 +82,7 @@ def _numbers(fewest: int, most: int, largest: float) -> Callable[[str], tuple[fl
             values = ()
         if not fewest <= len(values) <= most or not all(abs(value) <= largest for value in values):
             many = str(fewest) if fewest == most else f"{fewest} to {most}"
-            raise ValueError(f"give {many} numbers with commas between them, none beyond {largest:g}")
+            raise ValueError(f"give {many} numbers separated by commas, none beyond {largest:g}")
         return values
 
     return read
@@ -121,12 +121,12 @@ def _reality(text: str) -> Reality:
 
 def _step(text: str) -> float:
     if text != "step":
-        raise ValueError("give step, or leave it out for real time")
+        raise ValueError("give step, or leave the option out for real time")
     return STEPWISE
 
 
 def _pace(text: str) -> float:
-    return STEPWISE if text == "step" else _number("times the recorded pace, or step")(text)
+    return STEPWISE if text == "step" else _number("multiple of the recorded pace, or step")(text)
 
 
 # Option -> the field that it is, and its reader; in the order in which they are written.
@@ -155,7 +155,7 @@ _BENCH: dict[str, Callable[[str], Any]] = {
 }
 _SPEEDS: dict[Protocol, Callable[[str], float]] = {
     Protocol.VIRTUAL: _step,
-    Protocol.POSES: _number("times the pace of the file"),
+    Protocol.POSES: _number("multiple of the pace of the file"),
 }
 
 
@@ -330,13 +330,13 @@ def _short(value: object) -> str:
 def _split(text: str) -> SplitResult:
     # urlsplit drops tabs and line ends without a word, so they are looked for first.
     if any(not character.isprintable() for character in text):
-        raise ValueError("it holds a control character: type it again")
+        raise ValueError("it contains a control character: type it again")
     try:
         parts = urlsplit(text)
     except ValueError as error:
         raise ValueError(f"host: {error}: write an IPv6 address as [::1]") from error
     if parts.fragment or text.endswith("#"):
-        raise ValueError("'#': write it as %23 where it belongs to the path")
+        raise ValueError("'#': write it as %23 if it belongs to the path")
     return parts
 
 
@@ -361,9 +361,9 @@ def _given(query: str, protocol: Protocol, known: tuple[str, ...]) -> dict[str, 
         raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
     for name, value in pairs:
         if name not in known:
-            raise ValueError(f"option {name!r} is unknown here: it can have {', '.join(known)}")
+            raise ValueError(f"unknown option {name!r}. Possible: {', '.join(known)}")
         if name in found:
-            raise ValueError(f"option {name!r} is there twice: keep one")
+            raise ValueError(f"option {name!r} appears twice: keep one")
         found[name] = value
     return {name: _read(name, value, protocol) for name, value in found.items()}
 
@@ -384,9 +384,9 @@ def _place(parts: SplitResult, carrier: Carrier, kind: _Kind) -> tuple[str, int 
         return *_socket(parts, kind.port), ""
     if carrier in (Carrier.TYPED, Carrier.SIMULATED):
         host, what, begin = (
-            ("", "a typed pose is nowhere", f"{parts.scheme}://?")
+            ("", "a typed pose has no host or path", f"{parts.scheme}://?")
             if carrier is Carrier.TYPED
-            else ("bench", "there is one virtual bench", "virtual://bench")
+            else ("bench", "the virtual bench has no host or path", "virtual://bench")
         )
         if parts.netloc != host or parts.path not in ("", "/"):
             raise ValueError(f"{parts.netloc + parts.path!r}: {what}: begin with {begin}")
@@ -397,12 +397,12 @@ def _place(parts: SplitResult, carrier: Carrier, kind: _Kind) -> tuple[str, int 
 def _socket(parts: SplitResult, usual: int | None) -> tuple[str, int]:
     """Return host and port; `usual` is the port where none is given."""
     if "@" in parts.netloc:
-        raise ValueError("user name: devices ask for none: leave out what is before the @")
+        raise ValueError("user name: devices do not use one: leave out the part before the @")
     host = _zoned(parts.hostname or "")
     if not host or any(character in host.split("%")[0] for character in " %\\"):
         raise ValueError("host: give a name or an IP address after ://")
     if parts.path not in ("", "/"):
-        raise ValueError(f"path {parts.path!r}: a socket has none: leave it out")
+        raise ValueError(f"path {parts.path!r}: a socket has no path: leave it out")
     try:
         port = parts.port
     except ValueError:
@@ -429,7 +429,7 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
     if serial and parts.netloc and path in ("", "/"):
         return parts.netloc  # COM3 as in sri+serial://COM3
     if parts.netloc:
-        raise ValueError(f"host {parts.netloc!r}: a path follows three slashes: :///path")
+        raise ValueError(f"host {parts.netloc!r}: a path needs three slashes: :///path")
     # A path of Windows has no leading slash of its own: /COM3, /C:/folder.
     drive = path[1:]
     if (drive.upper().startswith("COM") and drive[3:].isdigit()) or drive[1:3] in (":/", ":\\"):
@@ -437,7 +437,7 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
     if path in ("", "/") or "\0" in path:
         file = "poses.csv" if parts.scheme == "poses" else "recording.mcap"
         what, example = ("serial port", "/dev/ttyUSB0") if serial else ("file", f"/folder/{file}")
-        raise ValueError(f"path: name the {what} after three slashes: ://{example}")
+        raise ValueError(f"path: give the {what} after three slashes: ://{example}")
     return path
 
 
@@ -446,10 +446,10 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
 
 def _check_bench(given: Mapping[str, Any]) -> None:
     if "probe" in given and "mesh" in given:
-        raise ValueError("probe and mesh: a bench has one of them")
+        raise ValueError("probe and mesh: give only one of them")
     for name in ("rate", "pose_rate"):
         if given.get(name, 0.0) > _FASTEST_HZ:
-            raise ValueError(f"{name}: the bench gives at most {_FASTEST_HZ:g} Hz")
+            raise ValueError(f"{name}: the bench provides at most {_FASTEST_HZ:g} Hz")
 
 
 def _check_typed(address: DeviceAddress) -> None:
@@ -460,9 +460,9 @@ def _check_typed(address: DeviceAddress) -> None:
             " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
         )
     if (address.rate or 0) > _FASTEST_HZ:
-        raise ValueError(f"rate: a pose that stays needs at most {_FASTEST_HZ:g} Hz")
+        raise ValueError(f"rate: a fixed pose needs at most {_FASTEST_HZ:g} Hz")
     if (address.joints_degrees is None) != (address.robot is None):
-        raise ValueError("robot: joints need the robot that they are of, and nothing else does")
+        raise ValueError("robot: joints need their robot, and nothing else does")
     if address.quaternion is not None and not abs(math.hypot(*address.quaternion) - 1) <= _UNIT:
         raise ValueError("quaternion: its length is not 1: check its four numbers w,x,y,z")
 
@@ -473,6 +473,6 @@ def _check_ceiling(address: DeviceAddress, kind: _Kind) -> None:
     ceiling = address.baud / (_BITS_PER_BYTE * kind.frame)
     if address.rate > ceiling:
         raise ValueError(
-            f"rate: {address.rate:g} samples/s do not fit through {address.baud} bit/s: ask for at"
+            f"rate: {address.rate:g} samples/s are too many for {address.baud} bit/s: choose at"
             f" most {math.floor(ceiling)}, or a faster line if the device is set to one"
         )

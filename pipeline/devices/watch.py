@@ -216,7 +216,7 @@ class Pace:
         if wrong is None or self._expected is None:
             return {}
         rates = f"{wrong:.0f} Hz instead of {self._expected:.0f} Hz"
-        return {"rate": f"Samples come at {rates}: check the rate and the line's speed."}
+        return {"rate": f"Samples arrive at {rates}: check the rate and the line speed."}
 
     def _look_at_gap(self, last: float, time: float) -> None:
         gapped = time - last > max(_GAP_S, _GAP_SAMPLES / (self._expected or 1.0))
@@ -316,8 +316,11 @@ class Leap:
         if self._now - self._at > _LEAP_SHOWN_S:
             return {}
         return {
-            "leap": f"The device's clock or count leapt ahead by {self._size:.1f} s while samples came on: its clock"
-            " was set, or its count is wrong. The times of the next 0.2 s are estimates and are marked."
+            "leap": (
+                f"The device's clock or counter jumped ahead by {self._size:.1f} s while samples kept"
+                " coming: its clock was set, or its counter is wrong. The times of the next 0.2 s are"
+                " estimates and are marked."
+            )
         }
 
     def _device(self, sample: WrenchSample | FlangeSample) -> float | None:
@@ -416,23 +419,23 @@ class Damage:
         skipped, received = last.skipped - first.skipped, last.received - first.received
         if damaged >= self._least:
             found["damaged"] = (
-                f"{damaged} of the last {damaged + frames} frames were damaged: check cable, shield and speed of"
-                " the line."
+                f"{damaged} of the last {damaged + frames} frames were damaged: check cable,"
+                " shield and line speed."
             )
         elif skipped > 0 and skipped >= _SHARE * received:
             found["skipped"] = (
-                f"{skipped} of the last {received} bytes belong to no frame: check cable, shield and speed of the line,"
-                " and that nothing else uses it."
+                f"{skipped} of the last {received} bytes belong to no frame: check cable, shield"
+                " and line speed, and that no other program uses the line."
             )
         if (lost := last.lost - first.lost) >= self._least:
             found["lost"] = (
-                f"{lost} of the last {lost + frames} samples were lost, by the device's own count: check the line, or"
-                " ask for a lower rate."
+                f"{lost} of the last {lost + frames} samples were lost according to the device's"
+                " own counter: check the line, or choose a lower rate."
             )
         if last.restarts > first.restarts:
             found["restarted"] = (
-                "The device's count or clock began anew: it was switched off and on, or its clock was set. The times of"
-                " the next 0.2 s are estimates and are marked."
+                "The device's counter or clock restarted: it was switched off and on, or its"
+                " clock was set. The times of the next 0.2 s are estimates and are marked."
             )
         return found
 
@@ -452,5 +455,7 @@ def _without(first: _Mark, last: _Mark, since: int) -> dict[str, str]:
     if last.frames > since or received < _NO_FRAME_BYTES:
         return {}
     return {
-        "no frame": f"{received} bytes came, and no frame in them: check the kind of device and the speed of the line."
+        "no frame": (
+            f"{received} bytes received, but no frame in them: check the device type and the line speed."
+        )
     }

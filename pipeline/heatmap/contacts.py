@@ -118,8 +118,8 @@ def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
     if not known.all():
         row = int(np.argmin(known))
         raise HeatmapError(
-            f"{file}: row {row + 1}: {reasons[row].decode()!r} is no reason: give a file that `contactbench"
-            " locate` wrote."
+            f"{file}: row {row + 1}: {reasons[row].decode()!r} is not a reason: give a file"
+            " written by `contactbench locate`."
         )
     forces = None if wrenches is None else _forces(wrenches, len(numbers), file)
     # Files from before contacts had a confidence have no such column.
@@ -220,20 +220,20 @@ def locate_recording(
     recording = read_recording(file, progress)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise HeatmapError(
-            f"{file}: there are {len(recording.wrenches)} sensors and {len(recording.flanges)} robots in it: record one"
-            " of each, the robot with --pose."
+            f"{file}: it contains {len(recording.wrenches)} sensors and {len(recording.flanges)}"
+            " robots: record one of each, the robot with --pose."
         )
     (track,), (poses,) = recording.wrenches.values(), recording.flanges.values()
     parts = list(_compensated(track, poses, model, R_ES, delay))
     if not parts:
-        raise HeatmapError(f"{file}: no reading has a pose beside it: record the robot all the time.")
+        raise HeatmapError(f"{file}: no reading has a pose: record the robot throughout.")
     times, wrenches, R_WS = (np.concatenate(column) for column in zip(*parts, strict=True))
     said = [*recording.warnings]
     if lost := len(track.times) - len(times):
-        said.append(f"{lost:,} readings are left out: no good, or without a pose beside them.")
+        said.append(f"{lost:,} readings left out: flagged as bad, or without a pose.")
     own = noise or measured_noise(times, wrenches)
     if own is None:
-        said.append("The recording does not tell its noise: the usual one of a sensor is taken.")
+        said.append("The recording does not show its noise, so a typical sensor noise is assumed.")
     total = with_calibration(own or WrenchNoise(), model, R_WS)
     solver = ContactSolver(probe, total, gates)
     found = [
@@ -283,8 +283,8 @@ def _contacts(
     doubtful = int(counts[names == b"ambiguous"].sum())
     if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
         said = (
-            f"{doubtful:,} of {doubtful + used.sum():,} contacts could be at another place as well and are not in the"
-            " map: mark the region that is touched, and locate them again."
+            f"{doubtful:,} of {doubtful + used.sum():,} contacts are ambiguous and not in the map:"
+            " mark the touched region, and locate them again."
         )
         notes = (*notes, said)
     usual = usual_step(times)

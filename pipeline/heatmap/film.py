@@ -65,7 +65,8 @@ def moments(playback: Playback, selection: Selection, settings: FilmSettings, ra
         raise HeatmapError(empty_words(playback.contacts, selection))
     if not end > start:
         raise HeatmapError(
-            f"a film of {max(end - start, 0.0):g} s shows nothing that moves: widen the time window, or save a picture."
+            f"a film of {max(end - start, 0.0):g} s shows no motion: widen the time window, or"
+            " save a picture."
         )
     count = int(np.ceil((end - start) / settings.speed * rate)) + 1
     if count > _MOST_FRAMES:
@@ -135,7 +136,7 @@ def write_film(
     """
     kind = file.suffix.lower()
     if kind not in SUFFIXES:
-        raise HeatmapError(f"{file}: a film ends in .mp4 or .gif.")
+        raise HeatmapError(f"{file}: the name of a film must end in .mp4 or .gif.")
     settings = settings or FilmSettings()
     rate, shown = _RATES[kind], 0
 
@@ -156,7 +157,7 @@ def write_film(
         sync_folder(file.parent)
     except OSError as error:
         raise InputError(
-            f"{file}: the film cannot be written ({error}): choose a folder that exists and has room."
+            f"{file}: the film cannot be written ({error}): choose a folder that exists and has space."
         ) from error
     finally:
         scratch.unlink(missing_ok=True)

@@ -202,7 +202,7 @@ def heatmap(
     check_bandwidth(probe, bandwidth)
     if quantity not in get_args(Quantity) or normalisation not in get_args(Normalisation):
         raise HeatmapError(
-            f"quantity {quantity!r}, normalisation {normalisation!r}: there is no such heatmap."
+            f"there is no heatmap of quantity {quantity!r} with normalisation {normalisation!r}."
         )
     bells, scale = Bells(probe, at, bandwidth), scale_of(quantity)
     if quantity == "density":
@@ -227,7 +227,7 @@ def _checked(points: ArrayLike, weights: ArrayLike | None) -> tuple[NDArray[np.f
         )
     w = np.ones(len(at)) if weights is None else _numbers(weights, len(at), "weights")
     if (w < 0).any() or not w.any():
-        raise HeatmapError("weights: none may be negative, and some must be above 0.")
+        raise HeatmapError("weights: none may be negative, and at least one must be above 0.")
     return at, w
 
 
@@ -264,6 +264,7 @@ def _notes(probe: Probe, values: NDArray[np.float64], bandwidth: float) -> tuple
     return (
         (
             f"The mesh's edges there are {1e3 * edge:.1f} mm long, longer than the bandwidth of"
-            f" {1e3 * bandwidth:.1f} mm: the map is no finer than the mesh. Take a mesh with more facets."
+            f" {1e3 * bandwidth:.1f} mm, so the map is no finer than the mesh. Use a mesh with"
+            " more facets."
         ),
     )

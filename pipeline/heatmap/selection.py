@@ -59,9 +59,7 @@ class Selection:
 def in_order(contacts: Contacts) -> Contacts:
     """Return contacts sorted by their times; HeatmapError if they have none."""
     if contacts.times is None:
-        raise HeatmapError(
-            "these contacts do not say when they were: give a recording, or a table with times."
-        )
+        raise HeatmapError("these contacts have no times: give a recording, or a table with times.")
     order = np.argsort(contacts.times, kind="stable")
     return contacts if (np.diff(order) == 1).all() else _of(contacts, order)
 
@@ -101,13 +99,11 @@ def windowed(contacts: Contacts, selection: Selection) -> Contacts:
     start = 0.0 if selection.start is None else selection.start
     end = np.inf if selection.end is None else selection.end
     if not start <= end:
-        raise HeatmapError(
-            f"the time window ends at {end:g} s, before it starts at {start:g} s: exchange them."
-        )
+        raise HeatmapError(f"the time window ends at {end:g} s, before it starts at {start:g} s: swap them.")
     inside = np.ones(len(contacts.points), dtype=bool)
     if selection.timed:
         if contacts.times is None:
-            raise HeatmapError("a window of time needs contacts that know their times.")
+            raise HeatmapError("a time window needs contacts with times.")
         inside = (contacts.moments >= start) & (contacts.moments <= end)
     strong = force_mask(contacts, selection)
     left_out = dict(contacts.left_out)
@@ -127,12 +123,12 @@ def force_mask(contacts: Contacts, selection: Selection) -> NDArray[np.bool_]:
         return np.ones(len(contacts.points), dtype=bool)
     if contacts.forces is None:
         raise HeatmapError(
-            "a range of force needs the forces: give the wrenches that the contacts were located from."
+            "a force range needs the forces: give the wrenches that the contacts were located from."
         )
     least = 0.0 if selection.least_force is None else selection.least_force
     most = np.inf if selection.most_force is None else selection.most_force
     if not least <= most:
-        raise HeatmapError(f"the force range goes from {least:g} N down to {most:g} N: exchange them.")
+        raise HeatmapError(f"the force range goes from {least:g} N down to {most:g} N: swap them.")
     mask: NDArray[np.bool_] = (contacts.forces >= least) & (contacts.forces <= most)
     return mask
 
@@ -153,8 +149,8 @@ def empty_words(contacts: Contacts, selection: Selection) -> str:
         parts.append(f"with {least:.4g}{upto} N" if upto else f"with {least:.4g} N or more")
     place = f" {' '.join(parts)}" if parts else ""
     return (
-        f"there is no contact{place}: widen the time window or the range of force (the recording lasts"
-        f" {contacts.duration:.4g} s)."
+        f"there is no contact{place}: widen the time window or the force range (the recording"
+        f" lasts {contacts.duration:.4g} s)."
     )
 
 
@@ -183,7 +179,7 @@ def shown(
         known = contacts.known_errors if errors is None else errors
         if known is None:
             raise HeatmapError(
-                "the error needs the points that were touched: open a verification, or give the markers."
+                "the error needs the touched points: open a verification, or give the markers."
             )
         return known, np.isfinite(known)
     if contacts.forces is None:
@@ -205,13 +201,13 @@ def weights_of(contacts: Contacts, selection: Selection) -> NDArray[np.float64] 
         return contacts.seconds if per_second else None
     if selection.quantity == "peak":
         raise HeatmapError(
-            "a peak is the largest force, so its contacts cannot be weighed: choose another quantity, or do not weigh"
-            " by confidence."
+            "a peak is the largest force, so its contacts cannot be weighted: choose another"
+            " quantity, or turn off confidence weights."
         )
     if contacts.confidences is None:
         raise HeatmapError(
-            "these contacts do not say how sure they are: locate them again for a column `confidence`, or do not weigh"
-            " by confidence."
+            "these contacts have no confidence: locate them again for a column `confidence`, or"
+            " turn off confidence weights."
         )
     return contacts.confidences * contacts.seconds if per_second else contacts.confidences
 
@@ -235,7 +231,7 @@ def drawn(
     """
     weights = weights_of(contacts, selection)
     if weights is not None and not weights[use].any():
-        raise HeatmapError("none of these contacts is sure at all: do not weigh by confidence.")
+        raise HeatmapError("none of these contacts has any confidence: turn off confidence weights.")
     made = heatmap(
         drawing_of(probe),
         contacts.points[use],

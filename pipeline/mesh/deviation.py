@@ -66,10 +66,10 @@ class Deviation:
     def sentence(self) -> str:
         """The distances in words."""
         if self.hausdorff < _NOTHING:
-            return "nowhere off the original"
+            return "identical to the original"
         return (
-            f"at most {1e3 * self.hausdorff:.3g} mm, {1e3 * self.rms:.2g} mm RMS, normals {self.normal_mean_deg:.2g}°"
-            " off in the mean"
+            f"at most {1e3 * self.hausdorff:.3g} mm, {1e3 * self.rms:.2g} mm RMS, normals"
+            f" {self.normal_mean_deg:.2g}° off on average"
         )
 
     def to_json(self) -> dict[str, Any]:

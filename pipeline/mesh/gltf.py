@@ -78,8 +78,8 @@ def read_gltf(data: bytes) -> RawMesh:
     for name in _list(file.text, "extensionsRequired"):
         if not str(name).startswith("KHR_materials_") and name not in _HARMLESS:
             raise MeshError(
-                f"the glTF scene needs the extension {str(name)[:60]}, which is not read: export it again without it,"
-                " or as STL or 3MF."
+                f"the glTF scene needs the extension {str(name)[:60]}, which is not supported:"
+                " export it again without it, or as STL or 3MF."
             )
     # A number that is none, or overflows here, is refused, with its row, like every other.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -90,7 +90,7 @@ def read_gltf(data: bytes) -> RawMesh:
     if not file.facets:
         raise MeshError("the glTF scene holds no triangles: export the part again, as a surface.")
     notes = (
-        ("Parts of the glTF scene hang on a skeleton; they were read in their rest pose.",)
+        ("Parts of the glTF scene are attached to a skeleton; they were read in their rest pose.",)
         if file.posed
         else ()
     )
@@ -108,7 +108,8 @@ def _open(data: bytes) -> _File:
     version, length = struct.unpack_from("<II", data, 4)
     if version != 2:
         raise MeshError(
-            f"the GLB file is of version {version}, and only 2 is read: export it again as GLB 2.0."
+            f"the GLB file has version {version}, but only version 2 is supported: export it again"
+            " as GLB 2.0."
         )
     if length > len(data):
         raise MeshError(
@@ -159,12 +160,11 @@ def _parse(text: bytes) -> dict[str, Any]:
         parsed = json.loads(text.rstrip(b"\0 "))
     except (ValueError, RecursionError) as error:  # also numbers of thousands of digits
         raise MeshError(
-            f"the description of the glTF scene is not sound JSON ({str(error)[:100]}): export it again as GLB."
+            f"the description of the glTF scene is not valid JSON ({str(error)[:100]}): export it"
+            " again as GLB."
         ) from error
     if not isinstance(parsed, dict) or not isinstance(parsed.get("asset"), dict):
-        raise MeshError(
-            "this is not a glTF file: it says nothing of its 'asset'. Choose another, or export it again."
-        )
+        raise MeshError("this is not a glTF file: it has no 'asset'. Choose another, or export it again.")
     if not str(parsed["asset"].get("version", "2.0")).startswith("2."):
         raise MeshError("the glTF file is not of version 2: export it again as GLB 2.0.")
     return parsed
@@ -174,7 +174,7 @@ def _refuse_compressed(holder: dict[str, Any], names: str) -> None:
     for name in _list(holder, names):
         if isinstance(name, str) and name in _COMPRESSED:
             raise MeshError(
-                f"the glTF meshes are compressed with {_COMPRESSED[name]}, which is not read: {_PLAIN}."
+                f"the glTF meshes are compressed with {_COMPRESSED[name]}, which is not supported: {_PLAIN}."
             )
 
 
@@ -204,14 +204,12 @@ def _nodes(text: dict[str, Any]) -> Iterator[tuple[dict[str, Any], npt.NDArray[n
             raise _too_many()
         if seen > len(every):
             raise MeshError(
-                "a node of the glTF scene hangs on several others, or on itself: export it again."
+                "a node of the glTF scene has several parents, or is its own parent: export it again."
             )
         node = _entry(text, "nodes", number)
         transform = above @ _local(node)
         if not (np.abs(transform) < 1e9).all():
-            raise MeshError(
-                "the nodes of the glTF scene move or scale a part beyond all bounds: export it again."
-            )
+            raise MeshError("the nodes of the glTF scene move or scale a part far too much: export it again.")
         yield node, transform
         waiting += [(child, transform) for child in reversed(_list(node, "children"))]
 
@@ -221,12 +219,12 @@ def _local(node: dict[str, Any]) -> npt.NDArray[np.float64]:
     if "matrix" in node:
         matrix = _floats(node, "matrix", 16, ()).reshape(4, 4).T
         if np.abs(matrix[3] - (0, 0, 0, 1)).max() > 1e-6:
-            raise MeshError("a matrix of the glTF scene is no transform of points: export it again.")
+            raise MeshError("a matrix of the glTF scene is not a transform of points: export it again.")
         return matrix
     x, y, z, w = _floats(node, "rotation", 4, (0, 0, 0, 1))
     length = x * x + y * y + z * z + w * w
     if not 0.5 < length < 2:
-        raise MeshError("a rotation of the glTF scene is no unit quaternion: export it again.")
+        raise MeshError("a rotation of the glTF scene is not a unit quaternion: export it again.")
     s = 2 / length
     rotation = np.array(
         [
@@ -269,7 +267,7 @@ def _place(
         faces = _triangles(corners, mode)
         if len(faces) and faces.max() >= len(positions):
             raise MeshError(
-                "a facet of the glTF scene refers to a vertex that is not there: export it again."
+                "a facet of the glTF scene refers to a vertex that does not exist: export it again."
             )
         # A mirror turns the facets' outer side in.
         if np.linalg.det(transform[:3, :3]) < 0:
@@ -385,7 +383,7 @@ def _entry(holder: dict[str, Any], name: str, number: Any) -> dict[str, Any]:
     entries = _list(holder, name)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(entries):
         raise MeshError(
-            f"the glTF scene refers to one of its '{name}' that it does not hold: export it again."
+            f"the glTF scene refers to an entry of '{name}' that does not exist: export it again."
         )
     entry = entries[number]
     if not isinstance(entry, dict):
@@ -427,6 +425,4 @@ def _too_many() -> MeshError:
 
 
 def _wrong(name: str) -> MeshError:
-    return MeshError(
-        f"the glTF scene holds '{name}' that are not what the format says: export it again as GLB."
-    )
+    return MeshError(f"the glTF scene contains '{name}' that violate the format: export it again as GLB.")

@@ -63,13 +63,14 @@ class MeshHealth:
             )
         if self.nonmanifold_edges > 0:
             found.append(
-                f"More than two facets meet at an edge (edges: {self.nonmanifold_edges}), so inside and"
-                " outside cannot be told apart there. Keep the outer shell only."
+                f"More than two facets meet at an edge (edges: {self.nonmanifold_edges}), so"
+                " inside and outside cannot be told apart there. Keep only the outer shell."
             )
         if not self.winding_consistent:
             found.append(
-                "Neighbouring facets disagree about which side is outside. Contacts on the facets that are"
-                " turned over are missed, or found on the far side. Make the normals consistent in the CAD program."
+                "Neighbouring facets disagree about which side is outside. Contacts on flipped"
+                " facets are missed, or found on the far side. Make the normals consistent in the"
+                " CAD program."
             )
         if self.outward is False:
             found.append(
@@ -78,18 +79,19 @@ class MeshHealth:
             )
         if self.components > 1:
             found.append(
-                f"The mesh has {self.components} separate parts. A part inside the housing can be taken for"
-                " the surface. Keep the outer shell only."
+                f"The mesh has {self.components} separate parts. A part inside the housing can be"
+                " mistaken for the surface. Keep only the outer shell."
             )
         if self.duplicate_facets > 0:
             found.append(
-                f"Facets occur more than once (surplus: {self.duplicate_facets}). They slow the search and"
-                " answer twice. Remove duplicate facets in the CAD program."
+                f"Facets occur more than once (surplus: {self.duplicate_facets}). They slow the"
+                " search and give double answers. Remove duplicate facets in the CAD program."
             )
         if self.dropped_facets > 0:
             found.append(
-                f"Facets without area were left out (facets: {self.dropped_facets}). They cannot be touched,"
-                " but may have closed a seam. Export again with cleaner triangles if the surface is open."
+                f"Facets without area were left out (facets: {self.dropped_facets}). They cannot"
+                " be touched, but may have closed a seam. If the surface is open, export again"
+                " with cleaner triangles."
             )
         return tuple(found)
 

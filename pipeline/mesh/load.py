@@ -105,30 +105,29 @@ def load_probe(
     """
     Read a probe from an STL (binary or text), PLY, OBJ, OFF, 3MF or glTF (GLB) file.
 
-    Polygons become triangles, vertices that coincide within 1e-7 of the size are merged, those that no facet uses
-    are left out, and so are facets without area. A file written by `save_probe` is taken as it is. What was
-    repaired and what defects remain is told in one `MeshWarning`; the defects are in ``probe.health`` too.
+    Polygons become triangles, vertices that coincide within 1e-7 of the size are merged, and unused vertices and
+    facets without area are left out. A file written by `save_probe` is used unchanged. Repairs and remaining
+    defects are reported in one `MeshWarning`; the defects are also in ``probe.health``.
 
     Parameters
     ----------
     path : str or path
-        The file; its suffix says the format.
+        The file; its suffix determines the format.
     units : {"mm", "m", "cm", "in", "auto"}
-        What the file's numbers are. Most files do not say. "auto" guesses from the size and the file's comments,
-        and warns where that is not certain: numbers that make a probe in inches and in centimetres, say. A 3MF file
-        states its unit; where another is given, that counts, and is told. A file of `save_probe` is in metres,
-        whatever is given.
+        Unit of the file's numbers, which most files do not state. "auto" guesses from the size and the file's
+        comments, and warns if that is uncertain, for example if both inches and centimetres give a probe. A 3MF
+        file states its unit; a different one given here is used and reported. Files of `save_probe` are in metres.
     mount : (4, 4) array_like, optional
         T_SP, the rigid transform from the mesh's frame P to the sensor frame S, translation in metres:
-        p_S = T_SP @ p_P, after the units are converted. Left out, P is taken to be S.
+        p_S = T_SP @ p_P, after the units are converted. Default: P equals S.
     name : str, optional
-        For people; the file's name without suffix when left out.
+        Name of the probe. Default: the file's name without suffix.
 
     Returns
     -------
     Probe
-        In metres and S. A PLY face property `region` of integers becomes ``probe.region``; `untouchable` is kept
-        by files that `save_probe` wrote.
+        In metres and S. A PLY face property `region` of integers becomes ``probe.region``; files of `save_probe`
+        also keep `untouchable`.
 
     Raises
     ------
@@ -139,9 +138,8 @@ def load_probe(
 
     Notes
     -----
-    What a file can make this allocate is bounded, see `contactbench.pipeline.mesh.parse`: files over 512 MiB
-    and more than
-    four million facets are refused.
+    The memory that a file can allocate is bounded, see `contactbench.pipeline.mesh.parse`: files over 512 MiB
+    or with more than four million facets are refused.
     """
     T_SP = None if mount is None else _rigid(mount)
     file = Path(path)
@@ -160,7 +158,7 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
     Parameters
     ----------
     path : str or path
-        The file; its suffix says the format.
+        The file; its suffix determines the format.
     units : {"mm", "m", "cm", "in", "auto"}
         See `load_probe`.
 
@@ -193,7 +191,7 @@ def _with_units(
 ) -> MeshFile:
     if units != "auto" and not raw.settled:
         if raw.stated not in (None, units):
-            told = f"The file states {NAMES[raw.stated]}, but {NAMES[units]} were asked for and are used."
+            told = f"The file states {NAMES[raw.stated]}, but you asked for {NAMES[units]}, which are used."
             raw = replace(raw, notes=(*raw.notes, told))
         return MeshFile(raw, None, units)
     used = raw.vertices[raw.faces.ravel()]
@@ -229,7 +227,7 @@ def _without_stray(raw: RawMesh) -> RawMesh:
     vertices = raw.vertices.copy()
     vertices[stray] = vertices[raw.faces[0, 0]]
     count = np.count_nonzero(stray)
-    note = f"Points that are not numbers and that no facet uses were left out (points: {count})."
+    note = f"Unused points that are not numbers were left out (points: {count})."
     return replace(raw, vertices=vertices, notes=(*raw.notes, note))
 
 
@@ -254,8 +252,9 @@ def _read(file: Path) -> tuple[RawMesh, bytes]:
     cad = _cad_format(data) or _CAD.get(suffix)
     if cad or reader is None:
         raise MeshError(
-            f"this is a {cad} file: it holds the curved surfaces of a CAD program and no triangles. Open it in a CAD"
-            " program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."
+            f"this is a {cad} file: it contains the curved surfaces of a CAD program but no"
+            " triangles. Open it in a CAD program and export the part as 3MF, or as STL in"
+            " millimetres, with a tolerance of 0.01 mm."
         )
     raw = reader(data)
     refuse_too_many(len(raw.faces))
@@ -372,7 +371,7 @@ def _check_units(size: float, units: Units) -> None:
         low, high = LIKELY_M
         likely = [unit for unit in NAMES if unit != units and low <= in_metres(size, unit) <= high]
         if not likely:
-            return f"no probe has that size in {NAMES[units]}. Check the part that was exported."
+            return f"no probe has that size in {NAMES[units]}. Check that the right part was exported."
         return f"are the numbers {NAMES[likely[0]]}? Give --units {likely[0]} instead of {units}."
 
     refuse_size(in_metres(size, units), remedy)

@@ -59,8 +59,8 @@ def _polygon(line: bytes, number: int, vertices_so_far: int) -> list[int]:
     polygon = [int(match.group(1)) for match in matches if match]
     if len(polygon) != len(matches) or not polygon or 0 in polygon:
         raise MeshError(
-            f"line {number} of the OBJ text is a facet that does not list vertices, counted from 1: repair that"
-            " line or export the file again."
+            f"line {number} of the OBJ text is a facet without valid vertex numbers (counted from"
+            " 1): repair that line or export the file again."
         )
     # A negative index counts back from the vertex read last, not from the end of the file.
     return [index - 1 if index > 0 else vertices_so_far + index for index in polygon]

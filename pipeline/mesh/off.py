@@ -79,11 +79,11 @@ def _read(text: bytes, notes: tuple[str, ...]) -> RawMesh:
     number, row = next(rows, (0, b""))
     if _polygon(row):
         raise MeshError(
-            f"line {number} of the OFF text is a facet beyond those that its header announces: it is damaged,"
-            " export it again."
+            f"line {number} of the OFF text is one facet more than its header announces: the file"
+            " is damaged, export it again."
         )
     if number:
-        notes += (f"What follows the last facet of the OFF text, from line {number}, was left out.",)
+        notes += (f"Text after the last facet of the OFF file, from line {number}, was left out.",)
     vertices = points(coordinates)
     done = polygons.finish(vertices)
     return RawMesh(vertices, done.faces, notes=notes + done.notes)
@@ -132,13 +132,13 @@ def _head(rows: Iterator[tuple[int, bytes]]) -> tuple[int, int]:
     counts = first[keyword.end() :].split(maxsplit=4)
     if counts[:1] == [b"BINARY"]:
         raise MeshError(
-            "this is a binary OFF file, and only text is read: save it as text, or as binary PLY."
+            "this is a binary OFF file, but only text is supported: save it as text, or as binary PLY."
         )
     if not counts:
         counts = next(rows, (0, b""))[1].split(maxsplit=4)
     if len(counts) not in (2, 3) or not all(_COUNT.fullmatch(count) for count in counts):
         raise MeshError(
-            "the OFF text does not announce its numbers of vertices, facets and edges: export it again."
+            "the OFF text does not state its numbers of vertices, facets and edges: export it again."
         )
     return int(counts[0]), int(counts[1])
 

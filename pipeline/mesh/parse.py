@@ -119,8 +119,8 @@ def broken(where: str, row: bytes, why: str) -> MeshError:
     if comma is None:
         return MeshError(why)
     return MeshError(
-        f"{where} has the number {comma!r}, whose comma may stand for a decimal point or set thousands apart: export"
-        " the file again with decimal points."
+        f"{where} has the number {comma!r}, whose comma may be a decimal point or a thousands"
+        " separator: export the file again with decimal points."
     )
 
 
@@ -140,6 +140,6 @@ def refuse_too_many(facet_count: int) -> None:
     """
     if facet_count > LARGEST_FACETS:
         raise MeshError(
-            f"the file holds more than {LARGEST_FACETS} facets: export the part with fewer, a tolerance of"
-            " 0.01 mm is finer than any probe needs."
+            f"the file has more than {LARGEST_FACETS} facets: export the part with fewer. A"
+            " tolerance of 0.01 mm is finer than any probe needs."
         )

@@ -246,8 +246,8 @@ def _short(header: PlyHeader, needed: int, size: int) -> MeshError:
 
 def _absurd(element: Element, length: int) -> MeshError:
     return MeshError(
-        f"a list of the PLY element '{element.name}' announces {length} numbers, which the file does not hold: it is"
-        " damaged or cut short, copy or export it again."
+        f"a list of the PLY element '{element.name}' announces {length} numbers that the file does"
+        " not contain: it is damaged or cut short, copy or export it again."
     )
 
 
@@ -405,7 +405,10 @@ class _RowReader:
             return ()
         name, count = self._element.name, self._surplus
         return (
-            f"Rows of the PLY element '{name}' end in numbers that the header lacks; left out (a row: {count}).",
+            (
+                f"Rows of the PLY element '{name}' end in numbers that the header does not list; these"
+                f" were left out (per row: {count})."
+            ),
         )
 
 
@@ -434,6 +437,6 @@ def _bad_row(element: Element, row: list[bytes], number: int) -> MeshError:
     return broken(
         f"row {number} of the PLY element '{element.name}'",
         b" ".join(row),
-        f"row {number} of the PLY element '{element.name}' does not hold the numbers that the header"
-        " announces: the file is damaged, export it again.",
+        f"row {number} of the PLY element '{element.name}' does not contain the numbers that the"
+        " header announces: the file is damaged, export it again.",
     )

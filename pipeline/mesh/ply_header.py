@@ -162,7 +162,7 @@ def read_header(data: bytes) -> PlyHeader:
 
 def ignored(label: str) -> str:
     """Say that a property of somebody else's file, which has the name of one of ours, is left alone."""
-    return f"The PLY face property '{label}' does not hold what contactbench writes there, and was ignored."
+    return f"The PLY face property '{label}' was not written by contactbench and was ignored."
 
 
 def _told_apart(columns: list[Property]) -> tuple[Property, ...]:
@@ -211,7 +211,8 @@ def _check(elements: tuple[Element, ...]) -> None:
         names = {prop.name for prop in element.properties}
         if not names or len(names) != len(element.properties):
             raise MeshError(
-                f"the PLY element '{element.name}' has no property, or one twice: export the file again."
+                f"the PLY element '{element.name}' has no property, or the same one twice: export"
+                " the file again."
             )
     found = {element.name: {p.name: p for p in element.properties} for element in elements}
     if len(found) != len(elements):
@@ -220,7 +221,7 @@ def _check(elements: tuple[Element, ...]) -> None:
         prop = found.get("vertex", {}).get(axis)
         if prop is None or prop.count_kind:
             raise MeshError(
-                f"the PLY file holds no vertices with a number '{axis}': export it again as a mesh."
+                f"the PLY file has no vertices with a number '{axis}': export it again as a mesh."
             )
     facets = found.get("face") or found.get(STRIPS, {})
     corners = facets.get(INDICES) or facets.get("vertex_index")

@@ -102,8 +102,9 @@ class Polygons:
         if missing.any():
             polygon = int(np.searchsorted(np.cumsum(sizes), np.argmax(missing), side="right"))
             raise MeshError(
-                f"line {self._lines[polygon]} of the {self._kind} text is a facet that refers to a vertex that"
-                f" is not there (the file has {len(vertices)}): it is damaged or cut short, export it again."
+                f"line {self._lines[polygon]} of the {self._kind} text is a facet that refers to a"
+                f" vertex that does not exist (the file has {len(vertices)}): it is damaged or cut"
+                " short, export it again."
             )
         return triangulate(vertices, corners, sizes)
 
@@ -296,8 +297,8 @@ def _cut(
         return 0
     if float(np.sum(sizes.astype(float) ** 2)) > _MOST_WORK:
         raise MeshError(
-            f"the polygons that are not convex have {int(sizes.sum())} corners, more than are cut into triangles here:"
-            " export the part again with triangles only."
+            f"the non-convex polygons have {int(sizes.sum())} corners, too many to triangulate"
+            " here: export the part again with triangles only."
         )
     # Imported for the few files that need it: most hold triangles.
     from manifold3d import triangulate as cut_polygon
@@ -317,9 +318,7 @@ def _cut(
     for begin, end, size, reach in zip(*(x.tolist() for x in (begins, ends, sizes, tolerance)), strict=True):
         cut = cut_polygon([flat[begin : begin + size]], reach)
         if len(cut) != size - 2:
-            raise MeshError(
-                "a polygon cannot be cut into triangles: export the part again with triangles only."
-            )
+            raise MeshError("a polygon cannot be triangulated: export the part again with triangles only.")
         triangles[end : end + size - 2] = cut
         triangles[end : end + size - 2] += begin
     a, b, c = (flat[triangles[:, k]].T for k in range(3))

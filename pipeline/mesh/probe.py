@@ -49,13 +49,13 @@ class Probe:
     region : (m,) int32
         Priority per facet: 0 no region, 1 the first priority, 2 the next, and so on; read-only.
     invented : (m,) bool
-        Facets that close an opening about which the file says nothing: a touch there rests on a guess; read-only.
+        Facets that close an opening in the file: contacts there rest on a guess; read-only.
     name : str
-        For people.
+        Name of the probe.
     health : MeshHealth
         Defects of the mesh.
     untouchable : tuple of int
-        Numbers of the regions that nothing can touch: hidden by a clamp or a drape.
+        Numbers of the untouchable regions, hidden by a clamp or a drape.
     """
 
     vertices: npt.NDArray[np.float64]
@@ -84,19 +84,19 @@ class Probe:
         Parameters
         ----------
         vertices_m : (n, 3) array_like of real numbers
-            Metres in S. Vertices that no facet uses are kept, and do not count for bounds and size.
+            Metres in S. Unused vertices are kept, but do not count for bounds and size.
         faces : (m, 3) array_like of integers
             Vertex indices, counter-clockwise seen from outside.
         region : (m,) array_like of integers, optional
-            Priority per facet, 0 for none; all 0 when left out.
+            Priority per facet, 0 for none. Default: all 0.
         invented : (m,) array_like of bool or 0 and 1, optional
-            Facets that the file did not hold; none when left out.
+            Facets that are not in the file. Default: none.
         name : str
-            For people.
+            Name of the probe.
         check_size : bool
             Refuse a largest extent under 5 mm or over 2 m, which is nearly always a wrong unit.
         untouchable : tuple of int
-            Numbers of the regions that nothing can touch.
+            Numbers of the untouchable regions.
 
         Returns
         -------
@@ -127,7 +127,7 @@ class Probe:
         region : (m,) array_like of integers
             Priority per facet, 0 for none.
         untouchable : tuple of int, optional
-            Numbers of the regions that nothing can touch.
+            Numbers of the untouchable regions.
 
         Returns
         -------
@@ -231,7 +231,7 @@ def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if bad.any():
         row = int(np.argmax(bad))
         place = ", ".join(f"{value:g}" for value in vertices[row])
-        what = "is not a finite point" if not np.isfinite(vertices[row]).all() else "is absurdly far away"
+        what = "is not a finite point" if not np.isfinite(vertices[row]).all() else "is impossibly far away"
         raise MeshError(
             f"vertices: row {row} ({place}) {what}; {np.count_nonzero(bad)} of {len(vertices)} rows are."
             " Repair or export the mesh again."
@@ -250,7 +250,7 @@ def check_faces(values: npt.ArrayLike, vertex_count: int) -> npt.NDArray[np.int3
     """
     array = _as_array(values, "faces", "integers")
     if array.size == 0:
-        raise MeshError("faces: there are no facets, so there is nothing to touch: give at least one.")
+        raise MeshError("faces: there are no facets: give at least one.")
     if array.dtype.kind not in "iu":
         raise MeshError(f"faces must be integers, not {array.dtype}: convert the vertex indices to int32.")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -314,7 +314,9 @@ def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArra
         )
     if array.dtype.kind != "b" and not np.isin(array, (0, 1)).all():
         row = int(np.argmax(~np.isin(array, (0, 1))))
-        raise MeshError(f"invented: row {row} is {array[row]}: use 1 for a facet that was made up, else 0.")
+        raise MeshError(
+            f"invented: row {row} is {array[row]}: use 1 for a facet that closes an opening, else 0."
+        )
     return np.array(array, dtype=bool, order="C")
 
 
@@ -363,7 +365,7 @@ def _array_remedy(too_large: bool) -> str:
         ("millimetres", "0.001") if too_large else ("another unit than metres", "its length in metres")
     )
     advice = " (from a file: load_probe with units='mm')" if too_large else ""
-    return f"did the file hold {unit}? Multiply by {factor}{advice}, or pass check_size=False if it is right."
+    return f"is the file in {unit}? Multiply by {factor}{advice}, or pass check_size=False if it is correct."
 
 
 def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> None:

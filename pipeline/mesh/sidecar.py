@@ -139,7 +139,7 @@ def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
     mesh = Path(path)
     if mesh.suffix.lower() != ".ply":
         raise RegionError(
-            f"{mesh}: regions are kept in a probe's PLY file: load the mesh and save it as .ply."
+            f"{mesh}: regions are stored in a probe's PLY file: load the mesh and save it as .ply."
         )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
@@ -242,13 +242,15 @@ def read_document(file: Path) -> dict[str, Any]:
     data = read_limited(file) if file.exists() else b"{}"
     if not data:
         raise RegionError(
-            "the file is empty, and belongs to the mesh beside it: if that is where the output of --json goes, send"
-            " it elsewhere; otherwise delete the file."
+            "the file is empty, but belongs to the mesh beside it: if --json output is redirected"
+            " here, send it elsewhere; otherwise delete the file."
         )
     document = parse_json(data)
     version = document.get("version", VERSION)
     if document.get("schema", SCHEMA) != SCHEMA or not isinstance(version, int):
-        raise RegionError("the JSON file beside the mesh is not a probe's: move it away, or rename the mesh.")
+        raise RegionError(
+            "the JSON file beside the mesh does not belong to a probe: move it away, or rename the mesh."
+        )
     if version > VERSION:
         raise RegionError(
             f"the file has the version {version}, newer than {VERSION}: use a newer contactbench."
@@ -283,8 +285,8 @@ def _notes(document: Mapping[str, Any], mesh: Path) -> tuple[str, ...]:
     if known is None or known == hashlib.sha256(mesh.read_bytes()).hexdigest():
         return ()
     changed = (
-        f"{mesh} was changed since contactbench wrote it: the history beside it tells of another surface. Prepare"
-        " the mesh again, if it is not known who changed it."
+        f"{mesh} was changed after contactbench wrote it, so the history beside it describes"
+        " another surface. Prepare the mesh again unless you know who changed it."
     )
     return (changed,)
 

@@ -134,8 +134,8 @@ class Soundness:
         found = list(replace(self.health, components=1, dropped_facets=0).sentences)
         if self.crossing:
             found.append(
-                f"Facets cut through each other (pairs: {self.crossing:,}). Inside and outside are mixed up there, and"
-                f" a contact can land on an inner wall. {_SHELL}"
+                f"Facets cut through each other (pairs: {self.crossing:,}). Inside and outside are"
+                f" mixed up there, so a contact can land on an inner wall. {_SHELL}"
             )
         if self.overlapping > self.health.duplicate_facets:
             found.append(
@@ -151,8 +151,8 @@ class Soundness:
             )
         if self.nested_parts:
             found.append(
-                f"Closed parts lie inside the body (parts: {self.nested_parts:,}). Nothing can touch them, but a line"
-                f" of force meets them. {_SHELL}"
+                f"Closed parts lie inside the body (parts: {self.nested_parts:,}). They cannot be"
+                f" touched, but a line of force can hit them. {_SHELL}"
             )
         if self.inward_parts and self.health.outward is not False:
             found.append(
@@ -163,8 +163,8 @@ class Soundness:
             found.append(self._folds())
         if len(self.flat_facets):
             found.append(
-                f"Facets have no area (facets: {len(self.flat_facets):,}), so no normal. Remove them in the CAD"
-                " program and close the seams that they leave."
+                f"Facets have no area (facets: {len(self.flat_facets):,}) and so no normal. Remove"
+                " them in the CAD program and close the seams they leave."
             )
         return tuple(found)
 
@@ -174,15 +174,15 @@ class Soundness:
         notes = []
         if self.touching:
             notes.append(
-                f"Facets touch without sharing a vertex or edge (pairs: {self.touching:,}): two walls meet there. No"
-                " action is needed where bodies are meant to touch."
+                f"Facets touch without sharing a vertex or edge (pairs: {self.touching:,}): two"
+                " walls meet there. No action needed if the bodies are meant to touch."
             )
         return (*self.faults, *notes)
 
     def _folds(self) -> str:
         count = f"{len(self.folded_facets):,}"
         remedy = (
-            "Contacts there are missed or found on the far side. Keep more facets, or mend the mesh there."
+            "Contacts there are missed or found on the far side. Keep more facets, or repair the mesh there."
         )
         largest = self.normal_deviation_deg[self.folded_facets]
         if np.isfinite(largest).any():

@@ -69,14 +69,14 @@ def read_stl(data: bytes) -> RawMesh:
         return _read_text(text)
     whole, extra = divmod(len(data) - _HEADER, _RECORD)
     if announced == 0 and whole > 0 and extra == 0:
-        note = f"The STL header announces no facets; the file has room for {whole}, which were read."
+        note = f"The STL header announces no facets, but the file has room for {whole}; these were read."
         return _read_binary(data, whole, (note,))
     if announced > 0 and end < len(data):
         more = _whole_facets(data, announced)
         if more:
             note = (
-                f"The STL header announces {announced} facets, but {more} more whole facets follow, which were read"
-                " too. Check that nothing of the part is missing."
+                f"The STL header announces {announced} facets, but {more} more complete facets"
+                " follow and were also read. Check that no part is missing."
             )
             return _read_binary(data, announced + more, (note,))
         note = f"Bytes after the last facet of the STL file were left out (bytes: {len(data) - end})."
@@ -142,7 +142,10 @@ def _read_text(text: bytes) -> RawMesh:
         raise _broken_facet(bare, ended)
     if not ended:
         notes += (
-            "The STL text ends before 'endsolid'. All its facets are whole, but if it was cut short some are missing.",
+            (
+                "The STL text ends before 'endsolid'. All its facets are complete, but if the file"
+                " was cut short, some are missing."
+            ),
         )
     return RawMesh(points(coordinates), _own_corners(facets), notes=notes)
 
@@ -159,6 +162,6 @@ def _broken_facet(text: bytes, ended: bool) -> MeshError:
     return broken(
         f"the facet on line {line} of the STL text",
         text[wrong.start() : end if end >= 0 else None],
-        f"the facet on line {line} of the STL text is not three 'vertex x y z'"
-        " between 'outer loop' and 'endloop': repair that facet or export the file again.",
+        f"the facet on line {line} of the STL text must be three 'vertex x y z' between 'outer"
+        " loop' and 'endloop': repair that facet or export the file again.",
     )

@@ -152,7 +152,7 @@ def _notes(package: _Package, model: _Model) -> Iterator[str]:
     if package.supports:
         yield f"Supports of the 3MF file were left out (objects: {package.supports})."
     if model.unprinted:
-        yield f"Items that the 3MF file does not print were left out (items: {model.unprinted})."
+        yield f"Items that the 3MF file marks as not printed were left out (items: {model.unprinted})."
     others = sorted({other.unit for other in package.models.values()} - {model.unit})
     if others:
         yield (
@@ -177,11 +177,13 @@ def _parse(package: _Package, path: str) -> _Model:
             while piece := stream.read(_PIECE):
                 package.left -= len(piece)
                 if package.left < 0:
-                    raise MeshError("the 3MF archive unpacks to far more than a model takes: it is refused.")
+                    raise MeshError(
+                        "the 3MF archive unpacks to far more than a model needs: export it again."
+                    )
                 parser.Parse(piece, False)
             parser.Parse(b"", True)
         except expat.ExpatError as error:
-            raise MeshError(f"the 3MF model is not sound XML ({error}): export it again.") from error
+            raise MeshError(f"the 3MF model is not valid XML ({error}): export it again.") from error
     return model
 
 
@@ -200,10 +202,11 @@ def _entry(package: _Package, path: str) -> zipfile.ZipInfo:
     if entry is None:
         if path == _MODEL:
             raise MeshError(
-                "the archive holds no 3D/3dmodel.model: this is not a 3MF file, or one for printers only."
+                "the archive has no 3D/3dmodel.model: it is not a 3MF file, or is one for"
+                " printers only. Export the part again."
             )
         raise MeshError(
-            f"the 3MF archive does not hold the model {path[:60]!r} that it takes parts from: export it again."
+            f"the 3MF archive lacks the model {path[:60]!r} that it takes parts from: export it again."
         )
     # Others can be made to unpack to any amount in one read.
     if entry.flag_bits & 1 or entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
@@ -214,7 +217,7 @@ def _entry(package: _Package, path: str) -> zipfile.ZipInfo:
 
 
 def _refuse_doctype(*_: object) -> None:
-    raise MeshError("the 3MF model declares a document type, which no 3MF model does: it is refused.")
+    raise MeshError("the 3MF model declares a document type, which is not allowed: export it again.")
 
 
 def _start(model: _Model, name: str, attributes: dict[str, str]) -> None:
@@ -229,7 +232,7 @@ def _start(model: _Model, name: str, attributes: dict[str, str]) -> None:
         if isinstance(error, MeshError):
             raise
         raise MeshError(
-            f"a <{tag}> of the 3MF model holds no number ({str(error)[:_QUOTED]}): export it again."
+            f"a <{tag}> of the 3MF model has no number ({str(error)[:_QUOTED]}): export it again."
         ) from error
 
 
@@ -261,8 +264,8 @@ def _refuse_required(model: _Model, prefixes: str) -> None:
         space = model.spaces.get(prefix, prefix)
         if not any(known in space for known in _READ):
             raise MeshError(
-                f"the 3MF file needs the extension {space[:_QUOTED]!r}, which is not read: export the part as plain"
-                " triangles, as 3MF or STL."
+                f"the 3MF file needs the extension {space[:_QUOTED]!r}, which is not supported:"
+                " export the part as plain triangles, as 3MF or STL."
             )
 
 
@@ -290,7 +293,10 @@ def _collect(
     model = placed.path or model
     part = package.model(model).objects.get(placed.name)
     if part is None:
-        raise MeshError(f"the 3MF model places the object {placed.name[:40]!r}, which it does not hold.")
+        raise MeshError(
+            f"the 3MF model places the object {placed.name[:40]!r}, which it does not contain: export"
+            " it again."
+        )
     if part.kind in _SUPPORTS:
         package.supports += 1
         return
@@ -311,7 +317,7 @@ def _join(copies: list[tuple[_Object, _Transform]], unit: str) -> RawMesh:
         placed = points(part.coordinates)
         if len(corners) and (corners.min() < 0 or corners.max() >= len(placed)):
             raise MeshError(
-                "a triangle of the 3MF model refers to a vertex that is not there: export it again."
+                "a triangle of the 3MF model refers to a vertex that does not exist: export it again."
             )
         # A number that overflows here is refused, with its row, like every other infinity.
         with np.errstate(over="ignore", invalid="ignore"):

@@ -145,8 +145,8 @@ def guess_units(
     possible = [unit for unit in _USUAL if SMALLEST_M <= in_metres(span, unit) <= LARGEST_M]
     if not possible:
         raise MeshError(
-            f"the numbers span {span:.4g}, which is no probe in millimetres, metres, centimetres or inches (5 mm"
-            " to 2 m). Check the part that was exported."
+            f"the numbers span {span:.4g}, which cannot be a probe in millimetres, metres,"
+            " centimetres or inches (5 mm to 2 m). Check that the right part was exported."
         )
     likely = [unit for unit in possible if LIKELY_M[0] <= in_metres(span, unit) <= LIKELY_M[1]]
     # Where millimetres and metres are out of the question, the size of the usual probe decides.

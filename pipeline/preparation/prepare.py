@@ -82,7 +82,7 @@ class Preparation:
         frame = (
             ()
             if self.content.frame == "S"
-            else ("The mesh is in its own frame: align it with the sensor before it is used.",)
+            else ("The mesh is in its own frame: align it with the sensor before use.",)
         )
         wrong = () if self.ready else ("NOT READY: " + " ".join(self.faults),)
         short = self.simplified.sentences[:1] if self.simplified.short else ()
@@ -138,7 +138,7 @@ def prepared(
         `cancelled` answered True.
     """
     if given.mount is not None and "alignment" in inputs:
-        raise InputError("the mount of the settings and an alignment contradict each other: give one.")
+        raise InputError("the mount in the settings and the alignment contradict each other: give only one.")
     target, alignment = target_of(given), alignment_of(given, inputs.get("alignment"))
     dense = dense_of(
         inputs["mesh"],

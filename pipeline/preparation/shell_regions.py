@@ -112,8 +112,8 @@ def _carried(
         moved = transfer(regions, before, after)
     if regions.labels.any() and not moved.regions.labels.any():
         raise RegionError(
-            f"{file}: nothing of the regions lies on this surface: they were painted on another mesh, or in another"
-            " place. Paint them again, or leave them out."
+            f"{file}: none of the regions lies on this surface: they were painted on another mesh,"
+            " or in another place. Paint them again, or leave them out."
         )
     return moved.regions, moved.report
 

@@ -134,8 +134,8 @@ def refuse_aligned(content: ProbeFile, *, again: bool) -> None:
     """
     if content.frame == "S" and not again:
         raise AlignmentError(
-            "the probe is in the sensor frame already: it would be moved twice. Start from the mesh as it was"
-            " before it was aligned, or say that this is a correction (again)."
+            "the probe is already in the sensor frame and would be moved twice. Start from the"
+            " mesh before alignment, or mark this as a correction (again)."
         )
 
 

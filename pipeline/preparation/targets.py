@@ -40,7 +40,7 @@ def target_of(given: ProbeSettings) -> Callable[[Probe], Chosen]:
         More than one target was given, or a number is out of its range.
     """
     if sum(each is not None for each in (given.facets, given.max_deviation, given.max_contact_error)) > 1:
-        raise InputError("--facets, --max-deviation and --max-contact-error: give one of them.")
+        raise InputError("--facets, --max-deviation and --max-contact-error: give only one of them.")
     check_ratio(given.region_ratio)
     if given.facets is not None:
         count = Count(given.facets)

@@ -174,8 +174,8 @@ class ChunkFile:
     def _fail(self, error: OSError) -> None:
         self.abandon()
         raise RecordingError(
-            f"{self._path}: the recording stopped, what is in it stays readable ({error}): make room or choose"
-            " another disk, and start a new one."
+            f"{self._path}: the recording stopped, but its content stays readable ({error}): free"
+            " disk space or choose another disk, and start a new one."
         ) from error
 
     def _summarise(self, opcode: Opcode, payload: bytes) -> None:
@@ -216,7 +216,7 @@ def _create(path: Path) -> int:
     try:
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
     except FileExistsError:
-        raise RecordingError(f"{path}: there is a file of that name: choose another.") from None
+        raise RecordingError(f"{path}: this file already exists: choose another name.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise RecordingError(
             f"{path}: the recording cannot be started ({error}): choose a folder that exists and is writable."

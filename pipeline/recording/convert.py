@@ -68,7 +68,7 @@ def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tup
         columns, table = _wrench_table(recording, topic, said)
     if not len(table[0]):
         reasons = " ".join(said) or "There is none."
-        raise RecordingError(f"{file}: no reading of {topic} would be left for the table. {reasons}")
+        raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
     with _whole_file(file) as stream:
         stream.write((",".join(columns) + "\n").encode())
         for begin in range(0, len(table[0]), _BLOCK_ROWS):
@@ -120,9 +120,10 @@ def _chosen(recording: Recording, topic: str | None) -> str:
             return next(iter(tracks))
         if tracks:
             raise RecordingError(
-                f"the recording has several topics of that kind: {', '.join(tracks)}. Say which: --topic NAME."
+                f"the recording has several topics of that kind: {', '.join(tracks)}. Choose one:"
+                " --topic NAME."
             )
-    raise RecordingError("the recording holds no samples: there is nothing to convert.")
+    raise RecordingError("the recording contains no samples, so there is nothing to convert.")
 
 
 def _check_topic(recording: Recording, topic: str) -> None:
@@ -139,19 +140,17 @@ def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[li
     parts: list[NDArray[Any]] = [track.times, *track.wrenches.T]
     kept = track.usable
     if not kept.all():
-        said.append(f"{np.count_nonzero(~kept):,} readings are left out: the device says they are no good.")
+        said.append(f"{np.count_nonzero(~kept):,} readings left out: flagged as bad by the device.")
     if len(recording.flanges) == 1:
         poses, there = poses_at(next(iter(recording.flanges.values())), track.times)
         lost = kept & ~there
         if lost.any():
-            said.append(
-                f"{np.count_nonzero(lost):,} readings are left out: no pose within {LONGEST_GAP} s beside them."
-            )
+            said.append(f"{np.count_nonzero(lost):,} readings left out: no pose within {LONGEST_GAP} s.")
         kept &= there
         columns += _POSE_COLUMNS
         parts.extend(poses.T)
     elif recording.flanges:
-        said.append("There are several flanges: the table has no poses.")
+        said.append("The recording has several flanges, so the table has no poses.")
     columns.append("status")
     parts.append(track.status)
     optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (

@@ -61,10 +61,11 @@ class Delay:
         seconds = self.seconds or 0.0
         if _unlikely(self):
             return 0.0, (
-                f"{self.sentence} The delay is not applied. To apply it all the same, give it: --delay {seconds:.4f}."
+                f"{self.sentence} The delay is not applied. To apply it anyway, give it: --delay"
+                f" {seconds:.4f}."
             )
         if self.sigma is None or abs(seconds) < _SURE * self.sigma:
-            return 0.0, f"{self.sentence} That may be none, within 3 sigma: no delay is applied."
+            return 0.0, f"{self.sentence} Within 3 sigma this may be zero, so no delay is applied."
         return seconds, self.sentence
 
 
@@ -97,14 +98,14 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
     times, forces = times[known], forces[known]
     if len(times) < _FEWEST:
         raise RecordingError(
-            f"only {len(times)} wrenches have poses before and after them: record both for longer, with the robot"
-            " turning."
+            f"only {len(times)} wrenches have poses before and after them: record both for longer"
+            " while the robot turns."
         )
     if _turn(poses, times) < _LEAST_TURN:
         return Delay(
             None,
             None,
-            "The flange hardly turned, which shows no delay: turn it by 30° and back while recording.",
+            "The flange hardly turned, so no delay can be seen: turn it by 30° and back while recording.",
         )
     shifts = np.arange(-longest, longest + _STEP_S / 2, _STEP_S)
     left = np.array([_unexplained(poses, times, forces, shift) for shift in shifts])
@@ -113,7 +114,7 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
         return Delay(
             None,
             None,
-            f"No shift within {longest:g} s explains the forces: is this the robot that holds the sensor?",
+            f"No shift within {longest:g} s explains the forces: check that this robot holds the sensor.",
         )
     estimate = _refined(poses, times, forces, float(shifts[best]))
     doubt = _doubt(wrenches, forces, poses, times, estimate)
@@ -170,11 +171,11 @@ def _unlikely(estimate: Delay) -> str:
         return ""
     if abs(seconds) > _LONGEST_LIKELY:
         return (
-            f"A delay above {1e3 * _LONGEST_LIKELY:.0f} ms is unlikely: are both on one clock, and is this the robot"
-            " that holds the sensor?"
+            f"A delay above {1e3 * _LONGEST_LIKELY:.0f} ms is unlikely: check that both use one"
+            " clock, and that this robot holds the sensor."
         )
     if seconds < 0:
-        return "A sensor that is heard first is unlikely, unless the robot publishes its poses late: does it?"
+        return "A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late."
     return ""
 
 
@@ -190,9 +191,9 @@ def _left_over(
     if left <= max(_FAR_ABOVE * noise, _SHARE * swing):
         return ""
     return (
-        f"The turned load leaves {left:.2g} N of the forces unexplained, where the sensor's noise is {noise:.2g} N: was"
-        " something touched, or the flange moved fast? The delay may be off by more than its ±. Record it again: turn"
-        " slowly, touch nothing."
+        f"The turned load leaves {left:.2g} N of the forces unexplained, but the sensor's noise is"
+        f" only {noise:.2g} N: something was touched, or the flange moved fast. The delay may be"
+        " off by more than its ±. Record again: turn slowly, touch nothing."
     )
 
 

@@ -174,10 +174,10 @@ class RecordingReader:
             except (KeyError, ValueError) as error:
                 if isinstance(error, RecordingError):
                     raise
-                self._stream.warn(f"What the file says about itself is damaged ({error}).")
+                self._stream.warn(f"The description in the file is damaged ({error}).")
         if about is None:
             reason = " ".join(self.warnings[:1]) or "For a ROS 2 bag use: contactbench record import-ros2."
-            raise RecordingError(f"{path}: this is no recording of contactbench. {reason}")
+            raise RecordingError(f"{path}: not a recording of contactbench. {reason}")
         return RecordingInfo(about.started_ns, about.clock, tuple(devices), about.tool, about.note)
 
     def _decoded(self, message: McapMessage) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
@@ -191,7 +191,7 @@ class RecordingReader:
         try:
             sample = decode(message.data)
         except MessageError as error:
-            self._stream.warn(f"A message on {channel.topic[:80]!r} is damaged and left out ({error}).")
+            self._stream.warn(f"A message on {channel.topic[:80]!r} is damaged and was left out ({error}).")
             return
         yield channel.topic, sample
 
@@ -199,7 +199,7 @@ class RecordingReader:
         if self._event_room == math.inf:
             return True
         if (room := event_room(data)) > self._event_room:
-            self._stream.warn("There are more events in it than fit into memory: some are left out.")
+            self._stream.warn("The recording has more events than fit into memory: some were left out.")
             return False
         self._event_room -= room
         return True
@@ -235,7 +235,7 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
             else:
                 events.append(sample)
             if room < 0:
-                raise RecordingError(f"{path}: the recording is too long to be read at once: split it.")
+                raise RecordingError(f"{path}: the recording is too long to read at once: split it.")
         return Recording(
             reader.info,
             {topic: rows.track() for topic, rows in wrenches.items()},

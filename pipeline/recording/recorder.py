@@ -166,7 +166,7 @@ class Recorder:
         self._lost[device] = self._lost.get(device, 0) + count
         health = self._health.get(device)
         if begins and self._on_change is not None and health is not None:
-            words = "The disk is too slow: samples are dropped. Record to another one."
+            words = "The disk is too slow, so samples are dropped. Record to another disk."
             self._on_change(device, replace(health, findings=(*health.findings, words)))
 
     def _say_dropped(self, device: str) -> None:

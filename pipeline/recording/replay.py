@@ -172,8 +172,8 @@ class Replay:
                 waiting = next(poses, None)
             if abs(sample.time - before) > _LONGEST_GAP_S:
                 self.error = RecordingError(
-                    f"{self._path}: its times go from {before:g} s to {sample.time:g} s: no poses can be put beside"
-                    " that. Record again, or cut it there."
+                    f"{self._path}: its times go from {before:g} s to {sample.time:g} s, so no"
+                    " poses can be matched. Record again, or cut it there."
                 )
                 return
             while waiting is not None and waiting.time <= sample.time:
@@ -337,7 +337,7 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
         topics = reader.info.topics(kind)
     if topic is None and len(topics) > 1:
         raise RecordingError(
-            f"{path}: {what} of several devices are in it: add ?topic= with one of {', '.join(topics)}."
+            f"{path}: it contains {what} of several devices: add ?topic= with one of {', '.join(topics)}."
         )
     chosen = topics[0] if topic is None else topic
     stream = McapStream(path)
@@ -352,6 +352,6 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
     finally:
         stream.close()
     raise RecordingError(
-        f"{path}: there are no {what} on {chosen} in it: choose another recording or topic; see what it holds with"
-        " contactbench record info."
+        f"{path}: it has no {what} on {chosen}: choose another recording or topic; contactbench"
+        " record info lists its content."
     )

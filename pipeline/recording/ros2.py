@@ -160,7 +160,7 @@ class _Import:
         except ValueError as error:
             if isinstance(error, InputError) and not isinstance(error, SampleError):
                 raise
-            warn(f"A message on {name[:_LONGEST_NAME]!r} is left out ({error}).")
+            warn(f"A message on {name[:_LONGEST_NAME]!r} was left out ({error}).")
 
     def doubts(self) -> tuple[str, ...]:
         """Say what the whole of it should make one doubt."""
@@ -168,15 +168,17 @@ class _Import:
         if self._other_frame:
             said.append(
                 f"The wrenches on {self._wrench.name} are in several frames, {self._frame!r} and"
-                f" {self._other_frame!r}: are they of one sensor?"
+                f" {self._other_frame!r}: check that they come from one sensor."
             )
         if self._where is not None and not self.poses:
             why = "" if self._frames is None else f" {self._frames.obstacle()}"
-            said.append(f"Nothing on {self._where.name} gives a pose of the flange{':' if why else '.'}{why}")
+            said.append(
+                f"No message on {self._where.name} gives a pose of the flange{':' if why else '.'}{why}"
+            )
         elif self._frames is not None and self._frames.missed > _FEW + self.poses / 100:
             said.append(
-                f"{self._frames.missed:,} moments have no pose: not all transforms between the frames have that time"
-                " stamp."
+                f"{self._frames.missed:,} samples have no pose: not all transforms between the"
+                " frames have their time stamp."
             )
         return tuple(said)
 
@@ -231,8 +233,8 @@ def _stamp(header: Any) -> int:
 def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -> Topic:
     if any(topic.encoding == "ros1" and topic.type == WRENCH_STAMPED for topic in topics):
         raise RecordingError(
-            f"{bag}: this is a bag of ROS 1, which writes its messages in another way: convert it to ROS 2 first, with"
-            " rosbags-convert for instance."
+            f"{bag}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for"
+            " instance with rosbags-convert."
         )
     wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
     if wrench is not None:
@@ -252,7 +254,9 @@ def _choose(
         for topic in there:
             if topic.name == name:
                 return topic
-        raise RecordingError(f"{bag}: {option}: {name} is none of: {listed or 'no such topics are there'}.")
+        raise RecordingError(
+            f"{bag}: {option}: {name} is not one of: {listed or 'no such topics are there'}."
+        )
     if len(there) > 1:
         raise RecordingError(f"{bag}: there are several topics: {listed}. Choose one: {option} NAME.")
     return there[0] if there else None
@@ -266,11 +270,11 @@ def _choose_pose(
         types = (TF, POSE_STAMPED)
     chosen = _choose(bag, topics, types, wanted.pose_topic, "--pose-topic")
     if chosen is not None and chosen.type == JOINT_STATE and wanted.robot is None:
-        raise RecordingError(f"{bag}: {chosen.name} has joints: say of which robot, --robot NAME.")
+        raise RecordingError(f"{bag}: {chosen.name} has joints: name their robot with --robot NAME.")
     if chosen is None:
         joints = any(topic.type == JOINT_STATE for topic in topics)
-        remedy = " Joints are there: say of which robot, --robot NAME." if joints else ""
-        warnings.append(f"There are no poses of the flange in the bag.{remedy}")
+        remedy = " It has joints: name their robot with --robot NAME." if joints else ""
+        warnings.append(f"The bag contains no poses of the flange.{remedy}")
     return chosen
 
 
@@ -278,7 +282,7 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> Tra
     pairs = found.pairs
     moving = frozenset(child for topic, child in found.moving if topic == where.name)
     if (wanted.base is None) != (wanted.flange is None):
-        raise RecordingError(f"{bag}: --base and --flange go together: between which frames.")
+        raise RecordingError(f"{bag}: give both --base and --flange, the two frames of the pose.")
     if wanted.base is not None and wanted.flange is not None:
         base, flange = wanted.base.lstrip("/"), wanted.flange.lstrip("/")
         known = {name for pair in pairs for name in pair}
@@ -289,7 +293,7 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> Tra
     if len(pairs) != 1:
         names = _some({f"{parent} -> {child}" for parent, child in pairs})
         raise RecordingError(
-            f"{bag}: say between which frames the flange's pose is: --base NAME --flange NAME. There are: {names}."
+            f"{bag}: name the two frames of the flange's pose: --base NAME --flange NAME. There are: {names}."
         )
     return TransformTree(*next(iter(pairs)), moving)
 

@@ -114,7 +114,7 @@ class TransformTree:
         if upside_down and self._parents[upside_down[-1]][0] == self._flange:
             return f"{self._base} hangs on {self._flange}: give --base and --flange the other way round."
         if not chain:
-            return f"no transform says where {self._flange} is."
+            return f"no transform gives the position of {self._flange}."
         top = self._parents[chain[-1]][0]
         if top != self._base:
             return f"{self._flange} hangs on {top}, and no transform leads from {self._base} to {top}."

@@ -127,11 +127,11 @@ class McapStream:
             try:
                 yield from self._meaning(opcode, payload)
             except ValueError as error:
-                self.warn(f"What is at byte {begin:,} is damaged and left out ({error}).")
+                self.warn(f"The data at byte {begin:,} are damaged and were left out ({error}).")
 
     def _check_magic(self) -> None:
         if self._read(len(MAGIC)) != MAGIC:
-            raise RecordingError(f"{self._path}: this is no MCAP file: choose a recording or a ROS 2 bag.")
+            raise RecordingError(f"{self._path}: not an MCAP file: choose a recording or a ROS 2 bag.")
 
     def _next_record(self) -> tuple[int, int, bytes] | None:
         """Return where the next record that matters is, its opcode and payload; None at the end of what can be read."""
@@ -149,7 +149,7 @@ class McapStream:
             if length <= limit:
                 return begin, opcode, self._read(length)
             if limit >= 0:
-                self.warn(f"What is at byte {begin:,} is too long ({length:,} bytes) and left out.")
+                self.warn(f"The data at byte {begin:,} are too long ({length:,} bytes) and were left out.")
             self._skip(length)
 
     def _meaning(self, opcode: int, payload: bytes) -> Iterator[McapMessage | Metadata]:
@@ -206,14 +206,12 @@ class McapStream:
         except OSError as error:
             raise self._unreadable(error) from error
         if not self.complete:
-            self.warn(
-                "The file is cut off after its last sample: nothing but the table of contents is missing."
-            )
+            self.warn("The file is cut off after its last sample: only the table of contents is missing.")
 
     def _cut_off(self, begin: int) -> None:
         self.warn(
-            f"The file is cut off or damaged at byte {begin:,} of {self._size:,}: it gives what was recorded up to"
-            " there."
+            f"The file is cut off or damaged at byte {begin:,} of {self._size:,}: everything up to"
+            " there was read."
         )
 
     def _read(self, length: int) -> bytes:

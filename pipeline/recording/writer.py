@@ -179,15 +179,15 @@ class RecordingWriter:
         if self._kinds.get(topic) != kind:
             known = ", ".join(name for name, other in self._kinds.items() if other == kind)
             raise SampleError(
-                f"{self._path}: {topic} is no topic for {kind} samples; there are: {known}. Name its device in"
-                " the description of the recording."
+                f"{self._path}: {topic} is not a topic for {kind} samples; there are: {known}."
+                " Name its device in the description of the recording."
             )
         try:
             stamp = self._about.log_time(moment)
             data = message(stamp)
         except ValueError as error:
             raise SampleError(
-                f"{self._path}: a sample on {topic} cannot be recorded: {error}. Check the device that gave it."
+                f"{self._path}: a sample on {topic} cannot be recorded: {error}. Check its device."
             ) from error
         if len(data) > LONGEST_MESSAGE:
             raise SampleError(f"{self._path}: an event is longer than 1 MiB: keep such data in a file.")
@@ -218,5 +218,5 @@ def _topics(path: Path, about: RecordingInfo) -> dict[str, _Kind]:
     )
     for topic, kind in others:
         if topics.setdefault(topic, kind) != kind:
-            raise RecordingError(f"{path}: {topic} would hold two kinds of samples: rename one.")
+            raise RecordingError(f"{path}: {topic} would contain two kinds of samples: rename one.")
     return topics

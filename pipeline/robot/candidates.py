@@ -83,7 +83,7 @@ def _box(
             continue
         floor, ceiling = joint.lower + margin, joint.upper - margin
         if floor > ceiling:
-            raise InputError(f"candidate_joints: a margin of {margin} rad leaves joint {joint.name} no room")
+            raise InputError(f"candidate_joints: a margin of {margin} rad leaves joint {joint.name} no range")
         # A start inside the margin pulls the box back in rather than emptying it.
         centre = min(max(q_start[i], floor), ceiling)
         low[i], high[i] = max(floor, centre - reach[i]), min(ceiling, centre + reach[i])
@@ -118,6 +118,7 @@ def _complaint(conflicts: Counter[str]) -> str:
     tried = conflicts.total()
     worst = ", ".join(f"{what} ({times} of {tried})" for what, times in conflicts.most_common(3))
     return (
-        f"candidate_joints: none of {tried} configurations near the start is clear; too close: {worst}. "
-        "Move the arm away from there, let the arm joints move too, or correct the Clearance."
+        f"candidate_joints: none of {tried} configurations near the start is clear; too close:"
+        f" {worst}. Move the arm away from there, allow the arm joints to move too, or correct the"
+        " Clearance."
     )

@@ -185,7 +185,8 @@ def _refuse_inertia(where: str, inertia: tuple[float, ...]) -> None:
     least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if least <= 0 or most > (least + middle) * (1 + 1e-9):
         raise InputError(
-            f"{where}: no body has the inertia {inertia!r}: principal moments {least:.3g}, {middle:.3g}, {most:.3g}"
+            f"{where}: the inertia {inertia!r} is physically impossible: principal moments"
+            f" {least:.3g}, {middle:.3g}, {most:.3g}"
         )
 
 

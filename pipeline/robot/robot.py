@@ -192,7 +192,7 @@ class Robot:
             if joint.lower <= value <= joint.upper:
                 continue
             prefix = f"{where}: " if where else ""
-            hint = "; are these degrees?" if np.abs(angles).max() > 2 * pi else ""
+            hint = "; check whether these are degrees" if np.abs(angles).max() > 2 * pi else ""
             raise InputError(
                 f"{prefix}joint {joint.name} is at {value:.4f} rad ({np.degrees(value):.2f}°), outside "
                 f"its limits {joint.lower:.4f} .. {joint.upper:.4f} rad "

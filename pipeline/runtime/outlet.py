@@ -128,7 +128,8 @@ class Outlet:
         self._queue.put(None)  # should it wake up
         if self.error is None:
             self.error = OutputError(
-                f"{self.name}: nothing was taken for {patience:g} s, the rest is lost: read what is written there."
+                f"{self.name}: no output was accepted for {patience:g} s, so the rest is lost:"
+                " read the output."
             )
         self.failed.set()
 

@@ -178,7 +178,8 @@ def check_runnable(config: RuntimeConfig, *, unverified: bool = False) -> None:
     stale = config.model.provenance.stale
     why = f" ({'; '.join(stale)})" if stale else ""
     raise RunError(
-        f"the bundle is not verified{why}: verify and export again; or add --unverified, for trials without a person."
+        f"the bundle is not verified{why}: verify and export again, or add --unverified for trials"
+        " without a person."
     )
 
 
@@ -207,8 +208,9 @@ def check_sensor(config: RuntimeConfig, serial: str, *, other: bool = False) -> 
     if other or not known(serial) or not known(wanted) or serial == wanted:
         return
     raise RunError(
-        f"the sensor's serial number is {serial!a:.100}, the bundle is for {wanted!a:.100}: connect that one, or"
-        " calibrate, verify and export with this one; or add --other-sensor if they are the same."
+        f"the sensor's serial number is {serial!a:.100}, but the bundle is for {wanted!a:.100}:"
+        " connect that sensor, or calibrate, verify and export with this one. Add --other-sensor"
+        " if they are the same."
     )
 
 
@@ -232,13 +234,13 @@ def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]
     for what, expected, given in (("model", wanted.model, model), ("serial number", wanted.serial, serial)):
         if known(given) and known(expected) and given != expected:
             said.append(
-                f"The sensor's {what} is {given}, the bundle is for {expected}: with another sensor its contacts are"
-                " wrong."
+                f"The sensor's {what} is {given}, but the bundle is for {expected}: contacts from"
+                " another sensor are wrong."
             )
     if not known(model) and not known(serial):
         name = " ".join(filter(known, (wanted.model, wanted.serial))) or "an unnamed one"
         said.append(
-            f"The sensor does not say which it is; the bundle is for {name}: make sure that it is this."
+            f"The sensor does not identify itself; the bundle is for {name}: make sure it is this one."
         )
     return said
 
@@ -248,7 +250,7 @@ def motion_warning(config: RuntimeConfig, positions: bool | None) -> str | None:
     if positions is None or (positions and config.model.streams.motion is not None):
         return None
     why = "the bundle says so" if positions else "the poses have no positions"
-    return f"The inertia of a moving tool is not taken off its readings, for {why}: 1 kg at 1 m/s² is 1 N."
+    return f"The inertia of a moving tool is not subtracted because {why}: 1 kg at 1 m/s² adds 1 N."
 
 
 def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
@@ -257,17 +259,19 @@ def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
     if rate is None or abs(rate / wanted - 1) <= _RATE_OFF:
         return None
     return (
-        f"The sensor gives {rate:.0f} samples a second, the bundle is for {wanted:.0f}: its filters act at another"
-        " frequency. Set the sensor's rate, or export for this one."
+        f"The sensor sends {rate:.0f} samples per second, but the bundle is for {wanted:.0f}, so"
+        " its filters act at another frequency. Set the sensor's rate, or export for this one."
     )
 
 
 def mark_warnings(on: Counter[str]) -> list[str]:
     """Say how many contacts, counted by what they lie on, rest on a guess or should not be; empty: none."""
     sentences = {
-        "invented": "{} of {} contacts are on invented facets: where the mesh file had an opening, the surface is a"
-        " guess, and so are they.",
-        "untouchable": "{} of {} contacts are on regions that nothing can touch: check the region, then the mount.",
+        "invented": (
+            "{} of {} contacts are on invented facets: the mesh file had an opening there, so surface"
+            " and contacts are guesses."
+        ),
+        "untouchable": "{} of {} contacts are on untouchable regions: check the region, then the mount.",
     }
     return [
         text.format(f"{on[mark]:,}", f"{on.total():,}") for mark, text in sentences.items() if on[mark] > 0
@@ -277,7 +281,9 @@ def mark_warnings(on: Counter[str]) -> list[str]:
 def zero_words(zero: kernel.Zero) -> str:
     """Say how far the sensor's zero is off, what that does to a contact, and what to do."""
     if (offset := zero.offset) is None or (sigma := zero.sigma) is None:
-        return "The sensor's zero is not known yet: hold the probe still for a second, clear of everything."
+        return (
+            "The sensor's zero is not known yet: hold the probe still for a second without touching anything."
+        )
     sizes = []
     for part, scale, unit in ((slice(3), 1.0, "N"), (slice(3, 6), 1e3, "mN·m")):
         size = float(np.linalg.norm(offset[part]))
@@ -286,7 +292,7 @@ def zero_words(zero: kernel.Zero) -> str:
     off = " and ".join(sizes)
     shift = f"a contact at 10 N moves by up to {1e3 * zero.shift:.2g} ± {1e3 * zero.shift_sigma:.1g} mm"
     if zero.state == "off":
-        return f"The sensor's zero is off by {off}: {shift}. Calibrate again before you trust a contact."
+        return f"The sensor's zero is off by {off}: {shift}. Recalibrate before you trust a contact."
     if zero.state == "doubtful":
         return (
             f"The sensor reads {off} too much, or something touches the probe. If nothing does, {shift}. Lift the probe"

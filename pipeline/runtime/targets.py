@@ -62,10 +62,10 @@ class LineTarget:
         try:
             file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o644)
         except FileExistsError as error:
-            raise OutputError(f"{path}: it is there already: choose another name, or delete it.") from error
+            raise OutputError(f"{path}: it already exists: choose another name, or delete it.") from error
         except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
             raise OutputError(
-                f"{path}: it cannot be written ({error}): choose a place that is writable."
+                f"{path}: it cannot be written ({error}): choose a writable location."
             ) from error
         return cls(str(path), file, pace=_FILE_PACE_S)
 
@@ -76,10 +76,10 @@ class LineTarget:
             while left:
                 left = left[os.write(self._file, left) :]
         except BrokenPipeError as error:
-            raise ReaderGoneError(f"{self.name}: nobody reads it any more.") from error
+            raise ReaderGoneError(f"{self.name}: its reader has closed it.") from error
         except OSError as error:
             raise OutputError(
-                f"{self.name}: it cannot be written ({error}): make space, or choose another place."
+                f"{self.name}: it cannot be written ({error}): free disk space, or choose another location."
             ) from error
         return len(answers)
 
@@ -91,7 +91,9 @@ class LineTarget:
         try:
             os.close(self._file)
         except OSError as error:
-            raise OutputError(f"{self.name}: its end cannot be written ({error}): make space.") from error
+            raise OutputError(
+                f"{self.name}: its end cannot be written ({error}): free disk space."
+            ) from error
 
 
 class UdpTarget:
@@ -289,7 +291,7 @@ def _resolve(address: str, *, remote: bool) -> tuple[socket.AddressFamily, Any]:
         ) from error
     if not near and not remote:
         raise RunError(
-            f"--udp {address}: it is another machine, and datagrams are neither encrypted nor signed: send to"
-            " 127.0.0.1, or add --allow-remote."
+            f"--udp {address}: this is another machine, and datagrams are neither encrypted nor"
+            " signed: send to 127.0.0.1, or add --allow-remote."
         )
     return family, place

@@ -39,8 +39,11 @@ _NAME = r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$'
 Name = Annotated[str, StringConstraints(pattern=_NAME)]
 # Pattern -> what it asks for, for people.
 _RULES = {
-    _WORD: "begins with a small letter, and has small letters, digits, - and _, at most 64",
-    _NAME: 'has 1 to 200 characters, no control characters and none of / \\ : * ? " < > |, and begins with no dot',
+    _WORD: "must begin with a small letter and contain only small letters, digits, - and _, at most 64",
+    _NAME: (
+        'must have 1 to 200 characters, no control characters and none of / \\\\ : * ? " < > |, and'
+        " must not begin with a dot"
+    ),
 }
 Place = Annotated[
     str, StringConstraints(pattern=r"^(raw|meshes|results)/[0-9a-f]{12}-[A-Za-z0-9_-][A-Za-z0-9._-]{0,119}$")
@@ -220,10 +223,10 @@ def parse_payload(payload: bytes, number: int) -> dict[str, Any]:
         value = json.loads(payload)
     except (ValueError, RecursionError) as error:
         raise JournalError(
-            f"record {number} holds no JSON ({error}): take the session from a backup."
+            f"record {number} contains invalid JSON ({error}): restore the session from a backup."
         ) from error
     if not isinstance(value, dict):
-        raise JournalError(f"record {number} holds no JSON object: take the session from a backup.")
+        raise JournalError(f"record {number} is not a JSON object: restore the session from a backup.")
     return value
 
 
@@ -235,11 +238,11 @@ def read_entry(value: dict[str, Any], number: int) -> JournalEntry:
         first = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(map(str, first["loc"]))
         raise JournalError(
-            f"record {number}: {where}: {first['msg']}: take the session from a backup, or use the contactbench that"
-            " wrote it."
+            f"record {number}: {where}: {first['msg']}: restore the session from a backup, or use"
+            " the contactbench that wrote it."
         ) from error
     if isinstance(entry.action, SessionCreated) != (number == 1):
-        raise JournalError(f"record {number}: session_created is the first record, and only that.")
+        raise JournalError(f"record {number}: session_created must be the first record and appear only once.")
     return entry
 
 

@@ -62,27 +62,29 @@ def adopt_unfinished(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]
         try:
             done.append(_adopt(session, session.folder / place))
         except (InputError, OSError) as error:
-            left.append(f"{place} stays where it is: {error}")
+            left.append(f"{place} was left in place: {error}")
     return tuple(done), tuple(left)
 
 
 def _adopt(session: Session, file: Path) -> str:
     name = file.name.removeprefix(UNFINISHED)
     if not own_file(file).stat().st_size:
-        return _remove(file, f"The recording {name} was never begun: its empty file is removed.")
+        return _remove(file, f"The recording {name} never started: its empty file has been removed.")
     digest, _ = digest_of(file)
     same = [each.file for each in session.state.inputs if each.file.sha256 == digest]
     if any(not wrong_with(session.folder, each) for each in same):
-        return _remove(file, f"The recording {name} is in the session already: its second name is removed.")
+        return _remove(
+            file, f"The recording {name} is already in the session: its duplicate name has been removed."
+        )
     try:
         found = _look(file)
     except RecordingError as error:
         return _keep_unreadable(session, file, name, str(error))
     if not found.samples and not _only_begun(file, sound=found.sound):
         # A chunk that is damaged or cut may have held samples: somebody else may be able to read them.
-        return _keep_unreadable(session, file, name, " ".join(("No sample can be read.", *found.warnings)))
+        return _keep_unreadable(session, file, name, " ".join(("No sample is readable.", *found.warnings)))
     if not found.samples:
-        words = f"The recording {name} ended abruptly before its first sample: it is not kept."
+        words = f"The recording {name} ended abruptly before its first sample and was not kept."
         session.note(words)
         return _remove(file, words)
     ended = "an unknown time" if found.ended is None else found.ended.isoformat()
@@ -93,8 +95,8 @@ def _adopt(session: Session, file: Path) -> str:
         "flanges": found.flanges,
     }
     session.adopt(file, RECORDING, name=name, sensor=found.sensor, about=about)
-    words = f"The recording {name} ended abruptly at {ended}; adopted with"
-    words += f" {found.wrenches:,} wrenches and {found.flanges:,} poses of the flange."
+    words = f"The recording {name} ended abruptly at {ended}; recovered with"
+    words += f" {found.wrenches:,} wrenches and {found.flanges:,} flange poses."
     session.note(words, sensor=found.sensor)
     return words
 
@@ -102,7 +104,7 @@ def _adopt(session: Session, file: Path) -> str:
 def _keep_unreadable(session: Session, file: Path, name: str, why: str) -> str:
     about: dict[str, Any] = {"ended_abruptly": None, "problem": why}
     session.adopt(file, UNREADABLE, name=name, sensor=None, about=about)
-    return f"The recording {name} cannot be read, and is kept as it is: {why}"
+    return f"The recording {name} cannot be read and is kept unchanged: {why}"
 
 
 def _only_begun(file: Path, *, sound: bool) -> bool:
@@ -159,5 +161,5 @@ def _remove(file: Path, words: str) -> str:
     try:
         file.unlink()
     except OSError as error:
-        raise SessionError(f"{file}: the file cannot be removed ({error}): check the rights.") from error
+        raise SessionError(f"{file}: the file cannot be removed ({error}): check the permissions.") from error
     return words

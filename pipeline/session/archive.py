@@ -74,13 +74,13 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
     left_out = tuple(unfinished(folder))
     if left_out and not written_now(folder):
         raise SessionError(
-            f"{folder / left_out[0]}: this recording ended abruptly and would be left out: `contactbench session"
-            " repair` adopts it; then pack again."
+            f"{folder / left_out[0]}: this recording ended abruptly and would be left out: run"
+            " `contactbench session repair` to recover it, then pack again."
         )
     data = read_journal(folder)
     found, content = check_journal(folder, data)
     if content is None or not found.sound:
-        raise SessionError(f"{folder}: not packed, for something is wrong with it: {found.problems[0]}")
+        raise SessionError(f"{folder}: not packed because the session has a problem: {found.problems[0]}")
     data = data[: content.found.end]
     sizes = {ref.path: ref.size for record in content.records for ref in files_of(record.action)}
     names = sorted(sizes)
@@ -101,7 +101,7 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
         sync_folder(out.absolute().parent)
     except OSError as error:
         raise SessionError(
-            f"{out}: the archive cannot be written ({error}): choose another place."
+            f"{out}: the archive cannot be written ({error}): choose another location."
         ) from error
     finally:
         scratch.unlink(missing_ok=True)
@@ -115,18 +115,20 @@ def _refuse_place(folder: Path, out: Path) -> None:
         inside |= out.resolve().is_relative_to(folder.resolve())
         taken = (out.exists() or out.is_symlink()) and not (out.is_file() and zipfile.is_zipfile(out))
     except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
-        raise SessionError(f"{out}: no place for an archive ({error}): choose another.") from error
+        raise SessionError(
+            f"{out}: an archive cannot be made here ({error}): choose another location."
+        ) from error
     if inside:
-        raise SessionError(f"{out}: this is inside the session: put the archive elsewhere.")
+        raise SessionError(f"{out}: this is inside the session: save the archive elsewhere.")
     if taken:
-        raise SessionError(f"{out}: there is something already that is no archive: choose another name.")
+        raise SessionError(f"{out}: this file exists and is not an archive: choose another name.")
 
 
 def _refuse_size(folder: Path, members: int, size: int, limits: ArchiveLimits) -> None:
     if members > limits.members or size > limits.size:
         raise SessionError(
-            f"{folder}: {members} files of {size >> 20} MiB: an archive takes at most {limits.members} files and"
-            f" {limits.size >> 20} MiB: copy the folder as it is."
+            f"{folder}: {members} files of {size >> 20} MiB: an archive holds at most"
+            f" {limits.members} files and {limits.size >> 20} MiB: copy the folder instead."
         )
 
 
@@ -174,7 +176,7 @@ def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None
     limits = ArchiveLimits() if limits is None else limits
     regular(archive)
     if out.exists() or out.is_symlink():
-        raise SessionError(f"{out}: there is something already: choose another name.")
+        raise SessionError(f"{out}: this already exists: choose another name.")
     scratch = out.with_name(f".{out.name}.{secrets.token_hex(8)}.tmp")
     try:
         with zipfile.ZipFile(archive) as packed:
@@ -186,12 +188,12 @@ def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None
         scratch.rename(out)
         sync_folder(out.absolute().parent)
     except (zipfile.BadZipFile, zipfile.LargeZipFile, zlib.error, EOFError, NotImplementedError) as error:
-        raise ArchiveError(f"{archive}: no sound zip file ({error}): copy it again.") from error
+        raise ArchiveError(f"{archive}: not an intact zip file ({error}): copy it again.") from error
     except (OSError, ValueError) as error:
         if isinstance(error, SessionError):
             raise
         raise SessionError(
-            f"{out}: the archive cannot be unpacked ({error}): check paths and space."
+            f"{out}: the archive cannot be unpacked ({error}): check the path and the free space."
         ) from error
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
@@ -202,27 +204,27 @@ def _members(packed: zipfile.ZipFile, archive: Path, limits: ArchiveLimits) -> l
     everything = packed.infolist()
     if len(everything) > limits.members:
         raise ArchiveError(
-            f"{archive}: {len(everything)} files, more than {limits.members}: this is no session."
+            f"{archive}: {len(everything)} files, more than {limits.members}: this is not a session."
         )
     members = [each for each in everything if each.filename not in {f"{name}/" for name in FOLDERS}]
     seen: dict[str, zipfile.ZipInfo] = {}
     for member in members:
         if wrong := _refused(member, limits):
             raise ArchiveError(
-                f"{archive}: {member.filename!r:.200}: {wrong}: this is no session, or not a safe one."
+                f"{archive}: {member.filename!r:.200}: {wrong}: this is not a session, or not a safe one."
             )
         # A.csv and a.csv of one content are one file where names have no case, and no harm.
         other = seen.setdefault(member.filename.casefold(), member)
         if other is not member and (other.filename == member.filename or not _alike(other, member)):
-            raise ArchiveError(f"{archive}: {member.filename} is in it twice: this is no session.")
+            raise ArchiveError(f"{archive}: it contains {member.filename} twice: this is not a session.")
     if sum(member.file_size for member in members) > limits.size:
         raise ArchiveError(
-            f"{archive}: unpacked it is larger than {limits.size >> 20} MiB: this is no session."
+            f"{archive}: unpacked it would be larger than {limits.size >> 20} MiB: this is not a session."
         )
     if sum(member.compress_size for member in members) > archive.stat().st_size:
-        raise ArchiveError(f"{archive}: its files lie over one another: this is no session.")
+        raise ArchiveError(f"{archive}: its files overlap: this is not a session.")
     if JOURNAL not in seen:
-        raise ArchiveError(f"{archive}: there is no journal in it: this is no session.")
+        raise ArchiveError(f"{archive}: it contains no journal: this is not a session.")
     return members
 
 
@@ -233,7 +235,7 @@ def _alike(one: zipfile.ZipInfo, other: zipfile.ZipInfo) -> bool:
 def _refused(member: zipfile.ZipInfo, limits: ArchiveLimits) -> str:
     # orig_filename too: zipfile itself cuts names at a NUL and turns separators.
     if not (_MEMBER.fullmatch(member.filename) and member.orig_filename == member.filename):
-        return "no name of a session's file"
+        return "not a name that a session uses"
     if stat.S_IFMT(member.external_attr >> 16) not in {0, stat.S_IFREG}:
         return "a link or a device, not a file"
     if member.flag_bits & _ENCRYPTED or member.compress_type not in _METHODS:
@@ -264,7 +266,9 @@ def _content(packed: zipfile.ZipFile, member: zipfile.ZipInfo, left: int) -> Ite
         while chunk := stream.read(_CHUNK):
             left -= len(chunk)
             if left < 0:
-                raise ArchiveError(f"{member.filename}: larger than the archive says: this is no session.")
+                raise ArchiveError(
+                    f"{member.filename}: larger than the archive declares: this is not a session."
+                )
             yield chunk
 
 
@@ -272,11 +276,11 @@ def _refuse_strangers(folder: Path, archive: Path, names: set[str]) -> None:
     found, content = check_journal(folder, read_journal(folder))
     if content is None or not found.sound:
         raise ArchiveError(
-            f"{archive}: not a whole session: {found.problems[0].replace(str(folder), 'in it')}"
+            f"{archive}: not a complete session: {found.problems[0].replace(str(folder), 'in it')}"
         )
     known = {ref.path for record in content.records for ref in files_of(record.action)}
     known |= {JOURNAL, *(original_of(folder, version).name for version in content.origins)}
     if strangers := sorted(names - known):
         raise ArchiveError(
-            f"{archive}: {strangers[0]} belongs to no record of its journal: this is no session."
+            f"{archive}: {strangers[0]} belongs to no record in its journal: this is not a session."
         )

@@ -67,12 +67,12 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     if settle:
         write_migrated(folder, data, found, version, payloads)
         notes.append(
-            f"{folder}: migrated from version {version} to {VERSION}; the journal as it was is kept as"
-            f" {original_of(folder, version).name}."
+            f"{folder}: migrated from version {version} to {VERSION}; the previous journal is kept"
+            f" as {original_of(folder, version).name}."
         )
         found = frames.scan(frames.encode_all(payloads))
     else:
-        notes.append(f"{folder}: of the older version {version}: it is migrated when it is next written.")
+        notes.append(f"{folder}: older version {version}; it will be migrated on the next write.")
         return _content(records, notes, found, kept_origins(folder, found))
     return _content(records, notes, found)
 
@@ -86,7 +86,7 @@ def _content(
 
 def _fate(settle: bool) -> str:
     return (
-        "it was never acknowledged, and is cut off."
+        "it was never confirmed and has been cut off."
         if settle
-        else "it was never acknowledged, and is left out."
+        else "it was never confirmed and has been left out."
     )

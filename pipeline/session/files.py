@@ -138,7 +138,7 @@ def regular(file: Path) -> Path:
 def own_file(file: Path) -> Path:
     """Refuse what lies in the session under a file's name and is none, or a link that leads out of it."""
     if file.is_symlink():
-        raise SessionError(f"{file}: a link: a session holds files only; put the file itself there.")
+        raise SessionError(f"{file}: a link; a session holds only files: put the file itself there.")
     return regular(file)
 
 
@@ -158,7 +158,7 @@ def refuse_links(session: Path) -> None:
             continue
         except (OSError, ValueError) as error:
             raise SessionError(
-                f"{session / name}: the folder cannot be read ({error}): check the rights."
+                f"{session / name}: the folder cannot be read ({error}): check the permissions."
             ) from error
         if not stat.S_ISDIR(mode):
             raise SessionError(
@@ -171,7 +171,7 @@ def wrong_with(session: Path, ref: FileRef) -> str:
     file = session / ref.path
     try:
         if file.is_symlink() or not stat.S_ISREG(file.stat().st_mode):
-            return f"{ref.path} is no regular file"
+            return f"{ref.path} is not a regular file"
         sha256, size = digest_of(file)
     except FileNotFoundError:
         return f"{ref.path} is missing"
@@ -179,7 +179,7 @@ def wrong_with(session: Path, ref: FileRef) -> str:
         return f"{ref.path} cannot be read ({error})"
     if size != ref.size:
         return f"{ref.path} has {size} bytes, not {ref.size}"
-    return "" if sha256 == ref.sha256 else f"{ref.path} has another content than the journal says"
+    return "" if sha256 == ref.sha256 else f"the content of {ref.path} does not match the journal"
 
 
 def unfinished(session: Path) -> list[str]:

@@ -84,7 +84,7 @@ def canonical(value: Mapping[str, Any]) -> bytes:
         return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False).encode("ascii")
     except (ValueError, TypeError, RecursionError) as error:
         raise JournalError(
-            f"this cannot be written to a journal ({error}): give finite numbers, texts, lists."
+            f"this cannot be written to a journal ({error}): give finite numbers, texts or lists."
         ) from error
 
 
@@ -99,7 +99,8 @@ def encode(payload: bytes, before: bytes) -> bytes:
     """
     if not 0 < len(payload) <= LONGEST_PAYLOAD:
         raise JournalError(
-            f"a record of {len(payload)} bytes: at most {LONGEST_PAYLOAD} go into one; put large data into a file."
+            f"a record of {len(payload)} bytes is too large; the limit is {LONGEST_PAYLOAD}: put"
+            " large data into a file."
         )
     head = _UNSIGNED_HEADER.pack(MAGIC, len(payload), zlib.crc32(payload), chained(before, payload))
     return head + struct.pack("<I", zlib.crc32(head)) + payload
@@ -165,10 +166,10 @@ def _stopped(data: bytes, at: int, frames: list[JournalFrame]) -> Scan:
     follows = next_whole(data, at + 1)
     if follows is None and unfinished(data, at):
         left = len(data) - at
-        return Scan(tuple(frames), at, torn=f"{where} was never finished ({left} bytes of it are there)")
-    what = f"{where} is damaged: its checksum does not hold"
+        return Scan(tuple(frames), at, torn=f"{where} was never finished (only {left} bytes of it exist)")
+    what = f"{where} is damaged: its checksum is wrong"
     if follows is not None:
-        what += f"; whole records follow from byte {follows}"
+        what += f"; intact records follow from byte {follows}"
     return Scan(tuple(frames), at, damage=what, last=follows is None)
 
 

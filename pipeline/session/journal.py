@@ -30,21 +30,22 @@ def read_journal(folder: Path) -> bytes:
     try:
         # A pipe would be waited for; a link leads out of the session.
         if not stat.S_ISREG(file.lstat().st_mode):
-            raise JournalError(f"{file}: no regular file: choose a session's folder.")
+            raise JournalError(f"{file}: not a regular file: choose a session folder.")
         with file.open("rb") as stream:
             data = stream.read(LARGEST + 1)
     except FileNotFoundError:
         raise SessionError(
-            f"{folder}: this folder holds no session: check the path, or make one with `contactbench session new`."
+            f"{folder}: this folder is not a session: check the path, or create one with"
+            " `contactbench session new`."
         ) from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         if isinstance(error, SessionError):
             raise
         raise SessionError(
-            f"{file}: the journal cannot be read ({error}): choose a session's folder."
+            f"{file}: the journal cannot be read ({error}): choose a session folder."
         ) from error
     if len(data) > LARGEST:
-        raise SessionError(f"{file}: larger than {LARGEST >> 20} MiB: begin a new session.")
+        raise SessionError(f"{file}: larger than {LARGEST >> 20} MiB: start a new session.")
     return data
 
 
@@ -54,13 +55,13 @@ def refuse_damage(folder: Path, found: frames.Scan) -> None:
         remedy = (
             "`contactbench session repair` sets this record aside"
             if found.last
-            else "`contactbench session salvage` copies all that is whole into a new session; or take the session from"
-            " a backup"
+            else "`contactbench session salvage` copies everything intact into a new session; or"
+            " restore the session from a backup"
         )
-        raise JournalError(f"{folder / JOURNAL}: {found.damage}: {remedy}; `session verify` tells more.")
+        raise JournalError(f"{folder / JOURNAL}: {found.damage}: {remedy}; run `session verify` for details.")
     if not found.frames:
         raise JournalError(
-            f"{folder / JOURNAL}: not one whole record: take the session from an archive or a backup."
+            f"{folder / JOURNAL}: no intact record: restore the session from an archive or a backup."
         )
 
 
@@ -92,7 +93,7 @@ class JournalWriter:
             )
         except OSError as error:
             raise SessionError(
-                f"{self._file}: the journal cannot be written ({error}): check the rights."
+                f"{self._file}: the journal cannot be written ({error}): check the permissions."
             ) from error
         try:
             if os.fstat(self._descriptor).st_size != self._end:
@@ -100,7 +101,7 @@ class JournalWriter:
                 os.fsync(self._descriptor)
         except OSError as error:
             self.close()
-            raise SessionError(f"{self._file}: the torn record cannot be cut off ({error}).") from error
+            raise SessionError(f"{self._file}: the unfinished record cannot be cut off ({error}).") from error
 
     @property
     def broken(self) -> bool:
@@ -137,12 +138,12 @@ class JournalWriter:
             It is not there, or nobody knows: see `mend`. What was acknowledged before is there.
         """
         if self._descriptor < 0 or self._broken:
-            raise SessionError(f"{self._file}: closed, or a write has failed before: open the session again.")
+            raise SessionError(f"{self._file}: closed, or an earlier write failed: reload the session.")
         self._refuse_others()
         data = frames.encode(payload, self._chain)
         if self._end + len(data) > LARGEST:
             raise SessionError(
-                f"{self._file}: the journal is full ({LARGEST >> 20} MiB): begin a new session."
+                f"{self._file}: the journal is full ({LARGEST >> 20} MiB): start a new session."
             )
         try:
             write_all(self._descriptor, data)
@@ -152,8 +153,8 @@ class JournalWriter:
             if not isinstance(error, OSError):
                 raise
             raise SessionError(
-                f"{self._file}: the action is not recorded ({error}): free space or check the disk, then do it again;"
-                " all that was recorded before is there."
+                f"{self._file}: the action was not recorded ({error}): free disk space or check"
+                " the disk, then repeat it. Everything recorded before is safe."
             ) from error
         self._chain = frames.chained(self._chain, payload)
         self._end += len(data)
@@ -172,7 +173,8 @@ class JournalWriter:
 
     def _changed(self) -> SessionError:
         return SessionError(
-            f"{self._file}: somebody else has changed the journal: the action is not recorded; open the session again."
+            f"{self._file}: another program changed the journal, so the action was not recorded:"
+            " reload the session."
         )
 
     def _take_back(self) -> None:

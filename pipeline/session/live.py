@@ -86,8 +86,8 @@ class LiveRecording:
         self.name = f"recording-{started:%Y%m%dT%H%M%S%f}Z.mcap" if name is None else name
         if not _NAME.fullmatch(self.name):
             raise SessionError(
-                f"{self.name!r:.100}: a recording's name has letters, digits, - and _, and ends in .mcap: choose"
-                " another."
+                f"{self.name!r:.100}: the name of a recording may have letters, digits, - and _,"
+                " and must end in .mcap: choose another name."
             )
         self._session, self._sensor, self._started = session, sensor, started
         self._file = session.folder / "raw" / f"{UNFINISHED}{self.name}"
@@ -96,7 +96,7 @@ class LiveRecording:
         self._writer = RecordingWriter(self._file, about)
         try:
             # With who and when: all that would be lost of it otherwise, should this process die.
-            session.note(f"The recording {self.name} begins: {_devices(about)}.", sensor=sensor)
+            session.note(f"Recording {self.name} started: {_devices(about)}.", sensor=sensor)
         except BaseException:
             with suppress(RecordingError):  # the first error is the one to show
                 self._writer.close()
@@ -107,13 +107,13 @@ class LiveRecording:
     def _refuse_known(self) -> None:
         if (RECORDING, self.name) in self._session.state.current_inputs:
             raise SessionError(
-                f"{self.name}: the session has a recording of this name: choose another name; nothing takes the place"
-                " of what was recorded."
+                f"{self.name}: the session already has a recording with this name: choose another"
+                " name. Recordings are never overwritten."
             )
         if self._file.exists() or self._file.is_symlink():
             raise SessionError(
-                f"{self._file}: a recording of this name ended abruptly: `contactbench session repair` adopts it; or"
-                " choose another name."
+                f"{self._file}: a recording with this name ended abruptly: recover it with"
+                " `contactbench session repair`, or choose another name."
             )
 
     def __enter__(self) -> Self:
@@ -158,7 +158,7 @@ class LiveRecording:
 
     def discard(self, why: str = "ended without a sample") -> None:
         """Delete it: nothing came, or nobody wants it. The journal says so."""
-        self._session.note(f"The recording {self.name} {why}: it is not kept.", sensor=self._sensor)
+        self._session.note(f"The recording {self.name} {why} and was not kept.", sensor=self._sensor)
         self._file.unlink(missing_ok=True)
 
 

@@ -45,8 +45,8 @@ class Lock:
         for name in ("", JOURNAL, *FOLDERS):
             if not writable(folder / name):
                 raise SessionReadOnlyError(
-                    f"{folder / name}: this cannot be written: open the session read-only, make it writable, or work on"
-                    " a copy of its folder."
+                    f"{folder / name}: not writable: open the session read-only, make it writable,"
+                    " or work on a copy of its folder."
                 )
         try:
             self._descriptor = os.open(self._file, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o644)
@@ -66,8 +66,8 @@ class Lock:
                 raise _not_locked(self._folder, error) from error
             holder = self._text().decode("ascii", "replace").strip()
             raise SessionLockedError(
-                f"{self._folder}: another process writes this session ({holder or 'unknown'}): close it there first."
-                " Reading is possible all the time."
+                f"{self._folder}: another process is writing to this session"
+                f" ({holder or 'unknown'}): close it there first. Reading is always possible."
             ) from error
         text = self._text()
         # A full disk may have left a part of the text.
@@ -81,7 +81,9 @@ class Lock:
         try:
             # What is no regular file could be read without end.
             if not stat.S_ISREG(os.fstat(self._descriptor).st_mode):
-                raise SessionError(f"{self._file}: no regular file: move it away, or choose another folder.")
+                raise SessionError(
+                    f"{self._file}: not a regular file: move it away, or choose another folder."
+                )
             os.lseek(self._descriptor, 0, os.SEEK_SET)
             return os.read(self._descriptor, _LONGEST)
         except OSError as error:
@@ -107,7 +109,8 @@ class Lock:
             same = False
         if not same:
             raise SessionError(
-                f"{self._file}: the lock was removed or replaced, so others may write: open the session again."
+                f"{self._file}: the lock was removed or replaced, so others may be writing: reload"
+                " the session."
             )
 
     def _say_who(self) -> None:
@@ -147,7 +150,8 @@ def written_now(folder: Path) -> bool:
 
 def _not_locked(folder: Path, error: OSError) -> SessionError:
     return SessionError(
-        f"{folder}: the session cannot be locked ({error}): make the folder writable, or only read it."
+        f"{folder}: the session cannot be locked ({error}): make the folder writable, or open the"
+        " session read-only."
     )
 
 

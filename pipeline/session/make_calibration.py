@@ -77,7 +77,8 @@ def captures(
             f"a calibration needs {FEWEST_POSES}" if fewest == FEWEST_POSES else "there is nothing to keep"
         )
         raise SessionError(
-            f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more of them still for some seconds.{why}"
+            f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more poses still for"
+            f" a few seconds.{why}"
         )
     return {given.name: encode_poses(poses, given.name)}
 

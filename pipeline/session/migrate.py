@@ -39,12 +39,12 @@ def version_of(folder: Path, found: frames.Scan) -> int:
     version = action.get("version") if isinstance(action, dict) else None
     if not isinstance(action, dict) or action.get("schema_id") != SCHEMA or type(version) is not int:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not say {SCHEMA}: choose a session's folder."
+            f"{folder / JOURNAL}: its first record does not state {SCHEMA}: choose a session folder."
         )
     if version > VERSION:
         raise SchemaError(
-            f"{folder}: the session has the version {version}, and this contactbench knows {VERSION} at most: use a"
-            " newer contactbench. Nothing was changed."
+            f"{folder}: the session has version {version}, but this contactbench knows at most"
+            f" {VERSION}: use a newer contactbench. Nothing was changed."
         )
     return version
 
@@ -62,8 +62,8 @@ def migrated(folder: Path, data: bytes, found: frames.Scan, version: int) -> lis
     for step in range(version, VERSION):
         if step not in MIGRATIONS:
             raise SchemaError(
-                f"{folder}: the session has the version {version}, too old for this contactbench: open it with one"
-                f" that migrates version {step}."
+                f"{folder}: the session has version {version}, too old for this contactbench: open"
+                f" it with a contactbench that migrates version {step}."
             )
         payloads = MIGRATIONS[step](payloads)
     digest = hashlib.sha256(data[: found.end]).hexdigest()
@@ -96,8 +96,8 @@ def kept_origins(folder: Path, found: frames.Scan) -> dict[int, str]:
         origin = Origin.model_validate(said)
     except ValidationError as error:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not say what it was migrated from: take the session from a"
-            " backup."
+            f"{folder / JOURNAL}: its first record does not state the version it was migrated"
+            " from: restore the session from a backup."
         ) from error
     return {origin.version: origin.sha256}
 
@@ -124,8 +124,8 @@ def write_migrated(
         write_durably(folder / JOURNAL, frames.encode_all(payloads))
     except OSError as error:
         raise SessionError(
-            f"{folder}: the session cannot be migrated to version {VERSION} ({error}): free space or check the"
-            " rights; the original is untouched."
+            f"{folder}: the session cannot be migrated to version {VERSION} ({error}): free disk"
+            " space or check the permissions. The original is unchanged."
         ) from error
 
 

@@ -198,7 +198,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     """
     if kind not in RECOMPUTE and kind != "heatmap":
         raise SessionError(
-            f"{kind}: nothing here computes this kind of result: give one of {', '.join(RECOMPUTE)}."
+            f"{kind}: this kind of result cannot be computed: choose one of {', '.join(RECOMPUTE)}."
         )
     chosen = chosen or {}
     roles = RECOMPUTE[kind].roles if kind in RECOMPUTE else _HEATMAP
@@ -217,7 +217,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
             found[role] = newest
         elif role in roles.needed or chosen.get(role):
             name = f" called {chosen[role]}" if chosen.get(role) else ""
-            raise SessionError(f"there are no {role}{name} in this session: add them with --kind {role}.")
+            raise SessionError(f"this session has no {role}{name}: add it with --kind {role}.")
     return found
 
 
@@ -252,9 +252,7 @@ def recomputed(
     another name, and names are written into results. For `progress`, `cancelled` and `tell` see `compute`.
     """
     if kind not in RECOMPUTE:
-        raise SessionError(
-            f"{kind}: nothing here computes this kind of result: known are {', '.join(RECOMPUTE)}."
-        )
+        raise SessionError(f"{kind}: this kind of result cannot be computed. Known: {', '.join(RECOMPUTE)}.")
     with laid_out(folder, state, inputs, before) as files:
         try:
             # Whoever looks at the past checks results, and has everything computed anew.
@@ -313,7 +311,7 @@ def mount_of(state: State) -> Three | None:
         angles: Three = TypeAdapter(Three).validate_python(given)
     except ValidationError:
         raise SessionError(
-            "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."
+            "devices.mount: set it to three angles, degrees about the fixed axes x, y, z."
         ) from None
     return angles
 
@@ -371,10 +369,10 @@ def _copied(folder: Path, state: State, sha256: str, target: Path, before: int |
     elif made is not None:  # with what belongs to it, such as the names of a probe's regions
         names, main = dict(made.action.files), main_file(made.action)
     else:
-        raise SessionError(f"the session holds nothing with the hash {sha256[:12]}: add it first.")
+        raise SessionError(f"the session contains nothing with the hash {sha256[:12]}: add it first.")
     try:
         for name, ref in names.items():
             shutil.copyfile(folder / ref.path, target / name)
     except OSError as error:
-        raise SessionError(f"{folder}: an input cannot be read ({error}): see `session verify`.") from error
+        raise SessionError(f"{folder}: an input cannot be read ({error}): run `session verify`.") from error
     return target / main

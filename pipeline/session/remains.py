@@ -106,7 +106,7 @@ def _found(data: bytes) -> tuple[list[JournalFrame], list[str], bool]:
             found.append(mended)
             sentences.append(f"The damaged record at byte {at} is restored; its hash proves it.")
         elif follows is None and frames.unfinished(data, at):
-            sentences.append(f"The record at byte {at} was never finished, so nobody relied on it.")
+            sentences.append(f"The record at byte {at} was never finished, so nothing relied on it.")
         else:
             sentences.append(f"Bytes {at} to {end - 1} of the journal are damaged.")
             if follows is None:
@@ -145,7 +145,7 @@ def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[Journal
     seen: set[bytes] = set()
     for frame in found:
         if frame.chain in seen:
-            sentences.append(f"The record at byte {frame.offset} is there twice; one is kept.")
+            sentences.append(f"The record at byte {frame.offset} appears twice; one copy is kept.")
         elif runs and _follows(runs[-1][-1].chain, [frame]):
             runs[-1].append(frame)
         else:
@@ -165,7 +165,7 @@ def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[Journal
         lines.append(line)
     offsets = [frame.offset for line in lines for frame in line]
     if offsets != sorted(offsets):
-        sentences.append("Records were out of order; their hashes put them back.")
+        sentences.append("Records were out of order; their order was restored from their hashes.")
     return lines
 
 
@@ -190,7 +190,7 @@ def _readable(payloads: list[bytes], losses: set[int], sentences: list[str]) -> 
             kept.append(payload)
         except JournalError:
             moved.add(len(kept))
-            sentences.append(f"The record after record {len(kept)} cannot be read, and is left out.")
+            sentences.append(f"The record after record {len(kept)} cannot be read and is left out.")
         if number in losses:
             moved.add(len(kept))
     return kept, moved
@@ -230,15 +230,16 @@ def _doubt(result: Result, sources: tuple[InputSource, ...], last: int, wrong: M
         if ref.path in wrong:
             return f"its file {wrong[ref.path]}; compute it again"
     if result.number <= last:
-        return "a record that came after it is lost and may have changed what it rests on; compute it again"
+        return "a later record is lost and may have changed its inputs; compute it again"
     for used in (each for source in sources for each in source.inputs):
         for ref in (used.file, *used.companions.values()):
             if ref.path in wrong:
                 return f"the {used.kind} {used.name} cannot be relied on, because {wrong[ref.path]}"
         if used.kind != MESH and used.number <= last:
             return (
-                f"a record that came after the {used.kind} {used.name} is lost and may have told of a re-zeroed sensor;"
-                " compute it again if the sensor was not re-zeroed"
+                f"a record after the {used.kind} {used.name} is lost and may have noted a"
+                " re-zeroed sensor; compute it again unless you know that the sensor was not"
+                " re-zeroed"
             )
     return ""
 

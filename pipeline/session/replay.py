@@ -67,7 +67,7 @@ def replay(session: Session, progress: Callable[[int, int], None] | None = None)
 def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
     action = result.action
     if action.kind not in RECOMPUTE:
-        return ReplayOutcome.UNKNOWN, "nothing here computes this kind of result; it was not compared."
+        return ReplayOutcome.UNKNOWN, "this kind of result cannot be computed here, so it was not compared."
     parameters = {**action.parameters, "name": action.name}
     try:
         files = recomputed(
@@ -80,7 +80,7 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
             before=result.number,
         )
     except InputError as error:
-        return ReplayOutcome.FAILED, f"it cannot be computed again: {error}"
+        return ReplayOutcome.FAILED, f"it cannot be recomputed: {error}"
     differing = sorted(
         name
         for name in files.keys() | action.files.keys()
@@ -89,6 +89,6 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
         or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
     )
     if not differing:
-        return ReplayOutcome.SAME, "the same bytes."
+        return ReplayOutcome.SAME, "identical bytes."
     older = "" if result.tool == TOOL else f" It was made by {result.tool}, this is {TOOL}."
-    return ReplayOutcome.DIFFERENT, f"other bytes in {', '.join(differing)}.{older}"
+    return ReplayOutcome.DIFFERENT, f"different bytes in {', '.join(differing)}.{older}"

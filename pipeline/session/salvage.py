@@ -84,7 +84,7 @@ def salvage(
         sync_folder(out.absolute().parent)
     except OSError as error:
         raise SessionError(
-            f"{out}: the copy cannot be written ({error}): choose another place with --out."
+            f"{out}: the copy cannot be written ({error}): choose another location with --out."
         ) from error
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
@@ -106,11 +106,13 @@ def _refuse_place(folder: Path, out: Path) -> None:
         taken = out.exists() or out.is_symlink()
         inside = out.resolve().is_relative_to(folder.resolve())
     except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
-        raise SessionError(f"{out}: no place for a session ({error}): choose another.") from error
+        raise SessionError(
+            f"{out}: a session cannot be made here ({error}): choose another location."
+        ) from error
     if taken:
-        raise SessionError(f"{out}: there is something already: choose another name.")
+        raise SessionError(f"{out}: this already exists: choose another name.")
     if inside:
-        raise SessionError(f"{out}: this is inside the damaged session: choose another place.")
+        raise SessionError(f"{out}: this is inside the damaged session: choose another location.")
 
 
 def _copy(

@@ -72,7 +72,7 @@ class _Judge:
         """Yield what makes it stale by itself."""
         for role, source in zip(result.action.inputs, self._sources[result.number], strict=True):
             if source.lost:
-                yield f"The {role} that it was computed from is in no record before it: one was lost."
+                yield f"The {role} it was computed from is in no earlier record: a record was lost."
             for used in source.inputs:
                 yield from self._of_raw(used)
         yield from self._of_parameters(result)
@@ -86,7 +86,7 @@ class _Judge:
     def _of_made(self, made: Result) -> Iterator[str]:
         newest = self._results[made.slot]
         if made.outcome != self._outcomes[made.slot]:
-            yield f"The {made.title} that it was computed from was computed anew on {newest.at}."
+            yield f"The {made.title} it was computed from was recomputed on {newest.at}."
             return
         # In a circle, which the newest results of journals made by hand can be, what it is by itself must do.
         known = self._known.get(newest.number)
@@ -98,7 +98,7 @@ class _Judge:
         newest = self._inputs[used.slot]
         if newest.number != used.number and newest.content != used.content:
             what = "The mesh" if used.kind == MESH else f"The {used.kind} {used.name}"
-            yield f"{what} that it was computed from was replaced by {newest.name} on {newest.at}."
+            yield f"{what} it was computed from was replaced by {newest.name} on {newest.at}."
         if used.kind != MESH:
             yield from self._of_rezeros(used)
 
@@ -121,8 +121,8 @@ class _Judge:
             used = parameter_of(kind, parameter, given)
             if parameter_of(kind, parameter, {**given, parameter: setting.value}) != used:
                 yield (
-                    f"The parameter {kind}.{parameter} was set to {setting.value!r} on {setting.at}; it was computed"
-                    f" with {used!r}."
+                    f"The parameter {kind}.{parameter} was set to {setting.value!r} on"
+                    f" {setting.at}; this was computed with {used!r}."
                 )
 
 

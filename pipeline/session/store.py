@@ -74,9 +74,13 @@ class Session:
         self.folder, self.notes, self.damage = folder, read.notes, read.found.damage
         if left := unfinished(folder):
             words = (
-                f"{folder / left[0]}: this recording ended abruptly: `contactbench session repair` adopts it."
+                f"{folder / left[0]}: this recording ended abruptly: recover it with `contactbench"
+                " session repair`."
             )
-            self.notes = (*self.notes, words if lock else f"{words[:-1]}, unless it is being made.")
+            self.notes = (
+                *self.notes,
+                words if lock else f"{words} Ignore this if it is still being recorded.",
+            )
         self._records = list(read.records)
         self._lock, self._writer, self._by = lock, writer, by
         self._state: State | None = None
@@ -104,7 +108,7 @@ class Session:
             sync_folder(folder.absolute().parent)
         except OSError as error:
             raise SessionError(
-                f"{folder}: the session cannot be made ({error}): choose another place."
+                f"{folder}: the session cannot be created ({error}): choose another location."
             ) from error
         finally:
             lock.release()
@@ -152,7 +156,7 @@ class Session:
             if not isinstance(error, OSError):
                 raise
             raise SessionError(
-                f"{folder}: the session cannot be written ({error}): check the rights."
+                f"{folder}: the session cannot be written ({error}): check the permissions."
             ) from error
         return cls(folder, read, lock, writer, user() if by is None else by)
 
@@ -248,8 +252,8 @@ class Session:
             ref = take_in(self.folder, "raw", own_file(file), name)
         except OSError as error:
             raise SessionError(
-                f"{file}: the file cannot be taken into the session ({error}): free space or check the disk, then"
-                " `contactbench session repair`; nothing is lost."
+                f"{file}: the file cannot be added to the session ({error}): free disk space or"
+                " check the disk, then run `contactbench session repair`. Nothing is lost."
             ) from error
         record = self._append(checked(InputAdded, file=ref, **given), sensor)
         # Only now: a crash before leaves it for `repair`.
@@ -303,7 +307,7 @@ class Session:
         for role, sha256 in inputs.items():
             if self.state.input_with(sha256) is None and self.state.result_with(sha256) is None:
                 raise SessionError(
-                    f"{role}: the session holds nothing with the hash {sha256[:12]}: add it first."
+                    f"{role}: the session contains nothing with the hash {sha256[:12]}: add it first."
                 )
         refs = self._store_all("results", {each: (content,) for each, content in files.items()})
         return self._append(checked(ResultAdded, files=refs, **given))
@@ -313,7 +317,9 @@ class Session:
     ) -> Record:
         """Say something of the newest result of this kind and name."""
         if (kind, name) not in self.state.current_results:
-            raise SessionError(f"{self.folder}: there is no result {kind} {name}: `session info` lists them.")
+            raise SessionError(
+                f"{self.folder}: there is no result {kind} {name}: `session info` lists the results."
+            )
         return self._append(checked(ResultMarked, kind=kind, name=name, mark=mark, reason=reason))
 
     @property
@@ -339,8 +345,8 @@ class Session:
             return store(self.folder, folder, name, chunks)
         except OSError as error:
             raise SessionError(
-                f"{self.folder}: {name} cannot be copied into the session ({error}): free space or check the disk;"
-                " nothing was recorded."
+                f"{self.folder}: {name} cannot be copied into the session ({error}): free disk"
+                " space or check the disk. Nothing was recorded."
             ) from error
 
     def _store_all(self, folder: str, files: Mapping[str, Iterable[bytes]]) -> dict[str, FileRef]:
@@ -366,7 +372,8 @@ class Session:
                 try_room(self.folder)
             except OSError as error:
                 raise SessionError(
-                    f"{self.folder}: the disk still takes nothing ({error}): free space or check the disk."
+                    f"{self.folder}: the disk still rejects writes ({error}): free disk space or"
+                    " check the disk."
                 ) from error
             writer.mend()
 
@@ -383,7 +390,7 @@ class Session:
 
     def _needs_writer(self) -> JournalWriter:
         if self._writer is None or self._lock is None:
-            raise SessionError(f"{self.folder}: the session is open for reading only: open it for writing.")
+            raise SessionError(f"{self.folder}: the session is open read-only: open it for writing.")
         if self._lock.held:  # a closed one says so itself
             self._lock.check()
         return self._writer
@@ -398,9 +405,11 @@ def _refuse_content(folder: Path) -> None:
     try:
         other = sorted(each.name for each in folder.iterdir() if each.name not in {LOCK, *FOLDERS})
     except OSError as error:
-        raise SessionError(f"{folder}: the folder cannot be read ({error}): choose another place.") from error
+        raise SessionError(
+            f"{folder}: the folder cannot be read ({error}): choose another location."
+        ) from error
     if JOURNAL in other:
-        raise SessionError(f"{folder}: there is a session already: choose another folder.")
+        raise SessionError(f"{folder}: there is already a session here: choose another folder.")
     if any(not name.startswith(f".{JOURNAL}.") for name in other):
-        raise SessionError(f"{folder}: the folder holds {other[0]}: choose an empty one.")
+        raise SessionError(f"{folder}: the folder contains {other[0]}: choose an empty one.")
     refuse_links(folder)

@@ -87,10 +87,9 @@ def speed(
     out: MarkdownOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Time every method beside its rivals in one run, with its error on the same touches.
+    """Time every method and its rivals in one run, with the error on the same touches.
 
-    Times are for this machine; the ratios are what to compare. Exit code 1 when tracking and a cold solve
-    ever disagreed.
+    Times are for this machine: compare the ratios. Exit code 1: tracking and a cold solve disagreed.
     """
     from contactbench.pipeline.study import speed as study
 
@@ -105,9 +104,9 @@ def _whole_number(text: str) -> int:
     try:
         value = int(text)
     except ValueError:
-        raise InputError(f"--facets: {text!r} is no whole number; give for instance 1000,20000") from None
+        raise InputError(f"--facets: {text!r} is not a whole number: give for instance 1000,20000") from None
     if value < 300:
-        raise InputError(f"--facets: {value} is too coarse for a bundled probe; give at least 300")
+        raise InputError(f"--facets: {value} is too coarse for a bundled probe: give at least 300")
     return value
 
 
@@ -118,9 +117,9 @@ def hard_cases(
     out: MarkdownOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Try what breaks contact location, and judge each answer against an independent truth.
+    """Run hard cases of contact location, and judge each answer against an independent truth.
 
-    Exit code 1 when a case fails.
+    Exit code 1: a case fails.
     """
     from contactbench.pipeline.study import hard_cases as study
 
@@ -133,7 +132,7 @@ def hard_cases(
 @study_app.command(example="study scene --probe convex --seeds 2")
 def scene(
     probe: BundledOption = None,
-    seeds: Annotated[int, typer.Option(help="Benches, with seeds from --seed on.")] = 5,
+    seeds: Annotated[int, typer.Option(help="Number of benches, with seeds from --seed on.")] = 5,
     seed: SeedOption = 0,
     reality: Annotated[
         list[str] | None,
@@ -142,15 +141,16 @@ def scene(
         ),
     ] = None,
     moving: Annotated[
-        bool, typer.Option("--moving", help="What the platform and the arm leave out instead.")
+        bool, typer.Option("--moving", help="Instead: leave out single effects of the platform and the arm.")
     ] = False,
-    period: Annotated[float, typer.Option(help="With --moving: of the platform's motion, s.")] = 2.0,
+    period: Annotated[float, typer.Option(help="With --moving: period of the platform's motion, s.")] = 2.0,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Keep the results here, with a page of tables.")
+        Path | None,
+        typer.Option(metavar="DIR", help="Save the results in this folder, with a page of tables."),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure what each effect of a real bench costs in mm: alone, and what a mix gains without it.
+    """Measure the cost of each effect of a real bench in mm: alone, and as the gain of a mix without it.
 
     A gravity calibration, then presses on every marker, on benches with one effect each, with the whole mix, and
     with the mix without one effect: the same benches and the same noise each time. With --moving instead: servo,
@@ -183,37 +183,47 @@ def scene(
 
 @study_app.command(example="study run --preset quick --out quick-study")
 def run(
-    study: Annotated[Path | None, typer.Argument(metavar="[STUDY.toml]", help="What to vary.")] = None,
+    study: Annotated[
+        Path | None, typer.Argument(metavar="[STUDY.toml]", help="Study file: what to vary.")
+    ] = None,
     preset: Annotated[
         str | None,
         typer.Option(
-            help="Or one of paper, resolution, quick, steep; hard, ablation and rivals are the studies of that kind."
+            help=(
+                "Instead: one of paper, resolution, quick, steep; hard, ablation and rivals are the"
+                " studies of that kind."
+            )
         ),
     ] = None,
     probe: Annotated[
         list[str] | None,
         typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the plan's]."),
     ] = None,
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder; what is done in it is kept.")] = Path(
-        "contactbench-study"
-    ),
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="Folder for the results; finished cells are kept.")
+    ] = Path("contactbench-study"),
     workers: Annotated[
         int | None,
-        typer.Option(min=1, help="Processes [one per core]. For times give 1: they share the machine."),
+        typer.Option(
+            min=1,
+            help=(
+                "Number of processes [one per core]. For timing use 1, because processes share the machine."
+            ),
+        ),
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(help="Address of a Dask scheduler, tcp://HOST:PORT [this machine].")
     ] = None,
-    touches: Annotated[int | None, typer.Option(help="In each cell [the plan's].")] = None,
-    seed: Annotated[int | None, typer.Option(help="Of the touches [the plan's].")] = None,
-    times: Annotated[bool, typer.Option(help="Measure times, too.")] = True,
+    touches: Annotated[int | None, typer.Option(help="Touches per cell [the plan's].")] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of the touches [the plan's].")] = None,
+    times: Annotated[bool, typer.Option(help="Also measure times.")] = True,
     as_json: JsonOption = False,
 ) -> None:
     """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
 
-    Errors are the same whatever the number of workers. Stopped with Ctrl-C or killed, it goes on from where it was.
-    Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are no sweeps: they run
-    `study stability`, `study ablation` and `study rivals`, where more can be chosen.
+    Errors are the same whatever the number of workers. After Ctrl-C or a crash, it resumes where it stopped.
+    Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are not sweeps: they run
+    `study stability`, `study ablation` and `study rivals`, which have more options.
     """
     from contactbench.pipeline.study.sweep.plan import SweepPlan, preset_plan
     from contactbench.pipeline.study.sweep.run import run as sweep
@@ -228,7 +238,7 @@ def run(
             "--touches": None if preset == "hard" else touches,
         }
         if unknown := [name for name, value in given.items() if value]:
-            raise InputError(f"--preset {preset}: {', '.join(unknown)}: it has no such option: leave it out.")
+            raise InputError(f"--preset {preset}: {', '.join(unknown)} is not available: leave it out.")
         common: dict[str, Any] = {"out": out, "probe": probe or None, "seed": seed or 0, "as_json": as_json}
         if preset == "hard":
             stability(**common, **({} if touches is None else {"samples": touches}))
@@ -276,7 +286,7 @@ def compare(
     large: Annotated[Path, typer.Argument(metavar="LARGE", help="Folder of a full one.")],
     as_json: JsonOption = False,
 ) -> None:
-    """Compare what two sweeps conclude: the order of methods in time and error, and exponents of growth.
+    """Compare the conclusions of two sweeps: the order of methods in time and error, and growth exponents.
 
     Exit code 1: a clear order is reversed, or an exponent differs by more than 0.1.
     """
@@ -319,7 +329,7 @@ def page(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Make tables and plots of studies from their Parquet files alone: page.md in each, and all of them in one folder.
+    """Make tables and plots of studies from their Parquet files: page.md in each, and all of them in one folder.
 
     Exit code 1: a sweep misses a target.
     """
@@ -363,13 +373,13 @@ def ablation(
     seeds: Annotated[
         int | None, typer.Option(help="Repetitions with other noise, for the spread [5].")
     ] = None,
-    seed: Annotated[int, typer.Option(help="Of the first repetition.")] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of the first repetition.")] = 0,
     quick: Annotated[
-        bool, typer.Option("--quick", help="One probe, two scenes, few touches: a look.")
+        bool, typer.Option("--quick", help="Quick look: one probe, two scenes, few touches.")
     ] = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure what each modelling choice buys, mm, and costs, µs, in each scene: model this, leave that out.
+    """Measure the gain (mm) and cost (µs) of each modelling choice in each scene, and recommend what to model.
 
     Needs MuJoCo. Local torque, smooth normals, the friction gate, drift, the mount's rotation, crosstalk,
     a phantom that yields, an arm with dynamics.
@@ -398,13 +408,15 @@ def rivals(
     ] = Path("contactbench-rivals"),
     probe: BundledOption = None,
     rounds: Annotated[int | None, typer.Option(help="Timed rounds of each, in turn [15].")] = None,
-    seed: Annotated[int, typer.Option(help="Of touches and noise.")] = 0,
-    quick: Annotated[bool, typer.Option("--quick", help="One probe, one mesh, few rounds: a look.")] = False,
+    seed: Annotated[int, typer.Option(help="Seed of touches and noise.")] = 0,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Quick look: one probe, one mesh, few rounds.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Locate the same touches with the literal Algorithm 1, ray tracers, Levenberg-Marquardt and ours, in one run.
 
-    What is not installed is said: pip install contactbench[rivals]. Exit code 1: a rival locates contacts both faster
+    Missing packages are listed: pip install contactbench[rivals]. Exit code 1: a rival locates contacts both faster
     and more accurately.
     """
     from contactbench.pipeline.study.pages import publish
@@ -432,18 +444,18 @@ def rivals(
 @study_app.command(example="study stability --out stability-study")
 def stability(
     probe: ProbesOption = None,
-    samples: Annotated[int, typer.Option(help="Touches for each figure, at least 50.")] = 1_000,
-    quick: Annotated[bool, typer.Option("--quick", help="At most 50 touches for each figure.")] = False,
+    samples: Annotated[int, typer.Option(help="Touches per figure, at least 50.")] = 1_000,
+    quick: Annotated[bool, typer.Option("--quick", help="At most 50 touches per figure.")] = False,
     seed: SeedOption = 0,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Keep the results here, with a page of tables and plots."),
+        typer.Option(metavar="DIR", help="Save the results in this folder, with a page of tables and plots."),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure how steady answers are on a probe's mesh, against a truth in long double.
+    """Measure the stability of answers on a probe's mesh, against a truth in long double.
 
-    Exit code 1 when a stated bound is broken.
+    Exit code 1: a stated bound is exceeded.
     """
     from contactbench.assets import PROBE_NAMES
     from contactbench.pipeline.study import stability as study
@@ -464,17 +476,19 @@ def confidence(
         int | None, typer.Option(min=100, help="Touches for each figure and seed [10,000].")
     ] = None,
     seeds: Annotated[int | None, typer.Option(min=1, help="Repetitions, for the spread [5].")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Few touches, coarse meshes: a look.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Quick look: few touches, coarse meshes.")] = False,
     seed: SeedOption = 0,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Keep the results here, with a page of tables and the diagram."),
+        typer.Option(
+            metavar="DIR", help="Save the results in this folder, with a page of tables and the diagram."
+        ),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure how far an answer's own word can be trusted: thin fins, regions, pulls, two touches, the ellipse.
+    """Measure how reliable the stated confidence is: thin fins, regions, pulls, two touches, the ellipse.
 
-    Exit code 1 when a figure misses its bound.
+    Exit code 1: a figure misses its bound.
     """
     from dataclasses import asdict
 

@@ -180,7 +180,10 @@ class TableReader:
             else:
                 rest += data
             if len(rest) > _LONGEST_LINE:
-                what = f"a line is longer than 1 MiB: this is not a CSV file of {self._wording.rows}."
+                what = (
+                    f"a line is longer than 1 MiB, so this is not a CSV file of {self._wording.rows}:"
+                    " choose another."
+                )
                 raise self.error(what)
         if rest:
             yield self._clean(rest + b"\n")
@@ -189,7 +192,7 @@ class TableReader:
         try:
             data = self._stream.read(self._block_bytes)
         except OSError as error:
-            raise self.error(f"the file cannot be read ({error}): copy it to another place.") from error
+            raise self.error(f"the file cannot be read ({error}): copy it to another location.") from error
         self.bytes_read += len(data)
         return data
 
@@ -237,7 +240,7 @@ class TableReader:
         except ValueError:
             meaning = self._wording.meaning
             return f"Name the columns {header}" + (f": {meaning}." if meaning else ".")
-        return f"The first line holds numbers: put the header {header} above it."
+        return f"The first line contains numbers: put the header {header} above it."
 
     # ---- rows --------------------------------------------------------------------------------
 
@@ -312,7 +315,7 @@ class TableReader:
         try:
             return next(csv.reader([text], strict=True), [])
         except csv.Error as error:
-            what = f"the cells cannot be told apart ({error}): check the quotes and the line ends."
+            what = f"the cells cannot be separated ({error}): check the quotes and the line ends."
             raise self.error(what, line) from None
 
     def _check_count(self, cells: list[str], line: int) -> None:
@@ -321,7 +324,7 @@ class TableReader:
         what = f"{len(cells)} cell{'s' * (len(cells) != 1)}, but the header has {len(self.names)}"
         if len(cells) < len(self.names):
             raise self.error(f"{what}: complete the row or remove it.", line)
-        raise self.error(f"{what}: remove what is too much, and write decimals with a point.", line)
+        raise self.error(f"{what}: remove the surplus, and write decimals with a point.", line)
 
     def _number(self, cell: str, place: int, line: int) -> float:
         text = cell.strip()

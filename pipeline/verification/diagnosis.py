@@ -30,31 +30,30 @@ _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
     ErrorCause.ALIGNMENT: (
-        "Align the probe again, with touches on all sides of it; where the refined alignment helps, that "
-        "will do."
+        "Realign the probe with touches on all of its sides. If the refined alignment helps, it is enough."
     ),
     ErrorCause.GRAVITY: (
-        "Calibrate bias and weight again, warm and with the cable as in use, with poses that tilt about two "
-        "axes."
+        "Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and"
+        " the cable routed as in use."
     ),
     ErrorCause.NOISE: (
-        "Take more samples or a stronger filter, press harder, and look for what shakes the sensor or for "
-        "markers that were not hit exactly."
+        "Average more samples, use a stronger filter or press harder. Look for vibration, and for"
+        " markers that were not hit exactly."
     ),
-    ErrorCause.MESH: "Use a finer mesh, or scan the probe again where the markers are off it.",
+    ErrorCause.MESH: "Use a finer mesh, or rescan the probe where the markers do not lie on its surface.",
     ErrorCause.TORSION: (
-        "Press with a tip that can turn freely and does not grip, or keep to smaller angles: the torque at "
-        "the contact is not about the surface's normal."
+        "Press with a tip that turns freely and does not grip, or at smaller angles: the torque"
+        " at the contact is not about the surface normal."
     ),
     ErrorCause.MOUNT: (
-        "The probe turns against its sensor under load: tighten or stiffen its mount, then align and verify "
-        "again."
+        "The probe rotates against its sensor under load: tighten or stiffen its mount, then"
+        " realign and verify again."
     ),
     ErrorCause.SENSOR: (
-        "Touches differ by more than the noise within them, in no way that a wrong weight, alignment, mesh or "
-        "marker would make: hysteresis or creep of the sensor, a cable that drags, or a hand at the handle. "
-        "More samples do not help; let the sensor rest between touches, lead the cable freely, and hold "
-        "nothing else."
+        "Touches differ by more than their own noise, and not as a wrong weight, alignment, mesh"
+        " or marker would make them: hysteresis or creep of the sensor, a dragging cable, or a"
+        " hand on the handle. More samples do not help. Let the sensor rest between touches,"
+        " route the cable freely, and hold nothing else."
     ),
 }
 # What was told before there were others; those are listed where they are found.
@@ -79,7 +78,9 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
         for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
         if share > 0 or cause in _LISTED
     )
-    remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
+    remedy = "No action needed."
+    if not within:
+        remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
     return ErrorDiagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
 
 
@@ -88,13 +89,13 @@ def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str
     named = " or ".join((first.cause, *found.rivals))
     part = "most" if first.share > 0.5 else "the largest part"
     start = (
-        f"The errors keep the limits; {part} of what is left comes from {named}"
+        f"The errors are within the limits; {part} of the remaining error comes from {named}"
         if within
         else f"Fix first: {named}. It explains {part} of the squared error"
     )
     others = [f"{each.cause} {100 * each.share:.0f} %" for each in shares[1:] if each.share >= CONFIRMED]
-    also = f"; then {', '.join(others)}" if others else "" if found.rivals else "; nothing else shows"
-    left = f" What no cause explains scatters {found.scale:.1f} times as much as the sensor's noise predicts."
+    also = f"; then {', '.join(others)}" if others else "" if found.rivals else "; no other cause shows"
+    left = f" The unexplained scatter is {found.scale:.1f} times the expected noise."
     return f"{start} ({100 * first.share:.0f} %{also}).{left}"
 
 
@@ -106,7 +107,7 @@ def _undecided(found: Explained) -> str:
         more = "touch in a second orientation, or on other sides."
     else:
         more = "touch more markers, from other angles and in other orientations."
-    return f"Which of them it is, these touches cannot tell; {more}"
+    return f"These touches cannot tell which it is; {more}"
 
 
 def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:
@@ -119,7 +120,8 @@ def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> 
     called = [names[each] if names else str(each + 1) for each in out]
     which = f" {', '.join(called)}" if called else ""
     return (
-        "The error is the same at each touch of a marker and differs between markers: check the places of"
+        "The error is the same at each touch of a marker but differs between markers: check the"
+        " positions of"
         f" {'the marker' if len(out) == 1 else 'the markers' if not out else 'markers'}{which}."
     )
 

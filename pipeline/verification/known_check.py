@@ -105,7 +105,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
     InputError
         It cannot be read, or is something else.
     """
-    remedy = f"choose a file that `contactbench calibrate check {kind.removeprefix('known_')} --out` wrote."
+    remedy = f"choose a file written by `contactbench calibrate check {kind.removeprefix('known_')} --out`."
     try:
         content = json.loads(file.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
@@ -116,7 +116,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
     )
     words = (content.get("sentence"), content.get("outcome")) if known else ()
     if not words or not isinstance(words[0], str) or words[1] not in set(CheckOutcome):
-        raise InputError(f"{file}: this is no {SCHEMAS[kind]} of version {VERSION}: {remedy}")
+        raise InputError(f"{file}: not a {SCHEMAS[kind]} of version {VERSION}: {remedy}")
     found: dict[str, Any] = content
     return found
 
@@ -142,6 +142,6 @@ def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:
     start = {
         CheckOutcome.PASSED: passed,
         CheckOutcome.FAILED: "The check failed.",
-        CheckOutcome.UNDECIDED: "The check cannot tell.",
+        CheckOutcome.UNDECIDED: "The check is inconclusive.",
     }[outcome]
     return " ".join([start, *reasons])

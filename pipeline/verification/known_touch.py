@@ -71,7 +71,7 @@ def _mistakes() -> Iterator[Mistake]:
     """Yield the mistakes that a touch can show, the usual ones first."""
     for force, torque, words in (
         (1, -1, "the torques have the wrong sign"),
-        (-1, -1, "all channels have the wrong sign: the sensor gives the force on its other side"),
+        (-1, -1, "all channels have the wrong sign: the sensor reports the force on its other side"),
         (-1, 1, "the forces have the wrong sign"),
         (1, 1e-3, "the torques are in N·mm, not N·m"),
         (1, 1e-2, "the torques are in N·cm, not N·m"),
@@ -192,7 +192,7 @@ def check_touch(
         Nothing settled touches the probe.
     """
     if not (0 <= point_sigma < 1 and 0 < limit < 1):
-        raise InputError(f"limit {limit:g} m, point {point_sigma:g} m: give lengths above 0 and below 1 m.")
+        raise InputError(f"limit {limit:g} m, point {point_sigma:g} m: give lengths between 0 and 1 m.")
     marker, _ = with_normals(make_markers(np.asarray(point, dtype=np.float64)[None], [_POINT]), probe)
     compensated = recording.compensated(model)
     noise, correlation, _ = measured_noise(compensated, PROTOCOL, None)
@@ -236,22 +236,22 @@ def _judged(
         reasons = [_where(error, sigma), presses.cause(allowed)]
     elif error > limit or sigma > limit / _EXCLUDED:
         outcome = CheckOutcome.UNDECIDED
-        what = f"Press harder and with something thin, and hit the point within {500 * limit:.1f} mm."
+        what = f"Press harder with something thin, and hit the point to within {500 * limit:.1f} mm."
         reasons = [_where(error, sigma), what]
     elif any(presses.would_hide(each, allowed) for each in _MUST_SHOW):
         outcome = CheckOutcome.UNDECIDED
         reasons = [
             (
-                f"The line of force passes {1e3 * presses.lever:.0f} mm from the sensor's origin: a wrong sign or unit"
-                " of the torques would not show."
+                f"The line of force passes only {1e3 * presses.lever:.0f} mm from the sensor's"
+                " origin, so a wrong sign or unit of the torques would not show."
             ),
-            f"Press a point on the side of the probe, {3e3 * limit:.0f} mm or more off the sensor's axis.",
+            f"Press a point on the side of the probe, at least {3e3 * limit:.0f} mm from the sensor's axis.",
         ]
     if faults:
         outcome, reasons = CheckOutcome.FAILED, [*faults, *reasons]
     passed = (
-        f"The press was located {1e3 * (error or 0.0):.1f} ± {1e3 * sigma:.1f} mm from the known point: signs and units"
-        " are right."
+        f"The press was located {1e3 * (error or 0.0):.1f} ± {1e3 * sigma:.1f} mm from the known"
+        " point: signs and units are correct."
     )
     return TouchCheck(
         outcome,
@@ -299,15 +299,15 @@ class _Presses:
         """Say which mistakes explain that the point was missed."""
         if self._fit(self.wrenches) <= allowed:
             return (
-                "The line of force passes through the point, but no contact is found there: check the mesh at this"
-                " point, and that nothing else touched the probe."
+                "The line of force passes through the point, but no contact was found there."
+                " Check the mesh at this point, and that nothing else touched the probe."
             )
         fits = [self._fit(self.wrenches @ each.T.T) for each in MISTAKES]
         best = min(fits)
         if best > allowed:
             return (
-                "No usual mistake explains it: check that the right point was pressed, that nothing else touched the"
-                " probe, and how the mesh is aligned with the sensor."
+                "No common mistake explains it. Check that the right point was pressed, that"
+                " nothing else touched the probe, and how the mesh is aligned with the sensor."
             )
         # Among causes that fit about as well the usual ones come first.
         fitting = [each.words for each, fit in zip(MISTAKES, fits, strict=True) if fit <= best + _NEAR_BEST]

@@ -60,16 +60,16 @@ _OFFSET_N = 0.3  # N: a zero that is further off was moved since the calibration
 # What measured over true weight is if ..., and why. The first that fits is told.
 _FACTORS = (
     (1 / 9.80665, "The forces are in kgf (kilograms), not N: multiply them by 9.80665."),
-    (9.80665, "The forces were multiplied by 9.81 once too often: they are taken for kgf, but are N."),
+    (9.80665, "The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N."),
     (1 / 4.448222, "The forces are in lbf (pounds), not N: multiply them by 4.448."),
-    (4.448222, "The forces were multiplied by 4.448 once too often: they are taken for lbf, but are N."),
+    (4.448222, "The forces were multiplied by 4.448 once too often: they are treated as lbf, but are in N."),
     (0.45359237, "The mass was probably given in pounds: give it in kg."),
     (
         2.20462262,
-        "The mass was probably given for a weight marked in pounds, or two weights hang on the tool.",
+        "The weight is probably marked in pounds, or two weights hang on the tool.",
     ),
     (1e-3, "The mass was given in grams instead of kg, or the forces are in kN."),
-    (1e3, "The forces are in mN, or the mass was given in tonnes: give kg."),
+    (1e3, "The forces are in mN, or the mass was given in tonnes: give it in kg."),
 )
 _LEVERS = ((1000.0, "N·mm"), (100.0, "N·cm"))
 _AXES = "xyz"
@@ -155,14 +155,12 @@ def check_weight(
     """
     for name, poses in (("unloaded", unloaded), ("loaded", loaded)):
         if not poses:
-            raise InputError(f"{name}: there are no still readings: hold the tool still for some seconds.")
+            raise InputError(f"{name}: there are no still readings: hold the tool still for a few seconds.")
     if not (0 < mass < 1000 and 0 <= mass_sigma < mass):
-        raise InputError(
-            f"mass {mass:g} ± {mass_sigma:g} kg: give a mass above 0, and less than it as uncertainty."
-        )
+        raise InputError(f"mass {mass:g} ± {mass_sigma:g} kg: give a mass above 0 and a smaller uncertainty.")
     if gravity is not None and not _GRAVITY_RANGE[0] <= gravity <= _GRAVITY_RANGE[1]:
         raise InputError(
-            f"gravity {gravity:g} m/s²: give one between {_GRAVITY_RANGE[0]} and {_GRAVITY_RANGE[1]}."
+            f"gravity {gravity:g} m/s²: give a value between {_GRAVITY_RANGE[0]} and {_GRAVITY_RANGE[1]}."
         )
     g = STANDARD_GRAVITY if gravity is None else gravity
     of_weight = float(np.hypot(mass_sigma / mass, 0.0 if gravity is not None else _GRAVITY_SIGMA / g))
@@ -279,13 +277,15 @@ class _Weighed:
         aside = angle > _TILT + _SURE * sigma and angle < np.pi - _TILT - _SURE * sigma
         if aside and np.linalg.norm(self.force) > _THERE * np.sqrt(np.trace(self.covariance)):
             found.append(
-                f"The force changes {np.degrees(angle):.0f}° away from straight down. {self._sideways()}"
+                f"The force changes in a direction {np.degrees(angle):.0f}° away from straight"
+                f" down. {self._sideways()}"
             )
         elif self.freedom > 0 and chdtrc(self.freedom, self.chi_square) < _INCONSISTENT:
             times = np.sqrt(self.chi_square / self.freedom)
             found.append(
-                f"The readings differ between poses by {times:.1f} times what noise and calibration explain: something"
-                " swung, touched the tool or slipped, or the force channels differ in scale."
+                f"The readings differ between poses by {times:.1f} times what noise and"
+                " calibration explain: something swung, touched the tool or slipped, or the force"
+                " channels have different scales."
             )
         return found
 
@@ -307,7 +307,7 @@ class _Weighed:
             if float(np.sqrt((left**2).sum() / self.loads.sum())) < _EXPLAINED * self.weight:
                 fitting.append(words)
         if not fitting:
-            return "The orientations or the mount are wrong, or something else pulled at the tool."
+            return "The orientations or the mount are wrong, or something else pulled on the tool."
         return likely(fitting)
 
     def lever(self) -> tuple[float, float]:
@@ -329,8 +329,8 @@ class _Weighed:
         """Say how far the weight is off, and the likely cause."""
         if abs(significance) < _SURE:
             return (
-                "The weight does not show in the readings: it was not on the tool, it rested on something, or the"
-                " readings with and without it are the same."
+                "The readings do not show the weight: it was not on the tool, it rested on"
+                " something, or the readings with and without it are the same."
             )
         size, sign = abs(scale), self._sign(scale)
         for factor, cause in _FACTORS:
@@ -345,8 +345,9 @@ class _Weighed:
             else f"The sensor reads {off} ± {unsure} % too little."
         )
         return (
-            f"{first} Check that the weight hangs freely, and that the sensor's own calibration and range are the right"
-            f" ones. If they are, multiply its forces and torques by {1 / scale:.4f}."
+            f"{first} Check that the weight hangs freely, and that the sensor's own calibration"
+            " and range are correct. If they are, multiply its forces and torques by"
+            f" {1 / scale:.4f}."
         )
 
     def _sign(self, scale: float) -> str:
@@ -354,22 +355,25 @@ class _Weighed:
             return ""
         if self.model.gravity_W @ self.down > 0:  # the tool's own weight points down
             return (
-                "The readings with and without it are probably exchanged: the tool's own weight points down."
+                "The readings with and without the weight are probably swapped: the tool's own"
+                " weight points down."
             )
-        return "The forces have the wrong sign, or the world's z axis points down: say where down is."
+        return (
+            "The forces have the wrong sign, or the world's z axis points down: give the direction of down."
+        )
 
     def notes(self) -> list[str]:
         """Say what else is worth knowing."""
         found = []
         if untested := [f"f{axis}" for axis in _AXES if axis not in self.axes]:
             found.append(
-                f"The weight hardly reached {', '.join(untested)}: tilt the tool and repeat to check that too."
+                f"The weight hardly loaded {', '.join(untested)}: tilt the tool and repeat to check that too."
             )
         size = float(np.linalg.norm(self.offset))
         if size > _OFFSET_N:
             found.append(
-                f"Without the weight the sensor reads {size:.2g} N after compensation: its zero moved since the"
-                " calibration, or something touched the tool. Calibrate again."
+                f"Without the weight the sensor reads {size:.2g} N after compensation: its zero"
+                " moved since the calibration, or something touched the tool. Recalibrate."
             )
         return found
 
@@ -392,17 +396,16 @@ def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
         cause = (
             f"The torques are probably in {' / '.join(units)}, not N·m."
             if units
-            else "Check the torques' unit."
+            else "Check the unit of the torques."
         )
-        far = (
-            f"The torques say that the weight hangs {lever:.3g} m from the sensor, beyond {1e3 * reach:g} mm."
-        )
+        far = f"By the torques, the weight hangs {lever:.3g} m from the sensor, beyond {1e3 * reach:g} mm."
         return [f"{far} {cause}"]
     if twist > _TWIST + 0.05 * lever:
         return [
             (
-                f"A hanging weight makes no torque about its own line, but {1e3 * twist:.0f} mm times its force is"
-                " read. Torque channels are swapped, one has the wrong sign, or the weight was held."
+                "A hanging weight makes no torque about its own line, but the sensor reads"
+                f" {1e3 * twist:.0f} mm times its force. Torque channels are swapped, one has the"
+                " wrong sign, or the weight was held."
             )
         ]
     return []
@@ -410,8 +413,9 @@ def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
 
 def _passed(mass: float, measured: float, sigma: float, angle: float) -> str:
     return (
-        f"The sensor reads {measured:.4g} ± {sigma:.2g} kg for a weight of {mass:.4g} kg, {np.degrees(angle):.1f}° from"
-        " straight down: unit, sign and scale of the forces are right."
+        f"The sensor reads {measured:.4g} ± {sigma:.2g} kg for a weight of {mass:.4g} kg,"
+        f" {np.degrees(angle):.1f}° from straight down: unit, sign and scale of the forces are"
+        " correct."
     )
 
 
@@ -422,12 +426,12 @@ def _too_unsure(
     aim = limit / _SHARE
     sigma = float(np.hypot(noise, of_weight))
     start = (
-        f"The uncertainty is {100 * sigma:.2g} % of the weight; to see an error of {100 * limit:.2g} %, it must be"
-        f" {100 * aim:.2g} %."
+        f"The uncertainty is {100 * sigma:.2g} % of the weight; detecting an error of"
+        f" {100 * limit:.2g} % takes {100 * aim:.2g} %."
     )
     own = mass_sigma / mass
     if own >= 0.9 * aim:
-        return f"{start} Use a weight that is known better than to {100 * own:.2g} %."
+        return f"{start} Use a weight known to better than {100 * own:.2g} %."
     if of_weight >= 0.9 * aim:
         return f"{start} Give the local gravity, or allow a larger limit."
     times = noise / float(np.sqrt(aim**2 - of_weight**2))

@@ -83,7 +83,7 @@ class MarkerSet:
         seen: set[str] = set()
         for marker in self.markers:
             if marker.name in seen:
-                raise MarkerError(f"marker {marker.name} is there twice: give each a name of its own.")
+                raise MarkerError(f"marker {marker.name} appears twice: give each marker its own name.")
             seen.add(marker.name)
 
     def __len__(self) -> int:
@@ -132,7 +132,7 @@ class MarkerSet:
             write_durably(file, self.to_bytes())
         except (OSError, ValueError) as error:
             raise MarkerError(
-                f"{file}: the markers cannot be written ({error}): choose another place."
+                f"{file}: the markers cannot be written ({error}): choose another location."
             ) from error
 
 
@@ -205,8 +205,9 @@ def snap(markers: MarkerSet, probe: Probe, limit: float = OFF_PROBE) -> Snapped:
     if off:
         more = f" and {len(off) - 5} more" if len(off) > 5 else ""
         raise MarkerError(
-            f"markers off the probe's surface: {', '.join(off[:5])}{more}; {1e3 * limit:g} mm are allowed. Check that"
-            " they are millimetres in the sensor frame S, and belong to this probe."
+            f"markers off the probe's surface: {', '.join(off[:5])}{more}; {1e3 * limit:g} mm are"
+            " allowed. Check that they are in millimetres in the sensor frame S, and belong to"
+            " this probe."
         )
     moved = (
         Marker(marker.name, foot, normal)
@@ -264,22 +265,24 @@ def read_markers(data: bytes, name: str = "markers") -> MarkerSet:
         As there.
     """
     if len(data) > _MOST_BYTES:
-        raise MarkerError(f"{name}: larger than {_MOST_BYTES >> 20} MiB: this is no table of markers.")
+        raise MarkerError(
+            f"{name}: larger than {_MOST_BYTES >> 20} MiB: not a table of markers. Choose the right file."
+        )
     try:
         rows = csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""), strict=True)
         header = [cell.strip() for cell in next(rows, [])]
         missing = [column for column in COLUMNS if header.count(column) != 1]
         if missing:
             raise MarkerError(
-                f"{name}: line 1: needs each of {', '.join(COLUMNS)} once; check {', '.join(missing)}."
+                f"{name}: line 1: each of {', '.join(COLUMNS)} must appear once; check {', '.join(missing)}."
             )
         places = [header.index(column) for column in COLUMNS]
         markers = [_row(row, places, f"{name}: line {rows.line_num}") for row in rows if any(row)]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise MarkerError(f"{name}: this is no CSV text ({error}): save it as UTF-8 CSV.") from error
+        raise MarkerError(f"{name}: not CSV text ({error}): save it as UTF-8 CSV.") from error
     if len(markers) > MOST_MARKERS:
         raise MarkerError(
-            f"{name}: {len(markers):,} markers, {MOST_MARKERS:,} are the most: choose the right file."
+            f"{name}: {len(markers):,} markers, at most {MOST_MARKERS:,} are allowed: choose the right file."
         )
     try:
         return MarkerSet(tuple(markers))
@@ -289,7 +292,7 @@ def read_markers(data: bytes, name: str = "markers") -> MarkerSet:
 
 def _row(row: list[str], places: list[int], where: str) -> Marker:
     if len(row) <= max(places):
-        raise MarkerError(f"{where}: {len(row)} cells, there must be one for each column.")
+        raise MarkerError(f"{where}: {len(row)} cells; one is needed for each column.")
     name, *cells = (row[place].strip() for place in places)
     point = []
     for column, cell in zip(COLUMNS[1:], cells, strict=True):

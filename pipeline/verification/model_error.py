@@ -86,23 +86,26 @@ def model_error_words(found: ModelError | None) -> str:
     """Return what a model error means and what to do about it; None: it was not measured."""
     if found is None:
         return (
-            f"What the model leaves was not measured: {_size(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM)} are assumed. Touch at"
-            f" least {FEWEST_MARKERS} markers to measure it."
+            f"The model error was not measured; {_size(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM)} are"
+            f" assumed. Touch at least {FEWEST_MARKERS} markers to measure it."
         )
     force, torque = found.force_N / DEFAULT_FORCE_N, found.torque_Nm / DEFAULT_TORQUE_NM
     draws = round(found.draws)
     # Where the least value is told, the bound may lie below it.
     most = _size(max(found.most_force_N, found.force_N), max(found.most_torque_Nm, found.torque_Nm))
     size = (
-        f"What the model leaves: {_size(found.force_N, found.torque_Nm)} (95 % upper limit {most}; the touches count as"
-        f" {draws} independent one{'s' * (draws != 1)})."
+        f"Model error: {_size(found.force_N, found.torque_Nm)} (95 % upper limit {most}; the"
+        f" touches count as {draws} independent one{'s' * (draws != 1)})."
     )
-    meaning = "Drift, cable, hysteresis and mount put each wrench off by about that much, and the bundle allows for it."
+    meaning = (
+        "Drift, cable, hysteresis and mount change each wrench by about this much; the bundle allows for it."
+    )
     remedy = "No action needed."
     if max(force, torque) > _LARGE:
         remedy = (
-            "That is a lot: contacts are located less precisely. Find what pulls at the probe or the sensor (cable,"
-            " hose, cover), warm the sensor up and tighten the mount, then calibrate and verify again."
+            "This is large: contacts are located less precisely. Find what pulls on the probe or the"
+            " sensor (cable, hose, cover), warm up the sensor and tighten the mount, then"
+            " recalibrate and verify again."
         )
     return f"{size} {meaning} {remedy}"
 

@@ -53,8 +53,8 @@ def measured_noise(
     said = []
     if tau > _CORRELATED:
         said.append(
-            f"Neighbouring samples are correlated (the sensor filters): {tau:.0f} are worth one, and the noise of"
-            " means is taken to be so much larger."
+            f"Neighbouring samples are correlated (the sensor filters): {tau:.0f} samples count as"
+            " one, and the noise of means is increased accordingly."
         )
     root = np.sqrt(max(growth, 1.0))
     scaled = WrenchNoise(np.asarray(base.force) * root, np.asarray(base.torque) * root)
@@ -76,8 +76,9 @@ def resting(recording: TouchRecording, protocol: ProtocolSettings, rate: float) 
     if offset <= protocol.release_N:
         return None
     return (
-        f"The sensor reads {offset:.1f} N while nothing is touched: calibrate again, or raise the forces at which a"
-        f" touch begins and ends (now {protocol.touch_N:g} and {protocol.release_N:g} N)."
+        f"The sensor reads {offset:.1f} N with nothing touching: recalibrate, or raise the forces"
+        f" at which a touch begins and ends (now {protocol.touch_N:g} and {protocol.release_N:g}"
+        " N)."
     )
 
 

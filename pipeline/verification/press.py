@@ -100,8 +100,8 @@ class ProtocolSettings:
         for low, high in self.windows:
             if not self.touch_N < low < high < 1e4:
                 raise InputError(
-                    f"force window {low:g} to {high:g} N: the lower end must be above {self.touch_N:g} N, where a touch"
-                    " begins, and below the upper one."
+                    f"force window {low:g} to {high:g} N: the lower end must be above"
+                    f" {self.touch_N:g} N, where a touch begins, and below the upper end."
                 )
         if not self.windows or not 4 <= self.samples <= 100_000 or not 1 <= self.repeats <= 1000:
             raise InputError(
@@ -109,7 +109,7 @@ class ProtocolSettings:
             )
         if not 0 < self.release_N <= self.touch_N:
             raise InputError(
-                f"release force {self.release_N:g} N: give one up to {self.touch_N:g} N, above 0."
+                f"release force {self.release_N:g} N: give a value above 0 and up to {self.touch_N:g} N."
             )
         for name in ("settle_s", "steady_N", "slip_m", "gap_s", "take_s"):
             if not 0 < getattr(self, name) < 1e3:

@@ -45,16 +45,16 @@ def force_accuracy(
     said = []
     if len(pairs) < _ENOUGH * len(accepted):
         said.append(
-            f"{len(pairs)} of {len(accepted)} accepted touches have a force of the reference: check that its times are"
-            " of the recording's clock."
+            f"Only {len(pairs)} of {len(accepted)} accepted touches have a reference force: check"
+            " that its times use the recording's clock."
         )
     if not pairs:
         return None, said
     ours, theirs = np.array(pairs).T
     if theirs.mean() < 0.5 * ours.mean():
         said.append(
-            f"The reference reads {theirs.mean():.2f} N where the sensor reads {ours.mean():.2f} N: check its unit (N),"
-            " and that it was pressed in these touches."
+            f"The reference reads {theirs.mean():.2f} N where the sensor reads {ours.mean():.2f}"
+            " N: check its unit (N), and that it was pressed during these touches."
         )
     away = ours - theirs
     sd = float(away.std(ddof=1)) if len(away) > 1 else 0.0

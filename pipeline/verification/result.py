@@ -119,7 +119,7 @@ def verify_files(
         [] if aligned else ["the probe was never aligned with the sensor: run `contactbench probe align`"]
     )
     if calibration.verdict.level is Level.REFUSE:
-        faults.append("the calibration was refused: calibrate again")
+        faults.append("the calibration was refused: recalibrate")
     recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)
     return verify(
         probe,
@@ -158,7 +158,7 @@ def _load_probe(file: Path) -> tuple[Probe, list[str], bool, float | None]:
     probe = probe_of(file, read)
     said = [*read.notes, *probe.health.sentences]
     if read.guess is not None and not read.guess.certain:
-        said.append("`contactbench probe prepare --units` writes a probe whose unit is certain.")
+        said.append("run `contactbench probe prepare --units` to make a probe with a confirmed unit.")
     if read.raw.settled:
         known = load_probe_file(file)
         said += known.notes

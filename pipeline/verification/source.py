@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
-_REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, force of the reference in N")
+_REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, reference force in N")
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,17 +77,20 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
     back = int(np.count_nonzero(times[1:] <= latest[:-1]))
     if back > _MOST_BACK * len(times):
         raise InputError(
-            f"{name}: {back:,} of {len(times):,} samples are not later than one before: sort them by time, or record"
-            " again; t must be seconds of one clock."
+            f"{name}: {back:,} of {len(times):,} samples are not later than an earlier row: sort"
+            " them by time, or record again; t must be seconds of one clock."
         )
     steps = np.diff(latest)
     gaps = steps[steps > _GAP_S]
     said = []
     if back:
-        said.append(f"The clock goes back: {back:,} samples that are not later than one before are left out.")
+        said.append(
+            f"The clock goes back: {back:,} samples that are not later than an earlier one are left out."
+        )
     if len(gaps):
         said.append(
-            f"The recording has {len(gaps):,} gaps, the longest of {gaps.max():.1f} s: a touch ends where one begins."
+            f"The recording has {len(gaps):,} gaps, the longest of {gaps.max():.1f} s: a touch"
+            " ends where a gap begins."
         )
     return tuple(said)
 
@@ -117,21 +120,17 @@ def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
     recording = read_recording(file)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise InputError(
-            f"{file}: {len(recording.wrenches)} sensors and {len(recording.flanges)} flanges: a verification needs one"
-            " of each; convert the ones that are meant to CSV."
+            f"{file}: {len(recording.wrenches)} sensors and {len(recording.flanges)} flanges: a"
+            " verification needs one of each. Convert the right ones to CSV."
         )
     track, flange = next(iter(recording.wrenches.values())), next(iter(recording.flanges.values()))
     poses, there = poses_at(flange, track.times)
     clipped = (track.status & _OVERRANGE) != 0
     kept = there & (track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1) & ~track.frozen))
     if not kept.any():
-        raise InputError(f"{file}: no reading has a pose beside it: record the robot along with the sensor.")
+        raise InputError(f"{file}: no reading has a pose: record the robot together with the sensor.")
     lost = int(np.count_nonzero(~kept))
-    said = (
-        [f"{lost:,} readings are left out: without a pose, or the device says they are no good."]
-        if lost
-        else []
-    )
+    said = [f"{lost:,} readings left out: without a pose, or flagged as bad by the device."] if lost else []
     R_WS = sensor_orientations(poses[kept, :4], Convention(), R_ES)
     return TouchRecording(
         track.times[kept],

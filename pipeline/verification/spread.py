@@ -50,7 +50,7 @@ def spread_markers(probe: Probe, count: int = 17, region: int | None = None) -> 
         The count is out of range, or the region has no facets.
     """
     if not 1 <= count <= _MOST:
-        raise MarkerError(f"{count} markers: ask for 1 to {_MOST}.")
+        raise MarkerError(f"{count} markers: give a number from 1 to {_MOST}.")
     points = _drawn(probe, _chosen(probe, region), count)
     centre = points.mean(axis=0)
     # The middle first, so that a set of one marker is a useful one.
@@ -80,14 +80,14 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
         The pitch is out of range, or no point of the grid, or more than 1000, meet the facets.
     """
     if not pitch >= _FINEST:
-        raise MarkerError(f"a grid of {1e3 * pitch:g} mm: ask for {1e3 * _FINEST:g} mm or more.")
+        raise MarkerError(f"a grid of {1e3 * pitch:g} mm is too fine: give {1e3 * _FINEST:g} mm or more.")
     chosen = _chosen(probe, region)
     up = np.sign((probe.normals[chosen, 2] * probe.areas[chosen]).sum()) or 1.0
     corners = probe.vertices[probe.faces[chosen]].reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     axes = [_lines(low[axis], high[axis], pitch) for axis in (0, 1)]
     if len(axes[0]) * len(axes[1]) > 100 * _MOST:
-        raise MarkerError(f"a grid of {1e3 * pitch:g} mm is too fine for this probe: ask for a wider one.")
+        raise MarkerError(f"a grid of {1e3 * pitch:g} mm is too fine for this probe: choose a wider one.")
     x, y = (each.ravel() for each in np.meshgrid(*axes, indexing="ij"))
     outside = (high[2] if up > 0 else low[2]) + up * probe.size
     origins = np.column_stack([x, y, np.full(len(x), outside)])
@@ -96,8 +96,8 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
     hit = (faces >= 0) & np.isin(faces, chosen)
     if not 1 <= np.count_nonzero(hit) <= _MOST:
         raise MarkerError(
-            f"a grid of {1e3 * pitch:g} mm has {np.count_nonzero(hit)} points on these facets: 1 to {_MOST} are wanted;"
-            " choose another pitch."
+            f"a grid of {1e3 * pitch:g} mm has {np.count_nonzero(hit)} points on these facets, but"
+            f" 1 to {_MOST} are allowed: choose another pitch."
         )
     points = origins[hit] + distances[hit, None] * directions[hit]
     return snap(make_markers(points), probe).markers
@@ -113,11 +113,11 @@ def _chosen(probe: Probe, region: int | None) -> NDArray[np.intp]:
     touchable = ~np.isin(probe.region, probe.untouchable)
     chosen = np.flatnonzero(touchable if region is None else touchable & (probe.region == region))
     if region is None and not len(chosen):
-        raise MarkerError("all of the probe is marked untouchable: correct the regions.")
+        raise MarkerError("the whole probe is marked untouchable: correct the regions.")
     if not len(chosen) or (region is not None and region < 1):
         known = ", ".join(map(str, np.unique(probe.region[touchable & (probe.region > 0)]))) or "none"
         raise MarkerError(
-            f"there is no region {region} to touch; the probe has {known}: choose one, or --all."
+            f"there is no touchable region {region}; the probe has {known}: choose one, or --all."
         )
     return chosen
 

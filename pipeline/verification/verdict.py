@@ -52,11 +52,11 @@ class VerdictCase:
         notes = [] if times is not None else ["time: not measured"]
         if self.left_out:
             said = ", ".join(f"{name} ({why})" for name, why in self.left_out.items())
-            notes.append(f"left out on purpose: {said}: nothing is known of contacts there")
+            notes.append(f"skipped on purpose: {said}: contacts there are not verified")
         if self.markers < FEWEST_MARKERS:
             many = "1 marker was" if self.markers == 1 else f"{self.markers} markers were"
             notes.append(
-                f"too few to tell of the whole probe: {many} touched, {FEWEST_MARKERS} are the fewest"
+                f"too few to judge the whole probe: {many} touched, at least {FEWEST_MARKERS} are needed"
             )
         return VerificationVerdict(not reasons, tuple(reasons), tuple(notes))
 
@@ -79,7 +79,10 @@ class VerdictCase:
             return []
         kinds = ", ".join(f"{self.rejected[why]} {why}" for why in UNRESOLVED if self.rejected.get(why))
         return [
-            f"{found.touches} of {found.settled} settled touches have no marker ({kinds}): their points may be wrong"
+            (
+                f"{found.touches} of {found.settled} settled touches match no marker ({kinds}): their"
+                " points may be wrong"
+            )
         ]
 
 
@@ -136,8 +139,9 @@ def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None,
         return None, False
     a, b = markers[closest].name, markers[int(other[closest, 1])].name
     said = (
-        f"markers {a} and {b} are {1e3 * pitch:.1f} mm apart, {1e3 * needed:g} mm are needed to tell a wrong contact"
-        " from a touch of the neighbour: give the order of the touches, or leave markers out"
+        f"markers {a} and {b} are {1e3 * pitch:.1f} mm apart; {1e3 * needed:g} mm are needed to"
+        " tell a wrong contact from a touch of the neighbour. Give the order of the touches, or"
+        " skip markers"
     )
     return said, pitch < 2 * limits.max_m
 
@@ -145,8 +149,8 @@ def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None,
 _CHECKS = {
     Why.MISSED: "miss the probe: check the units (N, N·m, mm), the mount of the sensor on the flange, and the alignment"
     " of the probe.",
-    Why.IMPLAUSIBLE: "leave a torque that no single touch explains: press with a tip that can turn freely, and let"
-    " nothing else touch the probe.",
+    Why.IMPLAUSIBLE: "leave a torque that no single touch explains: press with a freely turning tip, and make sure"
+    " nothing else touches the probe.",
 }
 
 
@@ -164,4 +168,4 @@ def checks(figures: Sequence[TouchFigure]) -> list[str]:
 def _times(times: Times | None, limits: VerificationLimits) -> list[str]:
     if times is None or times.p99_s <= limits.p99_s:
         return []
-    return [f"99 % of solves take up to {1e3 * times.p99_s:.3g} ms, over {1e3 * limits.p99_s:g} ms"]
+    return [f"99 % of solves take up to {1e3 * times.p99_s:.3g} ms, more than {1e3 * limits.p99_s:g} ms"]

@@ -69,14 +69,14 @@ class VerifySettings:
 
     def __post_init__(self) -> None:
         if (self.noise_force is None) != (self.noise_torque is None):
-            raise InputError("noise of force and torque: give both or none.")
+            raise InputError("noise of force and torque: give both or neither.")
         limits = (self.limits.mean_m, self.limits.max_m, self.limits.p99_s)
         if not all(0 < limit < 1e3 for limit in limits):
             raise InputError(f"limits {limits}: give positive numbers.")
         if not 100 <= self.resamples <= 1_000_000 or self.seed < 0:
             raise InputError("bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.")
         if unexplained := [name for name, why in self.left_out.items() if not why.strip()]:
-            raise InputError(f"left out: say why {', '.join(unexplained)} need not be touched.")
+            raise InputError(f"skipped: give the reason for skipping {', '.join(unexplained)}.")
 
 
 def find_touches(
@@ -152,8 +152,8 @@ def verify(
     touches = find_touches(compensated, placing, settings.protocol)
     if not touches:
         raise InputError(
-            f"nothing in the recording touches the probe: |F| never reaches {settings.protocol.touch_N:g} N. Check that"
-            " it is the right recording, and that the calibration belongs to it."
+            f"the recording contains no touch: |F| never reaches {settings.protocol.touch_N:g} N."
+            " Check that it is the right recording, and that the calibration belongs to it."
         )
     evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples, stated is None)
     if timed and len(evidence.errors):
@@ -201,7 +201,7 @@ def judge(
     """
     names = placing.markers.names
     if strangers := sorted(set(settings.left_out) - set(names)):
-        raise InputError(f"left out: there are no markers {', '.join(strangers)}: correct the names.")
+        raise InputError(f"skipped: there are no markers {', '.join(strangers)}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
     every, evidence = (
         evidence,

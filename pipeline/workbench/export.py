@@ -129,7 +129,8 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
     sha256 = _sha256(found)
     if sha256 != _sha256(config):
         raise ConfigError(
-            f"{place}: the bundle on the disk is not the one that was written: check the disk, then export again."
+            f"{place}: the bundle on disk differs from the one that was written: check the disk,"
+            " then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
     return ExportedBundle(place, sha256, found.model.verified, _checked(found, place))
@@ -145,7 +146,7 @@ def refuse_broken(session: Session) -> None:
 def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:
     """Write down that a bundle of the session's current results was exported."""
     standing = "verified" if verified else "NOT verified"
-    session.note(f"A bundle was exported to {place}: {standing}, contactbench.json has the SHA-256 {sha256}.")
+    session.note(f"A bundle was exported to {place}: {standing}, SHA-256 of contactbench.json {sha256}.")
     session.set_parameter(SHA256, sha256)
     session.set_parameter(PLACE, str(place))
     session.set_parameter(RESULTS, dict(results_of(session.state)))
@@ -158,11 +159,11 @@ def _sha256(config: RuntimeConfig) -> str:
 def _checked(config: RuntimeConfig, place: Path) -> str:
     count = len(config.encoded())
     if config.model.verified:
-        words = f"{place}: {count} files are as they should be. A robot's runtime takes it: it is verified."
+        words = f"{place}: bundle verified, {count} files. Ready for a robot's runtime."
         return f"{words} {unchecked(config.model.checks)}".strip()
     return (
-        f"{place}: {count} files are as they should be, but it is NOT verified: a robot's runtime takes it only when it"
-        " is told to. For trials only."
+        f"{place}: {count} files intact, but the bundle is NOT verified. A robot's runtime refuses"
+        " it unless told otherwise; for trials only."
     )
 
 
@@ -236,7 +237,7 @@ def _changes(settings: Mapping[str, Any], config: RuntimeConfig) -> tuple[str, .
 def told(found: Differences) -> tuple[str, ...]:
     """Say what differs, in sentences; what is another in every bundle only where nothing else is."""
     if found.same:
-        return ("It is the same, to the byte.",)
+        return ("Identical, byte for byte.",)
     fields = [each for each in found.fields if not each.field.startswith(_ALWAYS)]
     said = [
         f"{each.field}: {_short(each.one)} → {_short(each.other)}"
@@ -245,7 +246,7 @@ def told(found: Differences) -> tuple[str, ...]:
     ]
     if len(fields) > _MOST_DIFFERENCES:
         said.append(
-            f"And {len(fields) - _MOST_DIFFERENCES} more fields: `contactbench bundle diff` lists them."
+            f"{len(fields) - _MOST_DIFFERENCES} more fields differ: `contactbench bundle diff` lists them."
         )
     if found.mesh is not None:
         one, other = found.mesh["facets"]
@@ -253,7 +254,7 @@ def told(found: Differences) -> tuple[str, ...]:
             f"The surfaces, of {one:,} and {other:,} facets, are at most {found.mesh['hausdorff_mm']:.3g} mm apart."
         )
     if not said:
-        said.append("Only where it comes from and when it was made.")
+        said.append("Only origin and date differ.")
     return tuple(said)
 
 

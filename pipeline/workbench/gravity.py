@@ -37,8 +37,8 @@ _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²
 _SHORT = 100  # samples: the newest moment
 _NEAREST = np.radians(15.0)  # of a check to a pose that the calibration has seen: nearer, it tells little
-_NEAR = "This is nearly a pose that the calibration was made from: turn the tool further."
-_NO_POSE = "The sensor's readings come, but no orientation with them: nothing can be captured."
+_NEAR = "This pose is too close to a calibration pose: turn the tool further."
+_NO_POSE = "The sensor sends readings, but no orientation arrives with them, so nothing can be captured."
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +128,7 @@ class GravityWork:
             try:
                 self._stillness = self._detector.update_block(times, wrenches, R_WE)
             except InputError as error:  # the clock was set back: a replay began anew
-                self._problem = f"The samples' times went back, so the captures begin anew: {error}"
+                self._problem = f"The sample times went back, so the captures start over: {error}"
                 self._detector = StillnessDetector()
                 self._chosen.clear()
             self._notice()
@@ -159,14 +159,14 @@ class GravityWork:
             state = self._stillness.state
             if self._present is not None and self._present in self._chosen:
                 if self._chosen[self._present]:
-                    return "This pose is taken already. Turn the tool to the next one."
+                    return "This pose is already captured. Turn the tool to the next one."
                 self._chosen[self._present] = True
                 self._changed()
                 return "Taken."
             if state in {StillState.STILL, StillState.SETTLING}:
                 self._wanted = True
-                return "It will be taken as soon as it is averaged: keep still."
-            return "It moves: hold the tool still, then press again."
+                return "Averaging: keep still. The pose is captured as soon as this is done."
+            return "The tool is moving: hold it still, then press again."
 
     def set_automatic(self, automatic: bool) -> None:
         """Choose whether every still pose to come is taken, or those that `take` asks for."""
@@ -248,8 +248,8 @@ class GravityWork:
         if residual @ np.linalg.solve(C, residual) <= chdtri(6, _TOUCH_RISK):
             return ""
         return (
-            f"Something touches the tool: {np.linalg.norm(residual[:3]):.2g} N more than its weight. Take it away,"
-            " or move on if nothing does."
+            f"Something touches the tool: {np.linalg.norm(residual[:3]):.2g} N more than its"
+            " weight. Remove it, or move on if nothing does."
         )
 
     def close(self) -> None:
@@ -363,7 +363,7 @@ class GravityCheck:
         if self._word:
             return self._word
         stands = describe(self.proposal, self._settings.down_W)
-        return f"Turn the tool to a pose that it was not in: {stands}. Then keep still."
+        return f"Turn the tool to a new pose: {stands}. Then keep still."
 
     def _farthest(self) -> NDArray[np.float64]:
         """Return the orientation whose weight pulls least like that of any pose so far."""

@@ -99,7 +99,7 @@ def gravity_settings(state: State) -> GravitySettings:
     tilt = state.settings.get(TILT)
     degrees = 180.0 if tilt is None else tilt.value
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
-        raise InputError(f"{TILT}: {degrees!r} is no angle from above 0 to 180 degrees: set it again.")
+        raise InputError(f"{TILT}: {degrees!r} is not an angle above 0 and up to 180 degrees: set it again.")
     return GravitySettings(parameters, float(degrees))
 
 
@@ -220,8 +220,8 @@ def findings(
     found = [
         GravityFinding(
             f"rejected {rejection.name}",
-            f"{_capital(rejection.name)}: {rejection.reason} It does not count. Take it again, or go on with"
-            f" {int(calibration.kept.sum())} poses.",
+            f"{_capital(rejection.name)}: {rejection.reason} It does not count. Retake it, or"
+            f" continue with {int(calibration.kept.sum())} poses.",
             leave_out=(rejection.index,),
             remedy="Leave it out",
         )
@@ -264,14 +264,14 @@ def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Gravit
             key,
             sentence,
             settings=((INVERSE, not settings.parameters.inverse),),
-            remedy="Read the orientations the other way round",
+            remedy="Invert the orientations",
         )
     if turn is not None:
         return _turned(key, sentence, settings.R_ES @ turn)
     if key.startswith("rezero_before_"):
         change = int(key.removeprefix("rezero_before_")) - 1
         short = range(change) if change <= count - change else range(change, count)
-        return GravityFinding(key, sentence, leave_out=tuple(short), remedy="Leave the smaller part out")
+        return GravityFinding(key, sentence, leave_out=tuple(short), remedy="Leave out the smaller part")
     return GravityFinding(key, sentence)
 
 
@@ -303,8 +303,9 @@ def _mounted(
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
     sentence = (
-        f"The sensor sits on the flange {off:.0f}° differently than was said: so turned, the poses agree with one"
-        f" another. {mounted.mounting} Set the mount so, or check how the sensor is screwed on."
+        f"The sensor is mounted on the flange {off:.0f}° differently than declared: with that"
+        f" corrected, the poses agree. {mounted.mounting} Set the mount accordingly, or check how"
+        " the sensor is bolted on."
     )
     return _turned("mount", " ".join(sentence.split()), mounted.R_SE.T)
 

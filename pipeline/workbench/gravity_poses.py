@@ -141,7 +141,7 @@ def live_rows(
             continue
         row = _live_row(f"pose {number}", middle(capture), capture.R_WS, settings, fitted if counts else None)
         if not counts:
-            reason = "It does not count. Take it back if it was good."
+            reason = "It does not count. Restore it if it was good."
             row = replace(row, state=PoseState.LEFT_OUT, reason=reason)
         rows.append((capture.start, row))
     for each in rejected:

@@ -140,7 +140,7 @@ def change(session: Session, leave_out: Sequence[float]) -> GravityOutcome:
     """Compute the same anew, with other poses left out; arguments and errors as for `finish`."""
     made = session.state.current_results.get(("captures", POSES_FILE))
     if made is None:
-        raise SessionError("There are no poses of a recording in this session: record some first.")
+        raise SessionError("This session has no recorded poses: record some first.")
     parameters: dict[str, Any] = {
         key: value for key, value in made.action.parameters.items() if key != "leave_out"
     }
@@ -220,13 +220,14 @@ def difference(live: Calibration | None, outcome: GravityOutcome) -> str:
         return ""
     if len(live.poses) != len(made.poses):
         return (
-            f"Computed anew from the recording, there are {len(made.poses)} poses instead of {len(live.poses)}: a"
-            " pose was just at the limit of what counts as still. What is shown now is what counts."
+            f"Recomputed from the recording, there are {len(made.poses)} poses instead of"
+            f" {len(live.poses)}: one pose was just at the limit of stillness. The recording"
+            " counts."
         )
     if abs(made.contact_error - live.contact_error) > _DIFFERS * max(made.contact_error, live.contact_error):
         return (
-            f"Computed anew from the recording, the contact error is {1e3 * made.contact_error:.2g} mm instead of"
-            f" {1e3 * live.contact_error:.2g} mm. What is shown now is what counts."
+            f"Recomputed from the recording, the contact error is {1e3 * made.contact_error:.2g}"
+            f" mm instead of {1e3 * live.contact_error:.2g} mm. The recording counts."
         )
     return ""
 
@@ -234,5 +235,7 @@ def difference(live: Calibration | None, outcome: GravityOutcome) -> str:
 def _recording(state: State, name: str) -> Input:
     found = state.current_inputs.get((RECORDING, name))
     if found is None:
-        raise SessionError(f"{name}: the session has no recording of this name: `session info` lists them.")
+        raise SessionError(
+            f"{name}: the session has no recording with this name: `session info` lists the recordings."
+        )
     return found

@@ -170,7 +170,7 @@ class KnownChecks:
                 raise InputError("No sensor is open: connect one in step 1, Devices, then start again.")
             if pair.poses is None:
                 raise InputError(
-                    "Nothing tells the sensor's orientation: choose a source of poses in step 1, Devices."
+                    "The sensor's orientation is unknown: choose a source of poses in step 1, Devices."
                 )
             name = next_recording(self._desk.state, self._desk.folder, reading.stem)
             self._tape = SessionTape.start(self._desk, self._live, name).result(_PATIENCE_S)

@@ -102,7 +102,10 @@ def problem_of(address: str, *, poses: bool = False) -> str:
         return (
             f"{parsed.protocol} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
             if poses
-            else f"{parsed.protocol} is no force/torque sensor: give the address of one, such as sri+tcp://192.168.0.108."
+            else (
+                f"{parsed.protocol} is not a force/torque sensor: give the address of a sensor, such"
+                " as sri+tcp://192.168.0.108."
+            )
         )
     return ""
 

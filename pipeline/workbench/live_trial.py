@@ -20,12 +20,12 @@ _FEWEST = 50  # readings before a noise is told
 _GAP = 2.5  # times the usual interval
 _CLOSE = 0.8  # of the range
 _GONE = {
-    StreamState.SILENT: "The sensor is silent: nothing more comes. Check its cable and power; it goes on by itself.",
-    StreamState.LOST: "The sensor is gone: plug it in again. It goes on by itself as soon as it is back.",
+    StreamState.SILENT: "The sensor has gone silent. Check its cable and power; it resumes automatically.",
+    StreamState.LOST: "The sensor is disconnected: plug it in again. It resumes automatically.",
 }
 _NO_POSES = (
-    "No poses come, so the orientation is not known: check the robot's address and cable. They go on by"
-    " themselves."
+    "No poses arrive, so the orientation is unknown: check the robot's address and cable. They"
+    " resume automatically."
 )
 
 
@@ -103,9 +103,9 @@ def _gaps(times: NDArray[np.float64]) -> tuple[int, float]:
 def _states(sensor: Health, poses: Health | None, finished: bool) -> list[str]:
     said = []
     if finished:
-        said.append("The recording is at its end: choose it again to play it once more.")
+        said.append("End of the recording: choose it again to replay it.")
     elif sensor.state is StreamState.CONNECTING:
-        said.append("The sensor does not answer yet: check that it has power and that its cable is in.")
+        said.append("The sensor does not respond yet: check its power and cable.")
     elif sensor.state in _GONE:
         said.append(_GONE[sensor.state])
     said += [*sensor.findings, *sensor.suspicions]
@@ -120,11 +120,9 @@ def _measured(noise: NDArray[np.float64], used: NDArray[np.float64] | None) -> l
     said = []
     if used is not None and np.nanmax(used, initial=0.0) >= _CLOSE:
         said.append(
-            f"A channel is at {100 * np.nanmax(used):.0f} % of its range: beyond 100 % it is cut off. Take load off the"
-            " sensor, or set its zero again."
+            f"A channel is at {100 * np.nanmax(used):.0f} % of its range; it clips at 100 %."
+            " Reduce the load, or re-zero the sensor."
         )
     if np.isfinite(noise).all() and (noise == 0).all():
-        said.append(
-            "All readings are the same, to the last digit: the sensor may be frozen. Touch it and look."
-        )
+        said.append("All readings are exactly the same: the sensor may be frozen. Touch it to check.")
     return said

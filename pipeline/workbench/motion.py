@@ -250,11 +250,11 @@ class MotionRun:
                 for line in lines:
                     self._take(read_line(line))
         except (InputError, OSError, ValueError) as error:
-            self._failure = f"the virtual robot said what makes no sense ({error})."
+            self._failure = f"the virtual robot sent an invalid answer ({error})."
             self._process.kill()
         code = self._process.wait()
         if self.outcome is None and not self._failure:
-            self._failure = self._last_words() or f"the virtual robot ended with code {code}."
+            self._failure = self._last_words() or f"the virtual robot stopped with code {code}."
 
     def _take(self, told: Beginning | LoopFrame | dict[str, Any]) -> None:
         if isinstance(told, Beginning):

@@ -278,9 +278,7 @@ def _inspected(file: Path, units: str, progress: Progress, cancelled: Cancel) ->
     try:
         return inspect(file, _units(units), progress=progress, cancelled=cancelled)
     except MemoryError as error:
-        raise InputError(
-            f"{file}: there is not enough memory for it: export the part with fewer facets."
-        ) from error
+        raise InputError(f"{file}: not enough memory: export the part with fewer facets.") from error
 
 
 def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
@@ -293,7 +291,7 @@ def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
     except OSError as error:
         shutil.rmtree(target.parent, ignore_errors=True)
         raise InputError(
-            f"{file}: it cannot be copied ({error}): check it and the space on the disk."
+            f"{file}: it cannot be copied ({error}): check the file and the free disk space."
         ) from error
 
 

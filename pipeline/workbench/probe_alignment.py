@@ -54,7 +54,8 @@ def by_points(pairs: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]) 
     """
     if len(pairs) < FEWEST_PAIRS:
         raise InputError(
-            f"{len(pairs)} places are picked, and {FEWEST_PAIRS} are needed: pick another one, far from these."
+            f"{len(pairs)} points are picked, but {FEWEST_PAIRS} are needed: pick another one, far"
+            " from these."
         )
     return align_points([point_P for point_P, _ in pairs], [point_S for _, point_S in pairs])
 

@@ -59,9 +59,7 @@ def draft_of(state: State) -> ProbeDraft | None:
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(
-            f"{DRAFT}: what is being prepared cannot be read ({error}): choose the mesh once more."
-        ) from error
+        raise InputError(f"{DRAFT}: the draft cannot be read ({error}): choose the mesh again.") from error
     return ProbeDraft(mesh, name, plan)
 
 

@@ -83,11 +83,11 @@ def shell_file_of(
     state = desk.state
     recipe = recipe_of(state)
     if recipe is None:
-        raise InputError("There is no probe yet, so there is nothing to paint on: prepare the probe first.")
+        raise InputError("There is no probe to paint on: prepare the probe first.")
     if "mesh" not in recipe.inputs:
         raise InputError(
-            "This probe came from elsewhere, and the session does not have the mesh behind it: choose the mesh in step"
-            " 3, Probe, to paint on it."
+            "This probe was imported, and the session does not have its mesh: choose the mesh in"
+            " step 3, Probe, to paint on it."
         )
     wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
     with laid_out(desk.folder, state, wanted) as files:

@@ -374,7 +374,7 @@ class RegionsWork:
             The regions were changed while it was looking.
         """
         if found.revision != self.revision:
-            raise RegionError("The regions were changed meanwhile, so nothing was done: do it again.")
+            raise RegionError("The regions have changed in the meantime, so nothing was done: repeat it.")
         return self.step(lambda model: give(model, found, protect=protect, erase=erase))
 
     # ---- how ---------------------------------------------------------------------------------

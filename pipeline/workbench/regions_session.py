@@ -103,11 +103,11 @@ def open_work(
         if not carried:
             steps = read_region_steps(desk.folder, regions_digest(desk.state))
         else:
-            notes.append("The probe has changed since the regions were painted: they were carried over.")
+            notes.append("The probe changed after the regions were painted; they were transferred to it.")
             notes += [each.sentence for each in carried if each.vanished]
     except InputError as error:
         regions = shell.regions
-        notes.append(f"The regions that were painted before are not shown: {error}")
+        notes.append(f"The earlier regions are not shown: {error}")
     work = RegionsWork(shell, regions, tuple(notes))
     with suppress(InputError):  # they are of another surface: nothing of it can be undone
         work.model.put_steps(steps)
@@ -220,7 +220,9 @@ def apply(
     state = desk.state
     recipe, kept = recipe_of(state), state.newest(REGIONS)
     if recipe is None or recipe.result is None:
-        raise InputError("There is no probe yet: prepare it in the step Probe; it takes the regions along.")
+        raise InputError(
+            "There is no probe yet: prepare it in step 3, Probe; the regions will be applied to it."
+        )
     name, parameters = recipe.result.action.name, dict(recipe.parameters)
     inputs = {role: sha for role, sha in recipe.inputs.items() if role != REGIONS}
     if kept is not None:

@@ -246,27 +246,27 @@ def _broken(judge: Judge, known: Mapping[Step, StepStatus]) -> dict[Step, str]:
 
 
 GOING_ON = {
-    Step.DEVICES: "The devices are being tried.",
-    Step.GRAVITY: "A calibration is being recorded.",
-    Step.PROBE: "The probe is being prepared.",
-    Step.REGIONS: "The regions are being put on the probe.",
-    Step.VERIFY: "A verification is being recorded.",
-    Step.EXPORT: "A bundle is being written.",
+    Step.DEVICES: "Testing the devices.",
+    Step.GRAVITY: "Recording a calibration.",
+    Step.PROBE: "Preparing the probe.",
+    Step.REGIONS: "Applying the regions to the probe.",
+    Step.VERIFY: "Recording a verification.",
+    Step.EXPORT: "Writing a bundle.",
 }
 
 
 def _devices(state: State, connected: bool) -> tuple[StepState, str]:
     sensor = state.setting(SENSOR)
     if not sensor:
-        words = "Choose the sensor and where its orientation comes from, then test the connection."
+        words = "Choose the sensor and the source of its orientation, then test the connection."
         return StepState.READY, words
     scheme, name = str(sensor).partition("://")[0], str(sensor).partition("?")[0]
     name = {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, name)
     if not connected:
-        return StepState.DONE, f"Chosen: {name}. It is not connected: connect it to measure."
+        return StepState.DONE, f"Chosen: {name}. Not connected: connect to measure."
     words = f"Connected: {name}."
     if not state.setting(POSES):
-        words += " Nothing tells its orientation: gravity cannot be calibrated without."
+        words += " Its orientation is unknown, so gravity cannot be calibrated."
     return StepState.DONE, words
 
 
@@ -275,12 +275,12 @@ def _gravity(judge: Judge) -> tuple[StepState, str]:
     if judged.found is None:
         if not judge.state.setting(SENSOR):
             return StepState.LOCKED, "Choose the devices first."
-        return StepState.READY, "Hold the tool still in about six orientations; the next one is shown."
+        return StepState.READY, "Hold the tool still in about six orientations; the next one is always shown."
     if judged.state is CheckState.STALE:
         return StepState.STALE, f"{judged.why} Calibrate again."
     if judged.state is CheckState.FAILED:
-        return StepState.FAILED, f"The calibration was refused. {judged.why} Calibrate again."
-    usable = " It is usable, not good." if judge.verdict("calibration").get("level") == "usable" else ""
+        return StepState.FAILED, f"The calibration was refused. {judged.why} Recalibrate."
+    usable = " It is usable, but not good." if judge.verdict("calibration").get("level") == "usable" else ""
     return StepState.DONE, f"Calibrated on {judged.day}.{usable}"
 
 
@@ -288,11 +288,11 @@ def _probe(judge: Judge) -> tuple[StepState, str]:
     judged, draft = judge.of("probe"), judge.state.setting(PROBE_DRAFT)
     if judged.found is None:
         if draft:
-            return StepState.READY, "It is being prepared: go on where it was left, then use it."
-        return StepState.READY, "Choose the probe's mesh, put it where it is, and simplify it."
+            return StepState.READY, "In preparation: continue where you left off, then use it."
+        return StepState.READY, "Choose the probe's mesh, align it and simplify it."
     if judged.state is CheckState.STALE:
         return StepState.STALE, f"{judged.why} Prepare it again."
-    begun = " Another one is being prepared: use it, or undo that." if draft else ""
+    begun = " Another one is in preparation: use it, or undo it." if draft else ""
     return StepState.DONE, f"Prepared on {judged.day}.{begun}"
 
 
@@ -301,40 +301,40 @@ def _regions(judge: Judge) -> tuple[StepState, str]:
     if where is Standing.NONE:
         if judge.of("probe").found is None:
             return StepState.LOCKED, "Prepare the probe first."
-        return StepState.READY, "Not needed: paint where contacts are preferred, or go on to Verify."
+        return StepState.READY, "Optional: paint where contacts are preferred, or continue with Verify."
     if where is Standing.WAITING:
-        words = "The regions are painted, but the probe does not have them yet: apply them."
+        words = "The regions are painted but not applied to the probe yet: apply them."
         return StepState.STALE, words
     if where is Standing.PLANNED:
-        return StepState.DONE, "Painted. The probe gets them when it is prepared."
-    return StepState.DONE, "Painted, and on the probe."
+        return StepState.DONE, "Painted. The regions are applied when the probe is prepared."
+    return StepState.DONE, "Painted and applied to the probe."
 
 
 def _verify(judge: Judge) -> tuple[StepState, str]:
     judged = judge.of("verification")
     if judged.found is None:
-        return StepState.READY, "Touch the markers: that shows whether contacts are right."
+        return StepState.READY, "Touch the markers to check that contacts are correct."
     if judged.state is CheckState.STALE:
         return StepState.STALE, f"{judged.why} Verify again."
     why = judged.why or judge.figures
     if judged.state is CheckState.FAILED:
-        return StepState.FAILED, f"It did not pass. {why} See what to mend, then verify again."
+        return StepState.FAILED, f"Not passed. {why} Correct the cause, then verify again."
     return StepState.DONE, f"Passed: {why}." if why else f"Verified on {judged.day}."
 
 
 def _export(judge: Judge) -> tuple[StepState, str]:
     parts = [judge.of(kind) for kind in ("calibration", "probe", "verification")]
     if parts[-1].found is None:
-        return StepState.LOCKED, "Verify first; for trials, an unverified bundle can be written."
+        return StepState.LOCKED, "Verify first. For trials, an unverified bundle can be exported."
     exported = judge.state.setting(RESULTS)
     if not exported:
-        return StepState.READY, "See what is in the bundle, then export it."
+        return StepState.READY, "Review the bundle, then export it."
     if exported != dict(results_of(judge.state)):
-        return StepState.STALE, "Something was computed anew since the last export: export again."
+        return StepState.STALE, "Results have changed since the last export: export again."
     for part in parts:
         if part.state is CheckState.STALE:
-            return StepState.STALE, f"{part.why} Do that again, then export again."
-    return StepState.DONE, "The newest results are exported."
+            return StepState.STALE, f"{part.why} Repeat that, then export again."
+    return StepState.DONE, "The latest results are exported."
 
 
 def _missing(judge: Judge) -> str:
@@ -345,7 +345,7 @@ def _missing(judge: Judge) -> str:
             return "Calibrate gravity and prepare the probe first."
         return "Calibrate gravity first."
     if judge.verdict("calibration").get("level") == "refuse":
-        return "The calibration was refused: calibrate gravity again first."
+        return "The calibration was refused: recalibrate gravity first."
     return "" if probe.found is not None else "Prepare the probe first."
 
 
@@ -366,8 +366,8 @@ def checklist(
             replace(each, state=CheckState.OPTIONAL) if each.state is CheckState.MISSING else each
             for each in checks
         ]
-    touch = "Touch the markers, so that somebody has shown that it is right."
-    report = "Finish a verification: its report goes into the bundle."
+    touch = "Touch the markers to verify contacts."
+    report = "Finish a verification: its report is part of the bundle."
     calibrate = "Calibrate the sensor with this tool."
     return (
         _sensor_line(judge),
@@ -392,18 +392,18 @@ def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckI
     elif judged.broken:
         words = judged.broken
     elif state is CheckState.STALE:
-        words = f"{judged.why} Do it again."
+        words = f"{judged.why} Repeat it."
     elif kind in CHECK_KINDS:
         outcome, words = judge.fact(kind, "outcome"), str(judge.fact(kind, "sentence") or "")
         if outcome == "failed":
-            state, words = CheckState.FAILED, words or f"It failed. {remedy}"
+            state, words = CheckState.FAILED, words or f"The check failed. {remedy}"
         elif outcome != "passed":
             state = CheckState.MISSING
     elif kind == "calibration" and state is CheckState.FAILED:
-        words = "The calibration was refused: calibrate again."
+        words = "The calibration was refused: recalibrate."
     elif kind == "verification":
         if state is CheckState.FAILED:
-            words = f"It did not pass: {'; '.join(judged.reasons) or 'see its report'}. Verify again."
+            words = f"Not passed: {'; '.join(judged.reasons) or 'see its report'}. Verify again."
         else:
             words = f"Passed: {judge.figures}." if judge.figures else "Passed."
     else:
@@ -420,7 +420,7 @@ def _sensor_line(judge: Judge) -> CheckItem:
     known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
     if known:
         return CheckItem("Sensor", CheckState.DONE, f"Serial number {known[0]}.", Step.DEVICES)
-    words = "Nobody said the sensor's serial number: the bundle would say 'unknown'. Give it below."
+    words = "Serial number missing: the bundle would say 'unknown'. Enter it below."
     return CheckItem("Sensor", CheckState.MISSING, words, Step.DEVICES)
 
 
@@ -435,10 +435,10 @@ def _regions_line(judge: Judge) -> CheckItem:
         words = f"The probe has {regions}."
     elif judge.state.newest("regions") is not None:
         state = CheckState.MISSING
-        words = "Regions are painted, but the probe does not have them yet: apply them."
+        words = "Regions are painted but not applied to the probe yet: apply them."
     else:
         state = CheckState.OPTIONAL
-        words = "No priority regions: among candidates none is preferred. That is fine for most probes."
+        words = "No priority regions: all candidates are equal. That is fine for most probes."
     return CheckItem("Regions", state, words, Step.REGIONS)
 
 
@@ -464,4 +464,4 @@ def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
     for kind, what in (("calibration", "Calibrate first."), ("probe", "Prepare the probe first.")):
         if state.newest(kind) is None:
-            raise InputError(f"There is no {kind} yet: nothing can be exported. {what}")
+            raise InputError(f"There is no {kind} yet, so nothing can be exported. {what}")

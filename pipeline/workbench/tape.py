@@ -74,7 +74,7 @@ class SessionTape:
     def _begin(cls, desk: Desk, session: Session, live: Live, name: str | None) -> SessionTape:
         pair = live.pair
         if pair is None:
-            raise InputError("No device is open, so there is nothing to record: choose devices first.")
+            raise InputError("No device is open, so nothing can be recorded: choose devices first.")
         known = session.state.setting("devices.serial")
         serial = str(known) if known else None
         about = _with_serial(pair.about(), serial)
@@ -107,7 +107,7 @@ class SessionTape:
     def error(self) -> str | None:
         """Why nothing more is written, such as a full disk; what was written before is kept. None: all is well."""
         failed = self._recording.recorder.error
-        return None if failed is None else f"{failed} What was recorded until then is safe."
+        return None if failed is None else f"{failed} Everything recorded until then is safe."
 
     @property
     def findings(self) -> tuple[str, ...]:
@@ -115,14 +115,14 @@ class SessionTape:
         said = [self.error] if self.error else []
         for device, health in tuple(self._health.items()):
             if health.state in {StreamState.SILENT, StreamState.LOST}:
-                said.append(
-                    f"{_NAMES[device]} gives nothing: the recording waits and goes on when it is back."
-                )
+                said.append(f"{_NAMES[device]} sends nothing: the recording waits and resumes automatically.")
             said += [*health.findings, *health.suspicions]
         if self._recording.recorder.dropped:
-            said.append("The disk is too slow: samples are missing in the recording. Record to another one.")
+            said.append(
+                "The disk is too slow, so samples are missing in the recording. Record to another disk."
+            )
         if self._cut and not self._ended:
-            said.append("The devices were closed: the recording has what came before.")
+            said.append("The devices were closed: the recording ends there.")
         return tuple(dict.fromkeys(said))
 
     # ---- its end -----------------------------------------------------------------------------------
@@ -148,14 +148,14 @@ class SessionTape:
         if not self._samples:
             self._recording.discard()
             raise InputError(
-                f"{self.name}: not one sample came, so nothing is kept: see that the sensor gives samples, and"
-                " begin again."
+                f"{self.name}: no sample arrived, so nothing was kept: check that the sensor sends"
+                " samples, then start again."
             )
         return self._recording.keep(self._facts())
 
     def _discard(self, session: Session) -> None:  # noqa: ARG002 - the recording knows it
         self._stop()
-        self._recording.discard(f"was given up, with {self._samples:,} samples")
+        self._recording.discard(f"was abandoned, with {self._samples:,} samples")
 
     def _stop(self) -> None:
         with self._ending:

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.state import Input
 
 DISK = (
-    "Nothing is written into this session at the moment, because the last write failed. Free some space, or check the"
-    " disk: the session goes on by itself then, and says so."
+    "The last write failed, so nothing is written to this session at the moment. Free disk space,"
+    " or check the disk; writing then resumes automatically."
 )
 
 

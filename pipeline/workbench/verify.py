@@ -112,7 +112,7 @@ def tool_of(folder: Path, state: State) -> TouchTool:
         regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
     if calibration.verdict.level is Level.REFUSE:
         raise InputError(
-            "The calibration was refused: nothing verified with it would count. Calibrate again."
+            "The calibration was refused, so a verification with it would not count. Recalibrate."
         )
     return TouchTool(probe, calibration.model, content, regions)
 
@@ -243,7 +243,7 @@ class VerifyWork:
         state = self._desk.do(lambda session: session.state).result()  # after all that waits to be written
         kept = state.newest(MARKERS)
         if kept is None or read_kept(self._desk.folder, state) != markers:
-            raise InputError("The markers are not in the session yet: wait a moment, then start again.")
+            raise InputError("The markers are still being saved: wait a moment, then start again.")
         probe, calibration = tool.content
         return {"probe": probe, "calibration": calibration, "markers": kept.content}
 
@@ -261,7 +261,8 @@ class VerifyWork:
                 return found
             if time.monotonic() > until:
                 raise InputError(
-                    "No samples come from the sensor: check its cable and step 1, Devices, then start again."
+                    "No samples arrive from the sensor: check its cable and step 1, Devices, then"
+                    " start again."
                 )
             time.sleep(0.05)
         return None
@@ -392,7 +393,7 @@ def outcome_of(
         verification = read_verification(file)
     except InputError as error:
         raise InputError(
-            f"{file}: the verification cannot be read ({error}): see `contactbench session verify`."
+            f"{file}: the verification cannot be read ({error}): run `contactbench session verify`."
         ) from error
     reasons = stale.get(found.slot, ())
     outcome = VerifyOutcome(verification, _report(folder, state, found.known_as), stale=" ".join(reasons[:1]))
@@ -419,9 +420,9 @@ def differs(outcome: VerifyOutcome, live: TouchView) -> str:
     if same_count and abs(live.mean_mm - outcome.mean_mm) <= _SAME_MM:
         return ""
     return (
-        f"Live, {live.accepted} touches were accepted with a mean error of {live.mean_mm:.2f} mm; the recording gives"
-        f" {outcome.touches} with {outcome.mean_mm:.2f} mm, because its noise is known as a whole. The recording"
-        " counts."
+        f"Live, {live.accepted} touches were accepted with a mean error of {live.mean_mm:.2f} mm;"
+        f" the recording gives {outcome.touches} with {outcome.mean_mm:.2f} mm, because it uses"
+        " the noise of the whole recording. The recording counts."
     )
 
 

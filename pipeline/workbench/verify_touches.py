@@ -378,13 +378,13 @@ class LiveTouches:
     def _notice(self) -> str:
         if self._poses and not any(known for _, known in self._poses):
             return (
-                "No pose comes with the samples: without it the weight cannot be taken off. Check the robot's"
-                " connection; touches count again when it is back."
+                "No pose arrives with the samples, so the weight cannot be subtracted. Check the"
+                " robot's connection; touches count again once it is back."
             )
         release = self.settings.protocol.release_N
         if len(self._first) >= _FEWEST and not self._touches and np.median(self._first) > release:
             return (
-                f"The sensor reads {float(np.median(self._first)):.1f} N, and nothing should touch it yet: take the"
-                " probe off whatever it rests on. If nothing touches it, calibrate again."
+                f"The sensor reads {float(np.median(self._first)):.1f} N, but nothing should touch"
+                " it yet: lift the probe clear. If nothing touches it, recalibrate."
             )
         return ""

@@ -63,10 +63,10 @@ def test_unplugged_while_weighing_and_back(made, tmp_path):
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
         made.wait(lambda: page.run.work.view().state is not None and made.window.bench.live.samples > 100)
-    made.wait_said("sensor", "goes on when it is back")
+    made.wait_said("sensor", "resumes automatically")
     assert made.alive()
     made.page(Step.DEVICES)
-    made.wait_said("the sensor is gone")  # and what to do, on the page of devices
+    made.wait_said("the sensor is disconnected")  # and what to do, on the page of devices
     made.wait_said("plug it in again")
     made.page(Step.GRAVITY)
     with emulator("sri", "tcp", port=port, rate=200.0):
@@ -87,7 +87,7 @@ def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
         before = made.window.bench.live.samples  # the line was read before the recording began
         made.wait(lambda: made.window.bench.live.samples > before + 150)
-    made.wait_said("sensor", "goes on when it is back")
+    made.wait_said("sensor", "resumes automatically")
     click(made, page.second)  # nobody has to wait for it
     made.wait(lambda: page.run.phase is Phase.IDLE)
     (kept,) = [each for each in made.window.bench.desk.state.inputs if each.name == "gravity-1.mcap"]
@@ -111,8 +111,8 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
         page.tabs.setCurrentIndex(3)
         click(made, page.bar.primary)
         made.wait(lambda: page.work.going_on)
-    made.wait_said("sensor", "goes on when it is back")
-    assert "goes on when it is back" in page.bar.words
+    made.wait_said("sensor", "resumes automatically")
+    assert "resumes automatically" in page.bar.words
     assert made.alive()
     click(made, page.bar.primary)
     made.wait(lambda: not page.work.going_on)
@@ -132,7 +132,7 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
         ("sri+tcp:/127.0.0.1", "://"),
         ("nonsense", "://"),
         ("sri+tcp://127.0.0.1:99999", "port"),
-        ("ur+tcp://1.2.3.4", "no force/torque sensor"),
+        ("ur+tcp://1.2.3.4", "not a force/torque sensor"),
     ],
 )
 def test_a_wrong_address_cannot_be_used_and_says_why(made, tmp_path, address, words):
@@ -149,7 +149,9 @@ def test_nobody_there_is_waited_for_in_words(made, tmp_path, way):
     page = made.page(Step.DEVICES)
     typed(page, "sri+tcp://127.0.0.1:1" if way == "nobody" else f"sri+serial://{tmp_path}/ttyNone")
     click(made, page.use_button)
-    made.wait(lambda: any(words in page.trial._findings.text() for words in ("does not answer", "is gone")))
+    made.wait(
+        lambda: any(words in page.trial._findings.text() for words in ("does not respond", "is disconnected"))
+    )
     assert made.alive()
     made.page(Step.GRAVITY)
     assert not made.unexpected

@@ -284,7 +284,7 @@ def test_a_session_that_vanishes_while_it_is_open(made, ready, tmp_path):
         made.page(step)
     made.idle()
     made.window.bench.do("Noting", lambda session: session.note("n"))
-    made.wait_said("open the session again")
+    made.wait_said("reload the session")
     assert made.alive()
     assert not made.unexpected
     close(made)

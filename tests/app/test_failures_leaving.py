@@ -58,7 +58,7 @@ def test_not_closed_after_all(made, tmp_path):
     page = record_gravity(made)
     departure = made.window.departure
     quit_by_key(made)
-    assert "being recorded" in departure.question.text()
+    assert "Recording a" in departure.question.text()
     assert departure.wait is None  # a recording does not end by itself
     quit_by_key(made)  # asked once
     answer(made, departure.stay)
@@ -97,7 +97,7 @@ def test_waited_for_it_is_closed_when_the_work_is_done(made, tmp_path):
     stages.worker.start("Working", lambda _progress, _cancelled: may_end.wait(60), ended.append)
     quit_by_key(made)
     departure = made.window.departure
-    assert "being prepared" in departure.question.text()
+    assert "Preparing the probe" in departure.question.text()
     answer(made, departure.wait)
     made.wait(lambda: departure.waiting)
     assert made.alive()  # meanwhile it can be used

@@ -99,7 +99,7 @@ def test_a_verification_that_fails_says_what_to_do_and_is_not_exported(made, ses
         session.set_parameter("config.rate", 200.0)
     made.open(folder)
     sentence = wait_state(made, Step.VERIFY, StepState.FAILED)
-    assert "9.9 mm" in sentence or "not pass" in sentence.lower()
+    assert "9.9 mm" in sentence or "not passed" in sentence.lower()
     page = made.page(Step.VERIFY)
     made.wait(lambda: page.work.outcome is not None)
     assert (

@@ -106,7 +106,7 @@ def test_a_file_that_was_damaged_before_it_was_opened(made, verified, tmp_path):
     file.write_bytes(content)
     made.open(folder)
     sentence = wait_red(made, Step.GRAVITY, Step.VERIFY, Step.EXPORT)
-    assert "another content" in sentence
+    assert "does not match the journal" in sentence
     assert not made.unexpected
 
 

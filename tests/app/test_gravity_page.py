@@ -207,7 +207,7 @@ def test_findings_are_told_while_another_page_is_shown(window):
     w.start()
     w.page.leave()
     found = GravityFinding(
-        "rejected pose 2", "Pose 2: bumped. Take it again, or go on with 3 poses.", leave_out=(1,)
+        "rejected pose 2", "Pose 2: bumped. Retake it, or continue with 3 poses.", leave_out=(1,)
     )
     run.work._solved = Solved(None, None, (found,))
     w.page.watch()  # as the window calls it for all pages; the page is not ticked
@@ -244,7 +244,7 @@ def test_stopping_keeps_the_recording(window):
     w.until(lambda: w.page.primary.text() == "Continue gravity-1.mcap", steps=0)
     w.press(w.page.primary)  # there is no still pose in it
     w.until(lambda: bool(w.page.run.problem), steps=0)
-    assert "hold more of them still" in w.page.panel.problem.text
+    assert "hold more poses still" in w.page.panel.problem.text
 
 
 def test_without_devices_or_poses_it_says_what_to_choose(window):
@@ -269,7 +269,7 @@ def test_unplugging_is_said_and_captures_go_on(window):
         assert w.page.panel.state.word == "no samples"
         w.until(lambda: w.page.panel.state.word != "no samples")
     w.until(lambda: w.page.panel.state.word == "no samples")
-    w.until(lambda: any("goes on when it is back" in words for words in w.said()))
+    w.until(lambda: any("resumes automatically" in words for words in w.said()))
     with emulator("sri", "tcp", port=port, rate=200.0):
         w.until(lambda: w.page.panel.state.word != "no samples")
         w.until(lambda: any("samples again" in words for words in w.said()))

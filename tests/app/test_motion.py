@@ -52,7 +52,7 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     assert not controls.start.isEnabled()
     qtbot.waitUntil(lambda: controls.state.text() == "In contact", timeout=LONG_MS)
     qtbot.waitUntil(lambda: window.run.newest.force_N > 2.0, timeout=LONG_MS)
-    qtbot.waitUntil(lambda: "it touches" in controls.happened.text(), timeout=LONG_MS)
+    qtbot.waitUntil(lambda: "in contact" in controls.happened.text(), timeout=LONG_MS)
     assert controls.force.text().endswith("N")
     # Phantom and arrow come.
     qtbot.waitUntil(lambda: np.abs(scene.picture().astype(int) - before).max() > 50, timeout=LONG_MS)
@@ -61,7 +61,7 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     qtbot.waitUntil(lambda: not window.run.running and controls.start.isEnabled(), timeout=LONG_MS)
     assert controls.state.text() == "Ended"
     assert controls.force.text() == "–"
-    assert "never tracked" in controls.said
+    assert "never started tracking" in controls.said
     use_theme("dark")  # while something is shown
     use_theme("light")
 

@@ -118,7 +118,7 @@ def read_only(qtbot, window, words):
         window.show_step(step)
         assert not window.docks.pages.currentWidget().isEnabled()
     window.bench.do("Noting", lambda session: session.note("n"))
-    qtbot.waitUntil(lambda: any("reading only" in text for text in window.messages.texts()), timeout=10_000)
+    qtbot.waitUntil(lambda: any("read-only" in text for text in window.messages.texts()), timeout=10_000)
     with qtbot.waitSignal(window.gone, timeout=30_000):
         window.close_session()
     qtbot.waitUntil(lambda: lines() == [], timeout=10_000)

@@ -374,9 +374,7 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
         for name in ("write", "fsync"):
             full.setattr(os, name, refuses)
         window.bench.do("Noting", lambda session: session.note("lost"))
-        qtbot.waitUntil(
-            lambda: any("the session goes on by itself" in text for text in texts()), timeout=LONG
-        )
+        qtbot.waitUntil(lambda: any("resumes automatically" in text for text in texts()), timeout=LONG)
         times = len(tried)
         qtbot.waitUntil(lambda: len(tried) > times + 1, timeout=LONG)  # it goes on trying
         assert window.bench.desk.refuses
@@ -385,5 +383,5 @@ def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened,
         timeout=LONG,
     )
     assert not window.bench.desk.refuses
-    assert sum("the session goes on by itself" in text for text in texts()) == 1
+    assert sum("resumes automatically" in text for text in texts()) == 1
     window.bench.desk.do(lambda session: session.note("again")).result(10)

@@ -26,11 +26,11 @@ TOLD = {
     "rib x12": ("t-shape", ""),
     "sliding over ribs": ("t-shape", ""),
     "creep": ("convex", ""),
-    "edge": ("linear", "no tissue asks for that"),
+    "edge": ("linear", "more than any tissue requires"),
     "bubble": ("convex", "the tissue was lost"),
     "cough": ("convex", ""),
     "sensor frozen in the press": ("linear", "hold: the sensor is stuck"),
-    "poses 100 ms late": ("t-shape", "ms late: where it is cannot be known"),
+    "poses 100 ms late": ("t-shape", "ms late, so the position is unknown"),
 }
 
 

@@ -123,7 +123,7 @@ def test_every_stop_is_captured_or_told(seed: int, dwell: float, bumps: float) -
         assert made.t[each.start_index] == pytest.approx(each.start)
         assert made.t[each.stop_index - 1] == pytest.approx(each.stop)
     if dwell == 1.2:
-        assert "s only, and it takes 1.5 s after all has settled" in " ".join(found.left_out)
+        assert "s; 1.5 s after settling are needed" in " ".join(found.left_out)
 
 
 def test_a_stop_at_which_nothing_comes_to_rest_is_told(recording: Recording) -> None:
@@ -133,7 +133,7 @@ def test_a_stop_at_which_nothing_comes_to_rest_is_told(recording: Recording) -> 
     shaken[rows, 1] += 5 * np.sin(40 * recording.t[rows])
     work = Capturing()
     work.update(recording.t, shaken, recording.R_WS)
-    told = [sentence for sentence in work.finish().left_out if "did not come to rest: vibration" in sentence]
+    told = [sentence for sentence in work.finish().left_out if "did not settle: vibration" in sentence]
     assert [float(sentence.split()[2]) for sentence in told] == [pytest.approx(dwell.start, abs=0.3)]
 
 
@@ -157,7 +157,7 @@ def test_moving_rows_are_no_poses(recording: Recording, tmp_path: Path, count: i
     result = invoke("calibrate", command, moving, *options)
     assert time.process_time() - begin < 5
     assert result.exit_code == 2
-    assert "stands still nowhere" in str(result.exception) + result.stderr
+    assert "contains no still pose" in str(result.exception) + result.stderr
     assert not (tmp_path / "c.json").exists()
 
 

@@ -43,7 +43,7 @@ def assert_none_named(found: Diagnosis) -> None:
     assert not found.consistent
     assert max(share for key, share in found.odds.items() if key != "none") < SURE
     assert found.sentence.startswith("No single convention mistake explains the data: ")
-    assert f"(odds {in_words(found.odds['none'])} that the cause is another)" in found.sentence
+    assert f"(odds of another cause: {in_words(found.odds['none'])})" in found.sentence
     assert "more poses" not in found.sentence
 
 
@@ -332,7 +332,10 @@ def test_units_keep_data_from_being_called_consistent():
     assert found.best.hypothesis == "as_declared"
     assert not found.consistent
     assert not found.none_known
-    assert "But units are not told without the tool's mass: 0.71 kg as declared, or" in found.sentence
+    assert (
+        "But the units cannot be determined without the tool's mass: 0.71 kg as declared, or"
+        in found.sentence
+    )
     assert diagnose(poses, prior=WEIGHED).consistent
 
 
@@ -340,7 +343,7 @@ def test_residuals_that_may_be_more_than_noise_are_not_consistent():
     poses = held(turned(12), noise=PoseNoise(0.4, 0.02))
     found = diagnose(poses, prior=WEIGHED)
     assert not found.consistent
-    assert "give the noise of the sensor's data sheet" in found.sentence
+    assert "Give the noise from the sensor's data sheet" in found.sentence
 
 
 # ---- noise of the orientations -------------------------------------------------------------------
@@ -368,4 +371,4 @@ def test_residuals_that_chance_refutes_leave_no_cause_probable():
     assert not found.explained
     assert found.none_known
     assert found.odds["none"] > 0.9
-    assert "noise that was given too small" in found.sentence
+    assert "a specified noise that is too small" in found.sentence

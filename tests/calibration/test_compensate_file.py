@@ -245,7 +245,7 @@ def test_a_refused_calibration_makes_a_warning(write):
     assert summary_of(source, calibration).warnings == ()
     refused = replace(calibration, verdict=Verdict(Level.REFUSE, ("Gravity comes out pointing up.",)))
     assert summary_of(source, refused).warnings == (
-        "The calibration was refused, so these wrenches should be too. Gravity comes out pointing up.",
+        "The calibration was refused, so do not trust these wrenches. Gravity comes out pointing up.",
     )
 
 
@@ -267,7 +267,7 @@ REFUSED: dict[str, tuple[str, list[str], Convention | None, str]] = {
         None,
         "line 3: column fz holds nan: .* --allow-nan",
     ),
-    "no-orientation": (QUATERNION, [GOOD[:-1]], None, "line 2: column qz is empty: remove the row, or pass"),
+    "no-orientation": (QUATERNION, [GOOD[:-1]], None, "line 2: column qz is empty: remove the row, or use"),
     "length": (
         QUATERNION,
         [*[GOOD] * 40, HEAD + ",0,0,0,0"],
@@ -347,7 +347,9 @@ def test_allow_nan(write, convention):
     summary = summary_of(source, convention=convention, allow_nan=True)
     assert summary.not_finite == 3
     assert summary.largest_force_N == pytest.approx(np.linalg.norm([float(cell) for cell in found[0][1:4]]))
-    assert summary.warnings == ("Rows with empty or infinite cells: 3 of 4. Read on with --allow-nan.",)
+    assert summary.warnings == (
+        "3 of 4 rows have empty or infinite cells; they were passed through (--allow-nan).",
+    )
 
 
 def test_the_largest_numbers_there_are(write):
@@ -360,7 +362,9 @@ def test_output_must_not_be_the_input(write, tmp_path):
     link = tmp_path / "link.csv"
     link.symlink_to(source)
     for out in (source, tmp_path / "." / source.name, link):
-        with pytest.raises(WrenchFileError, match="the output would replace the input: choose another name"):
+        with pytest.raises(
+            WrenchFileError, match="the output would overwrite the input: choose another name"
+        ):
             compensate_file(MODEL, source, out)
     assert source.read_text(encoding="utf-8") == f"{QUATERNION}\n{GOOD}\n"
 

@@ -42,16 +42,21 @@ def test_what_is_known_of_loads_decides_on_signs():
     assert found.tied == ("gravity_along_+z",)
     assert found.best.log_likelihood == pytest.approx(found.finding("as_declared").log_likelihood, abs=1e-3)
     assert (
-        "do not tell, but as declared gravity would point 179° away from down, so read 1°" in found.sentence
+        "do not decide it, but as declared gravity would point 179° away from down; read this way, 1°"
+        in found.sentence
     )
-    assert found.sentence.startswith("Possibly the forces and torques have the wrong sign, as a sensor that")
+    assert found.sentence.startswith(
+        "Possibly the forces and torques have the wrong sign, as with a sensor that"
+    )
     assert (
-        "Not told apart from: gravity along +z of the world. Press the tool with a finger" in found.sentence
+        "Cannot be distinguished from: gravity along +z of the world. Press the tool with a finger"
+        in found.sentence
     )
     found = diagnose(scaled(truth, 1, -1), NOISE)
     assert found.tied == ("tool_behind",)
     assert (
-        "would lie 70 mm on the other side of the sensor, so read 70 mm on the tool's side" in found.sentence
+        "would lie 70 mm on the other side of the sensor; read this way, 70 mm on the tool's side"
+        in found.sentence
     )
 
 
@@ -78,7 +83,9 @@ def test_a_sign_that_nothing_decides():
     assert found.consistent
     assert found.decided_by == "nothing"
     assert found.tied == ("torque_negated", "mx_negated")  # its mx never changes
-    assert "Not told apart from: torques with the wrong sign; mx with the wrong sign." in found.sentence
+    assert (
+        "Cannot be distinguished from: torques with the wrong sign; mx with the wrong sign." in found.sentence
+    )
 
 
 def test_without_noise_units_are_told_by_what_they_make_of_the_load():
@@ -87,7 +94,7 @@ def test_without_noise_units_are_told_by_what_they_make_of_the_load():
     assert found.best.hypothesis == "torque_Nmm"
     assert found.explained
     assert "the centre of mass lies within the tool" in found.decided_by
-    assert "would lie 70 m from the sensor, so read 70 mm" in found.sentence
+    assert "would lie 70 m from the sensor; read this way, 70 mm" in found.sentence
     likelihoods = [found.finding(key).log_likelihood for key in ("as_declared", *FACTORS)]
     np.testing.assert_allclose(likelihoods, likelihoods[0], atol=0.01)
     residuals = [found.finding(key).residual for key in ("as_declared", *FACTORS)]
@@ -99,7 +106,7 @@ def test_the_length_of_the_tool_tells_kilograms_from_newtons():
     found = diagnose(poses)
     assert "force_kgf" in {found.best.hypothesis, *found.tied}  # or in pounds: as plausible without the mass
     assert not found.consistent
-    assert "as declared the centre of mass would lie 684 mm from the sensor, so read" in found.sentence
+    assert "as declared the centre of mass would lie 684 mm from the sensor; read this way" in found.sentence
     assert max(found.odds.values()) < 0.75
     assert diagnose(poses, prior=Prior(mass=LOAD.mass)).best.hypothesis == "force_kgf"
 
@@ -132,7 +139,7 @@ def test_noise_that_was_estimated_from_the_poses_is_not_known():
 def test_a_verdict_that_rests_on_the_noise_says_so():
     found = diagnose(held(turned()), PoseNoise(0.5, 0.02))
     assert found.best.hypothesis == "force_kgf_torque_kgfm"
-    assert "Or the noise that was given is" in found.sentence
+    assert "Or the specified noise is" in found.sentence
     assert diagnose(held(turned()), PoseNoise(0.5, 0.02), prior=Prior(mass=0.71)).best.hypothesis == (
         "as_declared"
     )
@@ -147,11 +154,11 @@ def test_orders_that_make_no_difference_are_tied():
     assert {found.best.hypothesis, *found.tied} >= same
     assert found.decided_by == "nothing"
     assert found.explained
-    assert "Not told apart from: Euler angles" in found.sentence
+    assert "Cannot be distinguished from: Euler angles" in found.sentence
     declared = diagnose(truth, NOISE)
     assert declared.consistent
     assert not declared.tied
-    assert any("are the same as declared and as" in sentence for sentence in declared.not_testable)
+    assert any("fit equally well as declared and as" in sentence for sentence in declared.not_testable)
 
 
 # ---- bumps ---------------------------------------------------------------------------------------
@@ -197,7 +204,7 @@ def test_a_bump_beside_a_re_zero_leaves_its_moment_open():
     poses = pushed(pushed(held(turned(12)), *range(6, 12)), 5, force=(-3, 2, 4))
     found = diagnose(poses, NOISE)
     assert {found.best.hypothesis, *found.tied} == {"rezero_before_6", "rezero_before_7"}
-    assert "It may as well have been before pose" in found.sentence
+    assert "It may equally have been before pose" in found.sentence
 
 
 # ---- what nothing explains -----------------------------------------------------------------------
@@ -218,10 +225,10 @@ def test_the_first_of_two_mistakes_says_that_there_is_a_second():
     truth = held(turned())
     found = diagnose(transposed(scaled(truth, -1, -1)), NOISE)
     assert found.best.hypothesis == "transposed"
-    assert "But then gravity points 179° away from down: mend this, then check again" in found.sentence
+    assert "But then gravity points 179° away from down. Correct this, then check again" in found.sentence
     assert diagnose(found.corrected("transposed"), NOISE).best.hypothesis == "wrench_negated"
     found = diagnose(transposed(scaled(truth, 1, -1)), NOISE)
-    assert "the centre of mass lies 70 mm on the other side of the sensor: mend" in found.sentence
+    assert "the centre of mass lies 70 mm on the other side of the sensor. Correct this" in found.sentence
     found = diagnose(transposed(truth), NOISE, prior=Prior(mass=2.0))
     assert "But then the mass comes out as 0.72 kg where 2 kg was weighed: mend" in found.sentence
     assert "But then" not in diagnose(transposed(truth), NOISE).sentence
@@ -243,7 +250,7 @@ def test_unexplained_data_that_fit_best_as_they_are():
 )
 def test_poses_that_tell_nothing(R_WS, words):
     found = diagnose(held(R_WS), NOISE)
-    assert found.sentence.startswith("As far as these poses tell")
+    assert found.sentence.startswith("These poses show no inconsistency")
     assert words in found.sentence
     assert found.decided_by == "nothing"
 
@@ -258,10 +265,10 @@ def test_a_load_that_is_not_what_was_said():
     tilted = GravityModel([3.0, 0.0, -6.0], LOAD.force_bias, LOAD.centre_of_mass_S, LOAD.torque_bias)
     found = diagnose(held(turned(), tilted), NOISE)
     assert found.consistent
-    assert "But gravity points 26° away from down: check what was said of the tool" in found.sentence
+    assert "But gravity points 26° away from down. Check what was declared about the tool" in found.sentence
     found = diagnose(held(turned()), NOISE, prior=Prior(mass=1.0))
     assert found.consistent
-    assert "But the mass comes out as 0.72 kg where 1 kg was weighed: check" in found.sentence
+    assert "But the mass comes out as 0.72 kg where 1 kg was weighed. Check" in found.sentence
     assert "But" not in diagnose(held(turned()), NOISE).sentence
 
 
@@ -326,7 +333,7 @@ def test_raw_numbers_of_the_wrong_shape(values):
 
 def test_a_hypothesis_that_does_not_exist():
     found = diagnose(held(turned()), NOISE)
-    with pytest.raises(InputError, match="no hypothesis 'mirrored'; those that were tested: as_declared, "):
+    with pytest.raises(InputError, match=r"no hypothesis 'mirrored'\. Tested: as_declared, "):
         found.corrected("mirrored")
 
 

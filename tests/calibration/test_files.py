@@ -233,11 +233,11 @@ def test_what_cannot_be_saved(good, tmp_path):
         (replace(good, contact_error=float("nan")), "this calibration cannot be written"),
         (replace(good, contact_error=-1.0), "contact_error_m is too small: use the file"),
         (replace(good, poses=(named, *good.poses[1:])), "this calibration cannot be written"),
-        (replace(good, poses=good.poses[::-1]), r"poses\[\d\]: its residual is not its reading minus"),
+        (replace(good, poses=good.poses[::-1]), r"poses\[\d\]: the residual is not the reading minus"),
     ):
         with pytest.raises(CalibrationFileError, match=message):
             save_calibration(wrong, file)
-    with pytest.raises(CalibrationFileError, match="created: the time has no zone"):
+    with pytest.raises(CalibrationFileError, match="created has no time zone"):
         save_calibration(good, file, created=datetime(2026, 1, 1))
     with pytest.raises(CalibrationFileError, match=r"nowhere\.csv: the file cannot be read"):
         save_calibration(good, file, source=tmp_path / "nowhere.csv")
@@ -291,21 +291,21 @@ WRONG = {
     "nan": ("noise.force_N[0]", float("nan"), "noise.force_N[0] is not a finite number"),
     "inf": ("task.force_N", float("-inf"), "task.force_N is not a finite number"),
     "huge": ("poses[0].torque_Nm[2]", 1e200, "poses[0].torque_Nm[2] is too large"),
-    "extra": ("poses[4].colour", "red", "poses[4].colour is not known here"),
+    "extra": ("poses[4].colour", "red", "poses[4].colour is not a known field"),
     "mass": ("mass_kg", 0.5, "mass_kg is 0.5, but gravity_W_N over 9.80665 m/s² is 0.6"),
     "gravity": ("gravity_W_N", [0.0, 0.0, -6.0], "mass_kg is 0.6"),
     "bias": (
         "force_bias_N[0]",
         0.0,
-        "poses[0]: its residual is not its reading minus what the parameters predict",
+        "poses[0]: the residual is not the reading minus the prediction",
     ),
-    "reading": ("poses[7].torque_Nm[1]", 0.0, "poses[7]: its residual is not"),
+    "reading": ("poses[7].torque_Nm[1]", 0.0, "poses[7]: the residual is not"),
     "asymmetric": ("covariance[0][1]", 1.0, "covariance: the matrix is not symmetric"),
     "indefinite": ("covariance[5][5]", -1.0, "covariance: the matrix is not"),
     "no-rotation": (
         "poses[1].R_WS[0]",
         [0.0, 0.0, 0.0],
-        'poses[1]: pose "1", Prüfstand ☃: R_WS is no rotation',
+        'poses[1]: pose "1", Prüfstand ☃: R_WS is not a rotation',
     ),
     "noise": ("noise.torque_Nm", [0.1, 0.2], "noise: PoseNoise.torque: give one or three finite numbers"),
     "no-noise": (
@@ -323,23 +323,23 @@ WRONG = {
     "condition": ("observability.condition", None, "observability.condition does not fit the other fields"),
     "rejected": ("rejected[0].index", 10, "rejected does not fit the other fields"),
     "sha": ("source", {"name": "a", "sha256": "12"}, "source.sha256 string should match pattern"),
-    "created": ("created", "2026-02-31T00:00:00Z", "created is no time (day is out of range"),
+    "created": ("created", "2026-02-31T00:00:00Z", "created is not a time (day is out of range"),
     "zone": ("created", "2026-02-01T00:00:00+01:00", "created string should match pattern"),
     "poses": ("poses", [], "poses list should have at least 3 items"),
     "schema": (
         "schema",
         "contactbench.session",
-        "the schema is 'contactbench.session', not 'contactbench.calib",
+        "the schema is 'contactbench.session'; expected 'contactbench.calib",
     ),
     "no-schema": (
         "schema",
         1,
-        "there is no schema, not 'contactbench.calibration': choose a calibration file",
+        "the schema is missing; expected 'contactbench.calibration': choose a calibration file",
     ),
     "newer": (
         "version",
         3,
-        "this file was written by a newer contactbench (its version is above 2): update contact",
+        "written by a newer contactbench (version above 2): update contact",
     ),
     "older": ("version", 0, "version should be 2"),
     "version": ("version", "2", "version should be 2"),
@@ -378,15 +378,15 @@ def test_no_field_may_be_missing(content, tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "this is not JSON (EOF"),
-        ("{", "this is not JSON"),
-        ("[" * 100_000, "this is not JSON (recursion limit exceeded"),
-        ("t,fx,fy\n1,2,3\n", "this is not JSON"),
-        ("[]", "there is no schema"),
-        ("null", "there is no schema"),
+        ("", "not valid JSON (EOF"),
+        ("{", "not valid JSON"),
+        ("[" * 100_000, "not valid JSON (recursion limit exceeded"),
+        ("t,fx,fy\n1,2,3\n", "not valid JSON"),
+        ("[]", "the schema is missing"),
+        ("null", "the schema is missing"),
         (
             '{"schema": "contactbench.calibration", "version": 1' + "0" * 4000 + "}",
-            "this file was written by a newer",
+            "written by a newer",
         ),
         ('{"schema": "contactbench.calibration", "version": 1}', "tool is missing"),
     ],
@@ -404,7 +404,7 @@ def test_files_that_cannot_be_read(tmp_path, monkeypatch, good):
     with pytest.raises(CalibrationFileError, match="the file cannot be read"):
         load_calibration(Path("a\0b"))
     (tmp_path / "binary.json").write_bytes(bytes(range(256)))
-    with pytest.raises(CalibrationFileError, match="this is not JSON"):
+    with pytest.raises(CalibrationFileError, match="not valid JSON"):
         load_calibration(tmp_path / "binary.json")
     file = saved(good, tmp_path)
     monkeypatch.setattr(files_module, "SIZE_LIMIT", 2**20 - 1)

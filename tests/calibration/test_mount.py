@@ -222,7 +222,7 @@ def test_the_same_poses_give_the_same_answer():
 @pytest.mark.parametrize("known", [True, False])
 @pytest.mark.parametrize(
     ("poses", "word"),
-    [(one_axis, "about one axis"), (spun, "same direction in the flange"), (alike, "too much alike")],
+    [(one_axis, "about one axis"), (spun, "same direction in the flange"), (alike, "too similar")],
 )
 def test_poses_that_cannot_show_the_mount_are_refused(poses, word, known):
     rng = np.random.default_rng(21)
@@ -273,7 +273,7 @@ def test_a_light_load_has_a_rotation_too_uncertain_to_use():
     result = case.estimate()
     assert refused(result)
     assert result.rotation_sigma_deg > 10
-    assert f"known to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
+    assert f"known only to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
 
 
 def test_the_axis_that_is_not_seen_is_named_in_the_flange():
@@ -425,7 +425,7 @@ def test_a_fair_rotation_is_usable_and_says_how_fair():
     result = case.estimate(limits=Limits(good_error=1.0, usable_error=1.0))
     assert 2 < result.rotation_sigma_deg < 10
     assert result.calibration.verdict.level is Level.USABLE
-    assert f"known to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
+    assert f"known only to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
     good = set_up(rng, case.R_WE, mass=2.0)
     good.wrenches = good.model.predict(good.R_WE @ good.R_SE.T)
     assert good.estimate().calibration.verdict.level is Level.GOOD

@@ -152,7 +152,7 @@ def test_joints_out_of_their_limits_name_their_row(robot):
     with pytest.raises(RowError, match=r"^row 2: joint J3 is at 3\.0000 rad") as error:
         rotations(q, Convention(Kind.JOINTS, robot=robot.description.name, degrees=False))
     assert error.value.row == 1
-    with pytest.raises(RowError, match="are these degrees"):
+    with pytest.raises(RowError, match="check whether these are degrees"):
         rotations(np.full((1, 6), 45.0), Convention(Kind.JOINTS, robot="elfin3", degrees=False))
 
 

@@ -116,20 +116,20 @@ REFUSED: dict[str, tuple[str, list[str], Convention | None, str]] = {
         ANGLES,
         [f"1,2,3,{READ}"],
         None,
-        "line 1: columns rx, ry, rz alone do not say which orientation they mean: pass --euler ORDER",
+        "line 1: columns rx, ry, rz alone do not define the orientation: pass --euler ORDER",
     ),
     "joints": (JOINTS, [f"1,2,3,4,5,6,{READ}"], None, "pass --robot NAME .* j1 to j6 (known: elfin3)."),
     "several": (
         f"qw,qx,qy,qz,{ANGLES}",
         [f"1,0,0,0,1,2,3,{READ}"],
         None,
-        "orientations are there as quaternions and as angles: say which .* or rename these columns to use qw",
+        "orientations are given as quaternions and as angles: choose one. .* or rename these columns to use qw",
     ),
     "two-kinds": (
         f"j1,j2,j3,j4,j5,j6,{ANGLES}",
         ["1,2,3,4,5,6,1,2,3," + READ],
         None,
-        "as angles and as joints: say which to use. Pass --euler ORDER .* or --robot NAME .*elfin3).$",
+        "as angles and as joints: choose one. Pass --euler ORDER .* or --robot NAME .*elfin3).$",
     ),
     "no-orientation": (WRENCH, [READ], None, "columns qw, qx, qy, qz missing; found: fx.* qw,qx,qy,qz,fx"),
     "other-convention": (QUATERNION, [GOOD], EULER, "columns rx, ry, rz missing; .* Name the columns rx,ry"),
@@ -225,7 +225,7 @@ def test_a_recording_is_no_list_of_poses():
 def test_samples_are_no_poses():
     rows = [f"{0.005 * number},{GOOD}" for number in range(60)]
     with pytest.raises(
-        PoseFileError, match=r"a recording, 60 rows 5 ms apart, .* contactbench calibrate captures"
+        PoseFileError, match=r"a recording \(60 rows, 5 ms apart\), .* contactbench calibrate captures"
     ):
         read(f"t,{QUATERNION}", *rows)
     assert len(read(f"t,{QUATERNION}", *[f"0,{GOOD}"] * 60).poses) == 60  # a column of zeros is no time
@@ -263,10 +263,10 @@ def test_a_large_bias_is_no_wrong_unit():
 
 def test_equal_orientations_and_repeated_rows():
     other = f"0.99999999,0.0001,0,0,{READ.replace('-5', '-5.1')}"
-    assert "the same orientation, within half a degree. Turn the wrist" in warnings_of(GOOD, other)
+    assert "the same orientation to within half a degree. Turn the wrist" in warnings_of(GOOD, other)
     turned = f"0,1,0,0,{READ}"
     found = warnings_of(GOOD, turned, "", GOOD, turned)
-    assert "repeat an earlier one to the last digit: 2, first line 5, which repeats line 2." in found
+    assert "repeat an earlier row exactly: 2; the first is line 5, which repeats line 2." in found
     assert "orientation" not in found
 
 
@@ -287,17 +287,21 @@ def timed(times, names=None):
         ([0, 20, 40, 60, 80], None, ""),
         ([80, 60, 40, 20, 0], None, ""),
         (["", 20, 40, "", 80], None, ""),
-        ([0, 60, 40, 20, 80], None, "times in column t do not rise at lines 3, 5: if two rows are swapped"),
+        (
+            [0, 60, 40, 20, 80],
+            None,
+            "times in column t do not increase at lines 3, 5: if two rows are swapped",
+        ),
         (
             [20, 40, 60, 80, 0],
             None,
-            "times in column t do not rise at lines 2, 3, 4, 5, 6: if rows were moved",
+            "times in column t do not increase at lines 2, 3, 4, 5, 6: if rows were moved",
         ),
-        ([0, 0.01, 0.02, 0.03, 0.04], None, "poses are 10 ms apart, and a pose takes a second: write t in s"),
+        ([0, 0.01, 0.02, 0.03, 0.04], None, "poses are 10 ms apart, but a pose takes a second: write t in s"),
         (
             [0, 20, 40, 60, 80],
             ["p1", "p3", "p2", "p4", "p5"],
-            "numbers in column name do not rise at lines 3, 4",
+            "numbers in column name do not increase at lines 3, 4",
         ),
         ([0, 20, 40, 60, 80], ["up", "left 2", "left 1", "down", "right"], ""),
     ],
@@ -310,7 +314,7 @@ def test_rows_out_of_order(times, names, doubt):
 
 def test_a_copied_reading():
     found = warnings_of(f"0,1,0,0,{READ}", GOOD, f"0,0,1,0,{READ.replace('-5', '-4')}")
-    assert "Lines 2 and 3 have the same reading to the last digit, though the sensor is turned" in found
+    assert "Lines 2 and 3 have exactly the same reading although the sensor was turned" in found
     assert "same reading" not in warnings_of(GOOD, GOOD, f"0,0,1,0,{READ.replace('-5', '-4')}")
 
 

@@ -232,7 +232,7 @@ def test_states_follow_a_pose():
     assert dwell.settled < t < dwell.settled + 2.5
     assert state.state is StillState.STILL
     assert "Captured" in state.sentence
-    assert "cannot be seen" in state.sentence  # a touch, without a model
+    assert "cannot be detected" in state.sentence  # a touch, without a model
     assert state.sd == pytest.approx(WHITE, rel=0.3)
     assert (np.abs(state.slope) < 4 * state.slope_sigma).all()
 
@@ -396,7 +396,7 @@ def test_to_pose():
     (capture,) = find_captures(t, w).captures
     with pytest.raises(InputError, match="give R_WS"):
         capture.to_pose()
-    with pytest.raises(PoseError, match="no rotation"):
+    with pytest.raises(PoseError, match="not a rotation"):
         capture.to_pose(2 * np.eye(3))
     pose = capture.to_pose(np.eye(3), "up", 25.0)
     assert (pose.name, pose.temperature, pose.count) == ("up", 25.0, capture.count)
@@ -450,7 +450,7 @@ def test_wrong_samples():
         detector.update(0.0, np.zeros(6), np.zeros(3))
     detector.update(1.0, np.zeros(6))
     for t in (0.5, np.nan, np.inf):
-        with pytest.raises(InputError, match="backwards"):
+        with pytest.raises(InputError, match="must not decrease"):
             detector.update(t, np.zeros(6))
     t, w = still(1.0)
     with pytest.raises(InputError, match="rows of six"):
@@ -461,5 +461,5 @@ def test_wrong_samples():
         find_captures(t[::-1], w)
     with pytest.raises(InputError, match="rate_hz"):
         StillnessDetector(0.0)
-    with pytest.raises(InputError, match="are the times in s"):
+    with pytest.raises(InputError, match="check that the times are in s"):
         find_captures(1e3 * still(10.0)[0], still(10.0)[1])

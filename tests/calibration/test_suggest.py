@@ -201,7 +201,7 @@ def test_a_pose_behind_a_wall_is_not_suggested(hand):
     blocked = np.argsort(errors)[:50]
     chosen = at(suggest_pose(calibration, behind_wall(hand, blocked)).R_WS, hand)
     assert chosen == np.argsort(errors)[50]
-    with pytest.raises(InputError, match="no candidate can be reached by a straight joint move"):
+    with pytest.raises(InputError, match="no candidate can be reached from here by a straight joint move"):
         suggest_pose(calibration, behind_wall(hand, np.arange(len(hand))))
 
 
@@ -396,10 +396,10 @@ def test_orientations_by_hand_that_make_no_sense_are_refused(wrong, said):
         ((0, 0, 30), ["sensor z straight up"]),
         (
             (120, 0, 0),
-            ["z 60° from straight down", "towards 270°", "-y axis lowest (30° from straight down)"],
+            ["z 60° from straight down", "bearing 270°", "-y axis lowest (30° from straight down)"],
         ),
-        ((0, 90, 0), ["z 90° from straight down", "towards 0°", "+x axis lowest (0° from straight down)"]),
-        ((-150, 0, 0), ["z 30° from straight down", "towards 90°", "+z axis lowest (30°"]),
+        ((0, 90, 0), ["z 90° from straight down", "bearing 0°", "+x axis lowest (0° from straight down)"]),
+        ((-150, 0, 0), ["z 30° from straight down", "bearing 90°", "+z axis lowest (30°"]),
     ],
 )
 def test_orientations_in_words(turn, words):

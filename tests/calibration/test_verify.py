@@ -62,7 +62,7 @@ def test_a_good_calibration_passes():
     verification = verify_still(calibrated(rng), poses(rng, 5))
     assert verification.passed
     assert verification.verdict.level is Level.GOOD
-    assert "0.5 mm rms is the limit for good" in verification.verdict.reasons[0]
+    assert "the limit for good is 0.5 mm rms. No action needed." in verification.verdict.reasons[0]
     assert verification.freedom == 30
     assert verification.deviates.shape == (5,)
     assert verification.contact_errors.shape == (5, len(ContactTask().forces))

@@ -67,9 +67,9 @@ def test_no_file_that_is_there_is_written_over(tmp_path):
     taken.write_text("mine", encoding="utf-8")
     out = tmp_path / "a.mcap"
     for truth, message in (
-        (script, "it exists"),
-        (taken, "it exists"),
-        (out, "cannot be one file"),
+        (script, "this file exists"),
+        (taken, "this file exists"),
+        (out, "need different files"),
         (tmp_path / "no/t.csv", "there is no folder"),
     ):
         result = invoke("run", script, "--out", out, "--truth", truth)
@@ -122,8 +122,8 @@ def test_serve_says_its_addresses_obeys_and_ends():
             process.stdin.flush()
         answers = [json.loads(process.stdout.readline()) for _ in range(3)]
         assert answers[0]["until"] - answers[0]["at"] > 0.4
-        assert "one of marker" in answers[1]["error"]
-        assert "no JSON" in answers[2]["error"]
+        assert "either marker" in answers[1]["error"]
+        assert "not valid JSON" in answers[2]["error"]
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=20)
         assert process.returncode == 0, errors

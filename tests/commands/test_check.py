@@ -129,7 +129,7 @@ def test_three_percent_less_fails(folder: Path) -> None:
 def test_an_unknown_weight_cannot_tell(folder: Path) -> None:
     result = weigh(folder, "--mass-sigma", 0.15)
     assert result.exit_code == 1
-    assert "UNDECIDED: The check cannot tell." in said(result)
+    assert "UNDECIDED: The check is inconclusive." in said(result)
 
 
 def test_a_refused_calibration_is_said(folder: Path, tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_a_refused_calibration_is_said(folder: Path, tmp_path: Path) -> None:
         (("--euler", "xyz"), "rx"),
         (("--euler", "xyz", "--rotation-vector"), "contradict each other"),
         (("--mount", "1,2"), "--mount needs 3"),
-        (("--out", "weight.txt"), "ends in .json"),
+        (("--out", "weight.txt"), "must end in .json"),
     ],
 )
 def test_wrong_input_of_a_weight_ends_with_2_and_a_remedy(folder: Path, more: Any, words: str) -> None:
@@ -162,7 +162,7 @@ def test_wrong_input_of_a_weight_ends_with_2_and_a_remedy(folder: Path, more: An
 def test_an_input_is_not_overwritten(folder: Path) -> None:
     result = weigh(folder, "--out", folder / "c.json")
     assert result.exit_code == 2
-    assert "is an input too" in said(result)
+    assert "is also an input" in said(result)
 
 
 # ---- touch ---------------------------------------------------------------------------------------
@@ -201,7 +201,7 @@ def test_the_point_of_a_marker(folder: Path, tmp_path: Path) -> None:
     [
         (("--point", "0,0"), "--point needs 3"),
         (("--point", "0,0,9000"), "the point"),
-        (("--point", "0,0,0", "--marker", "B"), "say where it was pressed"),
+        (("--point", "0,0,0", "--marker", "B"), "give the pressed point"),
         (("--limit", 0), "--limit: Input should be greater than 0"),
         (("--probe", "missing.ply"), "missing.ply"),
     ],
@@ -258,4 +258,4 @@ def test_a_session_says_what_is_missing(tmp_path: Path) -> None:
         "session", "compute", tmp_path / "s", "known_weight", "known_weight.json", "--set", "mass=1"
     )
     assert result.exit_code == 2
-    assert "there are no calibration in this session" in said(result)
+    assert "this session has no calibration" in said(result)

@@ -52,7 +52,7 @@ def test_giving_up_is_exit_code_one(bundle):
     assert result.exit_code == 1
     facts = json.loads(result.stdout)
     assert facts["ended"] == "safe"
-    assert facts["faults"] == ["it never tracked."]
+    assert facts["faults"] == ["it never started tracking."]
 
 
 @pytest.mark.parametrize(

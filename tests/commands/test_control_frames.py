@@ -39,7 +39,7 @@ def test_each_period_is_a_line_and_the_last_one_says_what_came_of_it(bundle):
 def test_frames_and_json_are_not_both_given(bundle):
     result = CliRunner().invoke(app, arguments(bundle, "--frames", "--json"))
     assert result.exit_code == 2
-    assert "give one of them" in result.stderr
+    assert "cannot be combined" in result.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a pipe there breaks otherwise")

@@ -94,12 +94,12 @@ def test_plans_and_tilts_count_from_down(tmp_path: Path, down: str) -> None:
     ("arguments", "message"),
     [
         ((2,), "a plan has 3 to 60 poses"),
-        ((6, "--robot", "elfin3"), "go together"),
+        ((6, "--robot", "elfin3"), "Give both --robot and --joints"),
         ((6, "--robot", "kuka", "--joints", "0,0,0,0,0,0"), "known: elfin3"),
         ((6, "--robot", "elfin3", "--joints", "0,0,0,0,200,0"), "outside its limits"),
         ((6, "--robot", "elfin3", "--joints", "0,0"), "--joints needs 6"),
         ((6, "--max-tilt", 0), "largest tilt"),
-        ((6, "--mass", 0), "no mass of a tool"),
+        ((6, "--mass", 0), "not the mass of a tool"),
         ((6, "--down", "0,0,0"), "has no direction"),
     ],
 )

@@ -294,7 +294,7 @@ def test_a_replay_that_breaks_off_is_kept_and_told(tmp_path, monkeypatch):
     ("sensor", "pose", "part"),
     [
         ("replay://{0}/none.mcap", None, "no such file"),
-        ("replay://{0}/text.mcap", None, "no MCAP file"),
+        ("replay://{0}/text.mcap", None, "not an MCAP file"),
         ("replay://{0}/poses.mcap?speed=step", None, "no wrenches"),
         ("replay://{0}/wrenches.mcap", "replay://{0}/wrenches.mcap", "no poses"),
         ("replay://{0}/wrenches.mcap", "poses://{0}/none.csv", "no such file"),
@@ -302,7 +302,7 @@ def test_a_replay_that_breaks_off_is_kept_and_told(tmp_path, monkeypatch):
         ("sri+tcp://127.0.0.1", "replay://{0}/poses.mcap", "different clocks"),
         ("sri+tcp://127.0.0.1", "still://", "rpy"),
         ("sri+tcp://127.0.0.1", "still://?robot=hal&joints=1", "hal"),
-        ("still://?rpy=0,0,0", None, "no force/torque sensor"),
+        ("still://?rpy=0,0,0", None, "not a force/torque sensor"),
     ],
 )
 def test_sources_that_do_not_give_it_leave_no_file(tmp_path, sensor, pose, part):

@@ -192,8 +192,8 @@ def test_delay(tmp_path: Path) -> None:
 def test_a_doubtful_delay_is_told(tmp_path: Path) -> None:
     result = invoke("delay", turning(tmp_path / "r.mcap", touched=True), "--json")
     assert result.exit_code == 1
-    assert "was something touched" in json.loads(result.stdout)["doubt"]
-    assert "was something touched" in result.stderr
+    assert "something was touched" in json.loads(result.stdout)["doubt"]
+    assert "something was touched" in result.stderr
 
 
 def test_delay_needs_one_of_each(tmp_path: Path) -> None:
@@ -202,4 +202,4 @@ def test_delay_needs_one_of_each(tmp_path: Path) -> None:
     result = invoke("delay", tmp_path / "r.mcap")
     assert result.exit_code == 2
     shown = " ".join(result.stderr.replace("│", " ").split())
-    assert "one sensor and one robot are needed, and it holds 1 and 0" in shown
+    assert "one sensor and one robot are needed, but it contains 1 and 0" in shown

@@ -140,7 +140,7 @@ def test_boxes_planes_and_floods(mesh: Path) -> None:
     found = done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
     assert found["changed"] == 128
     assert found["regions"][0]["area_mm2"] == pytest.approx(1600)
-    unchanged(mesh, "they are in it already", "flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
+    unchanged(mesh, "they already belong to it", "flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
     assert done("flood", mesh, "Side", "--at", "30,0,0")["changed"] == 128
     # The axes of the box are turned by a quarter: its x is y of S.
     turned = done(
@@ -164,7 +164,7 @@ def test_brush_grow_shrink_and_smooth(mesh: Path) -> None:
     assert 0 < done("shrink", mesh, "Top", "--distance", 2)["regions"][0]["facets"] < grown
     assert done("smooth", mesh, "Top", "--rings", 1)["changed"] > 0
     done("brush", mesh, "Top", *stroke, "--straight")
-    unchanged(mesh, "none of them is in it", "brush", mesh, "Side", *stroke, "--erase")
+    unchanged(mesh, "none of them belongs to it", "brush", mesh, "Side", *stroke, "--erase")
     assert done("brush", mesh, "Top", *stroke, "--straight", "--erase")["changed"] == painted
 
 
@@ -175,19 +175,19 @@ def test_a_selection_that_changes_nothing_says_why_and_writes_nothing(mesh: Path
     for command in (("clear",), ("smooth",), ("grow", "--rings", 1), ("mirror", "--normal", "1,0,0")):
         unchanged(mesh, "the region has no facets", command[0], mesh, "Top", *command[1:])
     done("plane", mesh, "Top", *below)
-    unchanged(mesh, "they are in it already", "plane", mesh, "Top", *below)
+    unchanged(mesh, "they already belong to it", "plane", mesh, "Top", *below)
     unchanged(
         mesh,
-        "they are in it already, or in others, where --protect leaves them",
+        "they already belong to it, or to others, where --protect leaves them",
         "plane",
         mesh,
         "Side",
         *below,
         "--protect",
     )
-    unchanged(mesh, "none of them is in it", "plane", mesh, "Side", *below, "--erase")
-    unchanged(mesh, "the region has that shape already", "smooth", mesh, "Top", "--rings", 1)
-    unchanged(mesh, "they are in it already", "mirror", mesh, "Top", "--normal", "1,0,0")
+    unchanged(mesh, "none of them belongs to it", "plane", mesh, "Side", *below, "--erase")
+    unchanged(mesh, "the region already has that shape", "smooth", mesh, "Top", "--rings", 1)
+    unchanged(mesh, "they already belong to it", "mirror", mesh, "Top", "--normal", "1,0,0")
     # What the list is to be, it is: that is no mistake. Nothing is written either.
     before = mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
     done("rename", mesh, "Top", "Top")
@@ -202,7 +202,7 @@ def test_a_brush_far_from_the_surface_is_refused(mesh: Path) -> None:
         result = invoke("brush", mesh, "Top", "--at", "0,0,20", "--at", far, "--radius", radius)
         assert result.exit_code == 2
         assert f"the point {far.replace(',', ', ')} mm is " in said(result)
-        assert f"mm from the surface, more than {at_most} mm: give one on the surface" in said(result)
+        assert f"mm from the surface, more than {at_most} mm: give a point on the surface" in said(result)
     assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
     assert done("brush", mesh, "Top", "--at", "0,0,22.4", "--radius", 2.5)["changed"] > 0
     assert done("brush", mesh, "Side", "--at", "0,10,20.79", "--radius", 0.1)["changed"] > 0
@@ -311,14 +311,14 @@ def test_steps_are_few_enough_to_be_kept(mesh: Path, monkeypatch: pytest.MonkeyP
     [
         (lambda _: b"", "not a JSON file"),
         (lambda _: b"[]", "does not hold one object"),
-        (lambda data: data.replace(b"region steps", b"region stairs"), "does not hold the steps"),
+        (lambda data: data.replace(b"region steps", b"region stairs"), "does not contain region steps"),
         (
             lambda data: data.replace(b'"version": 1, "files"', b'"version": 2, "files"'),
-            "does not hold the steps",
+            "does not contain region steps",
         ),
         (lambda data: data.replace(b'"text"', b'"txt"', 1), "step 1 of 'done'"),
         (lambda data: data.replace(b'"step": "region"', b'"step": 3', 1), "step 1 of 'done' has no name"),
-        (lambda data: data.replace(b'"undone": []', b'"undone": {}'), "does not hold the steps"),
+        (lambda data: data.replace(b'"undone": []', b'"undone": {}'), "does not contain region steps"),
     ],
 )
 def test_a_file_of_steps_that_is_none_is_refused(mesh: Path, change: Any, message: str) -> None:
@@ -329,7 +329,7 @@ def test_a_file_of_steps_that_is_none_is_refused(mesh: Path, change: Any, messag
         result = invoke(*command)
         assert result.exit_code == 2
         assert message in said(result)
-        assert "Delete it" in said(result)
+        assert "Delete the file" in said(result)
         assert (state(mesh), file.read_bytes()) == before
     assert invoke("list", mesh).exit_code == 0
 
@@ -415,14 +415,14 @@ def test_a_region_that_vanishes_is_exit_code_1(mesh: Path, tmp_path: Path) -> No
         (("box", "{}", "Top", "--low", "0,0,0", "--high", "0,1,1"), "below the high one"),
         (("box", "{}", "Top", "--low", "0,0", "--high", "0,1,1"), "--low needs 3"),
         (("plane", "{}", "Top", "--point", "0,0,0", "--normal", "0,0,0"), "no direction"),
-        (("flood", "{}", "Top", "--at", "0,0,0", "--crease", "200"), "no angle"),
+        (("flood", "{}", "Top", "--at", "0,0,0", "--crease", "200"), "not an angle"),
         (("brush", "{}", "Top", "--at", "0,0,0", "--radius", "0"), "radius"),
-        (("grow", "{}", "Top"), "how far"),
-        (("grow", "{}", "Top", "--rings", "-1"), "not an amount"),
-        (("smooth", "{}", "Top", "--rings", "0"), "how far"),
+        (("grow", "{}", "Top"), "give the distance"),
+        (("grow", "{}", "Top", "--rings", "-1"), "not a valid distance"),
+        (("smooth", "{}", "Top", "--rings", "0"), "give the distance"),
         (("import", "{}", "nothing.json"), "cannot be read"),
         (("export", "{}", "--out", "r.txt"), ".json or .csv"),
-        (("transfer", "{}", "{}"), "is an input too"),
+        (("transfer", "{}", "{}"), "is also an input"),
         (("list", "probe.stl"), "save it as .ply"),
         (("list", "nowhere.ply"), "no such file"),
     ],

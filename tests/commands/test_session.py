@@ -107,7 +107,7 @@ def test_salvage_ends_with_1_when_something_is_lost_and_with_0_when_not(damaged,
     assert (damaged / "journal").read_bytes() == before
     found = facts("info", tmp_path / "n")
     assert found["damage"] == ""
-    assert "in no record before it" in found["results"][0]["stale"][0]
+    assert "in no earlier record" in found["results"][0]["stale"][0]
     assert facts("verify", tmp_path / "n")["sound"] is True
     again = facts("salvage", tmp_path / "n")
     assert (again["whole"], again["out"]) == (True, str(tmp_path / "n-salvaged"))
@@ -131,7 +131,7 @@ def test_a_damaged_session_is_told_of_with_1_and_written_by_nobody(damaged):
 def test_an_error_is_one_json_object_and_2(tmp_path, arguments):
     result = CliRunner().invoke(app, ["session", arguments[0], str(tmp_path / arguments[1]), "--json"])
     assert result.exit_code == 2
-    assert "holds no session" in json.loads(result.stdout)["error"]
+    assert "is not a session" in json.loads(result.stdout)["error"]
 
 
 def test_every_command_that_writes_says_so_where_nothing_can_be_written(weighed_session, poses, monkeypatch):
@@ -148,7 +148,7 @@ def test_every_command_that_writes_says_so_where_nothing_can_be_written(weighed_
     ):
         result = CliRunner().invoke(app, ["session", *map(str, command), "--json"])
         assert result.exit_code == 2, command
-        assert "cannot be written: open the session read-only" in json.loads(result.stdout)["error"], command
+        assert "not writable: open the session read-only" in json.loads(result.stdout)["error"], command
     for command in ("info", "verify", "replay"):
         facts(command, weighed_session)
     assert {str(file): file.read_bytes() for file in weighed_session.rglob("*") if file.is_file()} == before
@@ -169,11 +169,11 @@ def test_there_and_back_as_an_archive(weighed_session, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("compute", "{}", "photo", "p.png"), "nothing here computes"),
-        (("compute", "{}", "probe", "p.ply"), "add them with --kind mesh"),
+        (("compute", "{}", "photo", "p.png"), "cannot be computed"),
+        (("compute", "{}", "probe", "p.ply"), "add it with --kind mesh"),
         (("add", "{}", "none.csv", "--kind", "poses"), "cannot be read"),
         (("add", "{}", __file__, "--kind", "Not a word"), "kind"),
-        (("new", "{}"), "a session already"),
+        (("new", "{}"), "already a session"),
     ],
 )
 def test_what_cannot_be_is_said(folder, arguments, said):
@@ -198,7 +198,7 @@ def test_a_recording_brings_the_time_of_its_start(folder, tmp_path):
 
 def test_repair_ends_with_1_when_something_stays(folder):
     (folder / "raw" / "unfinished-a").mkdir()
-    assert "stays where it is" in facts("repair", folder, code=1)["left"][0]
+    assert "was left in place" in facts("repair", folder, code=1)["left"][0]
 
 
 def test_a_setting_needs_a_value(folder):

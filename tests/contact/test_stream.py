@@ -280,7 +280,7 @@ def test_track_needs_a_method_that_can(solver, write):
 # ---- what is refused -----------------------------------------------------------------------------
 
 LONG = "1" * 300
-REMEDY = "remove the row, or pass --allow-nan to have it answered with not_finite"
+REMEDY = "remove the row, or pass --allow-nan to get the answer not_finite"
 REFUSED = {
     "empty": ("", "the file is empty: it needs the header t,fx,fy,fz,mx,my,mz"),
     "only-bom": ("\ufeff", "the file is empty"),
@@ -294,7 +294,7 @@ REFUSED = {
         table(header="t,fx,fy,fz,mx,my,"),
         "column mz missing; found: t, fx, fy, fz, mx, my, (no",
     ),
-    "no-header": (GOOD + "\n", "The first line holds numbers: put the header t,fx"),
+    "no-header": (GOOD + "\n", "The first line contains numbers: put the header t,fx"),
     "semicolons": (table(header=COLUMNS.replace(",", ";")), "Separate the columns with commas"),
     "duplicate": (table(header=COLUMNS + ",fx"), "line 1: column fx occurs 2 times: keep one"),
     "text": (
@@ -308,16 +308,16 @@ REFUSED = {
     "too-large": (table("2,0,0,-5,0,0,1e999"), "line 2: column mz holds inf"),
     "few": (table(GOOD, "1,2,3"), "line 3: 3 cells, but the header has 7: complete the row or remove it"),
     "many": (table("0,1,0,0,0,-5,0,0,0"), "line 2: 9 cells, but the header has 7: remove .* with a point"),
-    "quote": (table('1,"2,3,4,5,6,7'), "line 2: the cells cannot be told apart .*: check the quotes"),
-    "old-mac": (table(GOOD).replace("\n", "\r"), "line 1: the cells cannot be told apart"),
-    "return": (table(GOOD, "1\r,0,0,0,0,0,0"), "line 3: the cells cannot be told apart"),
+    "quote": (table('1,"2,3,4,5,6,7'), "line 2: the cells cannot be separated .*: check the quotes"),
+    "old-mac": (table(GOOD).replace("\n", "\r"), "line 1: the cells cannot be separated"),
+    "return": (table(GOOD, "1\r,0,0,0,0,0,0"), "line 3: the cells cannot be separated"),
     "latin": (
         table(GOOD).encode() + b"\xb5,0,0,0,0,0,0\n",
         "line 3: this is not UTF-8 text: save the table as",
     ),
     "utf16": (table(GOOD).encode("utf-16"), "line 1: this is not UTF-8 text"),
     "binary": (table(GOOD).encode() + bytes(500), "line 3: this is not UTF-8 text"),
-    "long-line": (b"1" * 2**21, "a line is longer than 1 MiB: this is not a CSV file"),
+    "long-line": (b"1" * 2**21, "a line is longer than 1 MiB, so this is not a CSV file"),
     "long-time": (table(GOOD, LONG + GOOD), "line 3: column t has 303 bytes, more than 256"),
 }
 
@@ -366,7 +366,9 @@ def test_output_must_not_be_the_input(solver, write, tmp_path):
     link = tmp_path / "link.csv"
     link.symlink_to(source)
     for out in (source, tmp_path / "." / source.name, link):
-        with pytest.raises(WrenchFileError, match="the output would replace the input: choose another name"):
+        with pytest.raises(
+            WrenchFileError, match="the output would overwrite the input: choose another name"
+        ):
             locate_file(solver, source, out)
     assert source.read_text(encoding="utf-8") == PLAIN
 

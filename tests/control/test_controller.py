@@ -191,7 +191,7 @@ def test_an_arm_that_does_not_move_is_not_pushed_on():
     run.scene.command = lambda _: None
     run.scene.motion = Ramp(np.array([0, 0, -0.003, 0, 0, 0]), run.scene.time)  # away: it would go after it
     run.run(2.6)
-    assert any("where it was sent" in each.reason for each in run.controller.safety.changes)
+    assert any("commanded position" in each.reason for each in run.controller.safety.changes)
     assert run.controller.state is ControlState.SAFE
     # What was sent stays near to where it stands: should it let go, it would not jump.
     tips = np.array([each.q[2] for each in run.commands])
@@ -278,10 +278,10 @@ def test_a_bundle_is_all_it_takes():
     with pytest.raises(InputError, match="no method"):
         Controller.from_config(config, arm, np.zeros(6), method="guess", **more)
     if told is None:
-        with pytest.raises(InputError, match="how the sensor sits"):
+        with pytest.raises(InputError, match="the rotation of the sensor"):
             Controller.from_config(config, arm, np.zeros(6))
     else:
-        with pytest.raises(InputError, match="calibrate anew"):
+        with pytest.raises(InputError, match="recalibrate"):
             Controller.from_config(config, arm, np.zeros(6), quaternion_ES=(0.0, 1.0, 0.0, 0.0))
 
 

@@ -45,7 +45,7 @@ def test_a_higher_gain_would_leave_less():
 
 
 def test_what_cannot_be_had_is_said():
-    with pytest.raises(InputError, match="smaller spread"):
+    with pytest.raises(InputError, match="the spread of stiffness"):
         tune(foundation_of("linear"), USUAL_MODULUS, variant=Variant.PLAIN, wanted=WantedMargins(gain=90.0))
 
 

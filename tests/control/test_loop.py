@@ -110,7 +110,7 @@ def test_impossible_times_are_refused(seconds):
 
 def test_nothing_happened_is_said():
     made = rig()
-    with pytest.raises(InputError, match="nothing happened"):
+    with pytest.raises(InputError, match="nothing has happened"):
         Loop(made.scene, made.controller, made.sensor).trace()
 
 

@@ -79,7 +79,7 @@ def test_the_usual_course():
 @pytest.mark.parametrize(
     ("what", "says"),
     [
-        ({"force": 24.5}, "too near to the limit of 30 N"),
+        ({"force": 24.5}, "too close to the limit of 30 N"),
         ({"fault": SensingFault.SATURATED}, "end of its range"),
     ],
 )
@@ -106,7 +106,7 @@ def test_a_force_that_would_soon_be_over_the_limit_makes_it_go_back(state):
     drive = Drive(state)
     drive(force=7.0)
     assert drive(force=13.0) is ControlState.RETRACT
-    assert "soon over the limit of 30 N" in drive.reason
+    assert "soon exceed the limit of 30 N" in drive.reason
 
 
 def test_the_rate_counts_from_the_newest_reading_there_was():
@@ -180,10 +180,10 @@ def test_an_arm_that_does_not_follow_is_held_then_drawn_back(state):
     force = 0.0 if state is ControlState.APPROACH else 7.0
     assert drive(2 * DT, force=force, follows=False, probed=False) is state
     assert drive(2 * DT, force=force, follows=False) is ControlState.HOLD
-    assert "not where it was sent" in drive.reason
+    assert "commanded position" in drive.reason
     assert drive(SETTINGS.give_up + 3 * DT, force=force, follows=False) is ControlState.RETRACT
     assert drive(1.2, force=force, follows=False) is ControlState.SAFE
-    assert "no farther" in drive.reason
+    assert "cannot retract farther" in drive.reason
 
 
 def test_an_arm_that_stays_behind_again_and_again_goes_back():
@@ -264,13 +264,13 @@ def test_back_and_blocked_ends_where_it_is():
     drive = Drive(ControlState.RETRACT)
     assert drive(0.9, last=stuck) is ControlState.RETRACT
     assert drive(0.2, last=stuck) is ControlState.SAFE
-    assert "no farther" in drive.reason
+    assert "cannot retract farther" in drive.reason
 
 
 def test_a_swing_makes_it_stand_still_then_measure_anew():
     drive = Drive(ControlState.TRACK, replace(SETTINGS, attempts=1))
     assert drive(swinging=3.2) is ControlState.HOLD
-    assert "swings by 3.2 N although the gain was lowered" in drive.reason
+    assert "oscillates by 3.2 N although the gain was lowered" in drive.reason
     assert drive(0.26) is ControlState.HOLD, "it comes to rest first"
     assert drive(0.06) is ControlState.CONTACT, "what was known of the tissue is wrong"
     assert drive(1.0) is ControlState.TRACK
@@ -312,4 +312,4 @@ def test_an_arm_whose_lag_is_known_may_be_as_late():
 def test_why_a_place_was_lost_is_said():
     drive = Drive(ControlState.TRACK)
     assert drive(2.1, contact=None, reason=Reason.TWO_TOUCHES) is ControlState.RETRACT
-    assert "not known for 2 s (two_touches)" in drive.reason
+    assert "unknown for 2 s (two_touches)" in drive.reason

@@ -152,7 +152,7 @@ def test_a_mesh_that_is_not_the_design_fails(done: demo.DemoReport) -> None:
     for change in ({"deviation_mm": 0.3}, {"closed": False}, {"openings": 0}):
         mesh = replace(result.mesh, **change)
         assert not replace(result, mesh=mesh).verified
-        assert mesh.sentence("linear").endswith("FAILED: it is not the design.")
+        assert mesh.sentence("linear").endswith("FAILED: it differs from the design.")
 
 
 # ---- verdict -------------------------------------------------------------------------------------
@@ -189,7 +189,7 @@ def test_a_calibration_that_is_off_fails(monkeypatch: pytest.MonkeyPatch, tmp_pa
     monkeypatch.setattr(gravity, "calibrate", wrong)
     found = demo.run(tmp_path, ["convex"], TOUCHES, 3)
     assert not found.verified
-    assert "FAILED: it is not what its uncertainty says" in " ".join(found.sentences())
+    assert "FAILED: the error exceeds its stated uncertainty" in " ".join(found.sentences())
 
 
 def test_the_bumped_pose_is_named_and_the_mass_is_right(done: demo.DemoReport) -> None:
@@ -245,7 +245,7 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (("--probe", "phased"), "there is no probe 'phased': choose one of linear, convex, t-shape"),
-        (("--touches", 9), "ask for at least 10"),
+        (("--touches", 9), "give at least 10"),
         (("--seed", -1), "the seed must be at least 0, not -1"),
     ],
 )

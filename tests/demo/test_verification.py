@@ -78,7 +78,7 @@ def test_the_demo_ends_with_a_bundle_that_is_verified(benched: demo.DemoReport) 
     assert (folder / "runtime" / "report.html").read_bytes() == (folder / "report.html").read_bytes()
     said = " ".join(benched.sentences())
     assert f"convex: verified on {MARKERS} markers: mean 0.1" in said
-    assert "passed (30 touches); the bundle is sound; 3,000 of 3,000 samples located by it" in said
+    assert "passed (30 touches); the bundle is intact; it located 3,000 of 3,000 samples" in said
     assert benched.to_json()["probes"][0]["checked"]["verified"] is True
 
 
@@ -141,7 +141,7 @@ def test_contacts_that_are_off_make_no_bundle(
     assert not result.verified
     assert any("the mean error is" in reason for reason in result.failed)
     assert "verification FAILED on" in result.sentence("convex")
-    assert "no bundle is made of it" in result.sentence("convex")
+    assert "no bundle was made" in result.sentence("convex")
     assert not list(folder.glob("runtime/*"))  # nor is there that of another run
     assert not (folder / "contacts.jsonl").exists()
     assert not replace(benched, probes=(replace(benched.probes[0], checked=result),)).verified
@@ -183,7 +183,7 @@ def test_a_bundle_that_is_changed_on_its_way_is_refused(
     monkeypatch.setattr(RuntimeConfig, "write", damaged)
     result = check(folder, "convex", tool)
     assert not result.verified
-    assert "FAILED, the bundle is refused" in result.sentence("convex")
+    assert "FAILED, the bundle was refused" in result.sentence("convex")
     assert "probe.ply does not have the hash" in result.sentence("convex")
 
 
@@ -192,11 +192,11 @@ def test_a_refused_calibration_is_not_exported(
     folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> Any:
-        raise verification.UnverifiedError(("The calibration is refused: too few poses.",))
+        raise verification.UnverifiedError(("The calibration was refused: too few poses.",))
 
     monkeypatch.setattr(verification, "export_from_files", refuse)
     result = check(folder, "convex", tool)
-    assert result.refused == "The calibration is refused: too few poses."
+    assert result.refused == "The calibration was refused: too few poses."
     assert not result.verified
 
 

@@ -77,7 +77,7 @@ def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
     line.write = lambda _: None
     with SensorStream(address, heard.take, heard.change, line=line):
         if again:
-            heard.until(lambda: any("nothing came" in finding for finding in heard.findings()))
+            heard.until(lambda: any("nothing received" in finding for finding in heard.findings()))
             until(lambda: line.opened == 2)
         else:  # a serial line is there as long as its plug is
             heard.until(lambda: StreamState.SILENT in heard.states())

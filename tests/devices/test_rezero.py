@@ -38,7 +38,7 @@ def test_a_step_from_rest_to_rest_at_zero_is_suspected_once_and_in_words():
     ((number, result),) = suspected(rows)
     assert number <= 100 + 12  # a tenth of a second
     assert result.force == pytest.approx(5.0, abs=0.1)
-    assert "may have re-zeroed" in str(result)
+    assert "may have been re-zeroed" in str(result)
     assert "5.0 N" in str(result)
 
 

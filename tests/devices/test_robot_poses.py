@@ -59,7 +59,7 @@ def test_a_lost_robot_is_asked_again(protocol):
 
 
 def test_a_sensor_is_no_robot():
-    with pytest.raises(AddressError, match="no robot"):
+    with pytest.raises(AddressError, match="not a robot"):
         poses_from("sri+tcp://127.0.0.1", lambda _: None)
 
 
@@ -156,6 +156,6 @@ def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
     heard = Heard()
     line = Controller(9.0)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):
-        heard.until(lambda: any("had no answer" in finding for finding in heard.findings()))
+        heard.until(lambda: any("no answer for" in finding for finding in heard.findings()))
         until(lambda: line.opened == 2)
     assert line.most == 1

@@ -121,7 +121,7 @@ def test_too_much_load_is_not_called_a_broken_sensor():
     readings = Readings(made.limits)
     readings.see(sample)
     (finding,) = readings.findings().values()
-    assert "take the load off" in finding
+    assert "remove the load" in finding
 
 
 def test_a_count_that_begins_again_soon_costs_two_samples():

@@ -58,7 +58,7 @@ def test_moments_follow_the_speed_and_the_window(playback):
         (Selection(), FilmSettings(1.0, 0.0), "more than 0 s"),
         (Selection(start=50.0), FilmSettings(), "no contact from 50 s on"),
         (Selection(start=2.0, end=2.0), FilmSettings(), "no contact"),
-        (Selection("error"), FilmSettings(), "points that were touched"),
+        (Selection("error"), FilmSettings(), "touched points"),
     ],
 )
 def test_what_makes_no_film_is_refused(playback, tmp_path, selection, settings, words):
@@ -123,5 +123,5 @@ def test_a_place_that_is_not_there_is_said(playback, tmp_path):
             continue
         with pytest.raises(InputError, match="choose a folder that exists"):
             write_film(tmp_path / "no" / name, playback, Selection(), FilmSettings(50.0, None, SMALL))
-    with pytest.raises(HeatmapError, match=r"ends in \.mp4 or \.gif"):
+    with pytest.raises(HeatmapError, match=r"must end in \.mp4 or \.gif"):
         write_film(tmp_path / "a.avi", playback, Selection())

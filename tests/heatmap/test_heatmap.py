@@ -149,7 +149,7 @@ def test_the_default_bandwidth_follows_the_uncertainty():
         ({"weights": [-1.0]}, "negative"),
         ({"weights": [0.0]}, "above 0"),
         ({"quantity": "force"}, "values"),
-        ({"quantity": "heat"}, "no such"),
+        ({"quantity": "heat"}, "there is no heatmap"),
         ({"bandwidth": 2.0}, "bandwidth"),
         ({"bandwidth": float("nan")}, "bandwidth"),
         ({"normalisation": "rate"}, "duration"),

@@ -126,7 +126,7 @@ def test_errors_of_a_recording_are_those_of_settled_samples(bench):
     unknown = facts(bench / "contacts.csv", *shared)
     assert unknown["noise"] is None
     assert unknown["contacts"] == N
-    assert "had not settled" in unknown["warnings"][0]
+    assert "unsettled samples" in unknown["warnings"][0]
 
 
 def test_a_session_gives_its_newest_files(bench, tmp_path):
@@ -223,7 +223,7 @@ def test_only_sure_places_are_shown(bench):
         encoding="utf-8",
     )
     said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply", "--bandwidth", 3)
-    assert f"{N // 2 - 1} of {N} contacts could be at another place as well" in said["warnings"][0]
+    assert f"{N // 2 - 1} of {N} contacts are ambiguous" in said["warnings"][0]
 
 
 def test_a_film_of_contacts(bench):

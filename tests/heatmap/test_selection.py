@@ -45,7 +45,7 @@ def test_contacts_are_put_in_order_of_time(probe):
     assert found.moments.tolist() == [0.0, 0.1, 0.2, 0.3]
     assert found.forces.tolist() == [3.0, 1.0, 2.0, 0.0]
     assert np.array_equal(found.points, plain.points[[3, 1, 2, 0]])
-    with pytest.raises(HeatmapError, match="do not say when"):
+    with pytest.raises(HeatmapError, match="have no times"):
         in_order(plain)
 
 
@@ -76,9 +76,9 @@ def test_a_window_that_outlasts_the_recording_has_its_length(probe):
         (Selection(start=1.5), "no contact from 1.5 s on: widen"),
         (Selection(end=0.0, least_force=5), "no contact from 0 to 0 s with 5 N or more"),
         (Selection(least_force=90, most_force=95), "with 90 to 95 N"),
-        (Selection(start=2, end=1), "exchange them"),
-        (Selection(least_force=2, most_force=1), "exchange them"),
-        (Selection("error"), "needs the points that were touched"),
+        (Selection(start=2, end=1), "swap them"),
+        (Selection(least_force=2, most_force=1), "swap them"),
+        (Selection("error"), "needs the touched points"),
     ],
 )
 def test_what_cannot_be_shown_is_said(probe, selection, words):
@@ -141,9 +141,9 @@ def test_a_sure_contact_counts_more(probe):
 @pytest.mark.parametrize(
     ("sure", "quantity", "words"),
     [
-        (None, "density", "do not say how sure they are: locate them again"),
+        (None, "density", "have no confidence: locate them again"),
         (np.ones(10), "peak", "choose another quantity"),
-        (np.zeros(10), "density", "none of these contacts is sure at all"),
+        (np.zeros(10), "density", "none of these contacts has any confidence"),
     ],
 )
 def test_what_cannot_be_weighed_is_said(probe, sure, quantity, words):

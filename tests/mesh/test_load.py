@@ -284,7 +284,7 @@ def test_regions_follow_a_divided_facet(write, ply_text):
 
 def test_stray_points_that_are_not_numbers_are_told(ball, write):
     text = "v nan nan nan\n" + text_obj(ball.vertices, ball.faces + 1) + "\nv inf 0 0\n"
-    with pytest.warns(MeshWarning, match=r"no facet uses were left out \(points: 2\)"):
+    with pytest.warns(MeshWarning, match=r"that are not numbers were left out \(points: 2\)"):
         probe = load_probe(write("ball.obj", text))
     assert len(probe.vertices) == len(ball.vertices)
 

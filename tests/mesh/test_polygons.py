@@ -169,7 +169,7 @@ def test_corners_named_twice_and_too_few_of_them():
 def test_more_work_than_a_second_is_refused():
     chance = np.random.default_rng(0)
     points = np.column_stack((chance.random((20_000, 2)), np.zeros(20_000)))
-    with pytest.raises(MeshError, match="not convex have 20000 corners, more than are cut into triangles"):
+    with pytest.raises(MeshError, match="non-convex polygons have 20000 corners, too many to triangulate"):
         triangulate(points, np.arange(20_000), np.array([20_000]))
 
 

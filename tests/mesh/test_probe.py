@@ -107,7 +107,7 @@ def test_refuses_vertices_that_are_not_finite(box, bad):
 def test_refuses_vertices_beyond_any_length(box):
     vertices = box[0].copy()
     vertices[2, 0] = 1e300
-    with pytest.raises(MeshError, match=r"vertices: row 2 .* is absurdly far away"):
+    with pytest.raises(MeshError, match=r"vertices: row 2 .* is impossibly far away"):
         Probe.from_arrays(vertices, box[1], check_size=False)
 
 
@@ -180,7 +180,7 @@ def test_refuses_bad_regions(box, region, message):
 
 def test_refuses_a_probe_that_is_too_large(box):
     with pytest.raises(
-        MeshError, match=r"probe is 60000 mm long, more than 2000 mm: did the file hold milli.*'mm'"
+        MeshError, match=r"probe is 60000 mm long, more than 2000 mm: is the file in milli.*'mm'"
     ):
         Probe.from_arrays(box[0] * 1000, box[1])
 

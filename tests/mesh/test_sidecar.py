@@ -85,7 +85,7 @@ def test_a_file_changed_by_another_program_is_noticed(content, tmp_path):
     save_probe(content.probe.with_region(np.zeros(len(content.probe.faces), dtype=int)), file)
     back = load_probe_file(file)
     assert len(back.notes) == 1
-    assert "was changed since contactbench wrote it" in back.notes[0]
+    assert "was changed after contactbench wrote it" in back.notes[0]
 
 
 def test_colours_are_for_viewers(content, tmp_path):
@@ -107,9 +107,9 @@ def test_colours_are_for_viewers(content, tmp_path):
     [
         ("[]", "does not hold one object"),
         ("{", "not a JSON file"),
-        ('{"schema": "other"}', "not a probe's"),
+        ('{"schema": "other"}', "does not belong to a probe"),
         ('{"version": 2}', "use a newer contactbench"),
-        ('{"version": "1"}', "not a probe's"),
+        ('{"version": "1"}', "does not belong to a probe"),
         ('{"regions": {}}', "not a list of names"),
         ('{"regions": [{"name": "a"}]}', "colour"),
         ('{"regions": [1]}', "region 1 of the file is not an object"),
@@ -140,7 +140,7 @@ def test_only_ply_in_a_folder_that_exists(content, tmp_path):
         save_probe_file(content, tmp_path / "probe.stl")
     with pytest.raises(MeshError, match="cannot be written"):
         save_probe_file(content, tmp_path / "no" / "probe.ply")
-    with pytest.raises(RegionError, match="kept in a probe's PLY"):
+    with pytest.raises(RegionError, match="stored in a probe's PLY"):
         load_probe_file(tmp_path / "probe.stl")
 
 

@@ -149,14 +149,16 @@ def test_extensions_that_a_file_requires(write, space, read):
     if read:
         assert load_probe(path).size == 0.05
     else:
-        refuse(path, f"needs the extension '{space}', which is not read: export the part as plain triangles")
+        refuse(
+            path, f"needs the extension '{space}', which is not supported: export the part as plain triangles"
+        )
 
 
 def test_supports_and_items_that_are_not_printed_are_left_out_and_told(write):
     aside = 'transform="1 0 0 0 1 0 0 0 1 100 0 0"'
     objects = OBJECT + OBJECT.replace('id="1" type="model"', 'id="2" type="support"')
     items = f'<item objectid="1"/><item objectid="2" {aside}/><item objectid="1" printable="0" {aside}/>'
-    with pytest.warns(MeshWarning, match=r"Supports .*\(objects: 1\).*does not print .*\(items: 1\)"):
+    with pytest.warns(MeshWarning, match=r"Supports .*\(objects: 1\).*as not printed .*\(items: 1\)"):
         probe = load_probe(write("a.3mf", packed(model(objects, items))))
     assert (len(probe.faces), probe.size) == (4, 0.05)
 
@@ -192,22 +194,22 @@ def test_names_may_be_in_another_case(write):
     [
         (b"hello", "not a readable 3MF archive"),
         (packed(model())[:-30], "not a readable 3MF archive"),
-        (packed(model(), "other.txt"), "holds no 3D/3dmodel.model"),
+        (packed(model(), "other.txt"), "has no 3D/3dmodel.model"),
         (packed(model(), how=zipfile.ZIP_BZIP2), "encrypted or packed in an unusual way"),
-        (packed(model()[:-20]), "not sound XML"),
-        (packed(model().replace("<build>", "<build>&nosuch;")), "not sound XML"),
+        (packed(model()[:-20]), "not valid XML"),
+        (packed(model().replace("<build>", "<build>&nosuch;")), "not valid XML"),
         (packed(model(attributes='unit="cubit"')), "unknown unit 'cubit'"),
-        (packed(model().replace('x="50"', 'x="fifty"')), "a <vertex> of the 3MF model holds no number"),
+        (packed(model().replace('x="50"', 'x="fifty"')), "a <vertex> of the 3MF model has no number"),
         (
             packed(model().replace('x="50"', 'x="nan"')),
             "vertex 2 is .nan, nan, nan.; 1 of 4 vertices is not finite",
         ),
         (packed(model().replace('x="50"', "")), "a <vertex> of the 3MF model has no 'x'"),
-        (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that is not there"),
-        (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that is not there"),
+        (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that does not exist"),
+        (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that does not exist"),
         (
             packed(model().replace('v1="1"', f'v1="{10**30}"')),
-            "a <triangle> of the 3MF model holds no number",
+            "a <triangle> of the 3MF model has no number",
         ),
         (packed(model(items='<item objectid="9"/>')), "places the object '9', which it does not hold"),
         (packed(model(items='<item objectid="1" transform="1 0 0"/>')), "not twelve finite numbers"),
@@ -227,7 +229,7 @@ def test_damaged_or_hostile(write, data, message):
 
 
 def test_an_archive_that_unpacks_to_far_more(write):
-    refuse(write("a.3mf", packed(model() + " " * 40_000_000)), "unpacks to far more than a model takes")
+    refuse(write("a.3mf", packed(model() + " " * 40_000_000)), "unpacks to far more than a model needs")
 
 
 def test_objects_that_hold_themselves_or_each_other_many_times(write):

@@ -134,7 +134,7 @@ def test_a_probe_lies_near_its_origin():
 
 @pytest.mark.parametrize("span", [0.0, 1e-5, 3e3, 1e9])
 def test_no_unit_makes_it_a_probe(span):
-    with pytest.raises(MeshError, match="is no probe in millimetres, metres, centimetres or inches"):
+    with pytest.raises(MeshError, match="cannot be a probe in millimetres, metres, centimetres or inches"):
         guess_units(span)
 
 
@@ -203,7 +203,7 @@ def test_auto_reads_comments(scaled, write):
 
 def test_auto_names_the_file_where_no_unit_fits(scaled):
     path = scaled(1e4)
-    with pytest.raises(MeshError, match="is no probe in") as caught:
+    with pytest.raises(MeshError, match="cannot be a probe in") as caught:
         load_probe(path, "auto")
     assert str(path) in str(caught.value)
 

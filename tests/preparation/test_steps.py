@@ -124,7 +124,7 @@ def test_prepare_leaves_a_mesh_in_its_own_frame_and_says_so(tmp_path):
     assert steps_of(done.content) == ["import", "shell", "simplify"]
     assert done.shell.how == "unchanged"
     assert done.content.frame == "P"
-    assert any("align it with the sensor before it is used" in sentence for sentence in done.sentences)
+    assert any("align it with the sensor before use" in sentence for sentence in done.sentences)
     assert told == sorted(told)
     assert told[-1] == pytest.approx(1)
     assert done.to_json()["facets"] == 500
@@ -172,5 +172,5 @@ def test_by_default_few_facets_are_kept_and_an_excess_is_told_first(tmp_path):
     kept = prepare(file, units="mm")
     assert len(kept.content.probe.faces) == len(load_probe(file, units="mm").faces)
     spikes = prepare(file, units="mm", facets=4)
-    assert spikes.sentences[0].endswith("in the mean.")
+    assert spikes.sentences[0].endswith("on average.")
     assert "more than the 4 asked for" in spikes.sentences[0]

@@ -58,7 +58,7 @@ def test_poses_stand_beside_the_wrenches(tmp_path: Path) -> None:
     (said,) = write_csv(tmp_path / "r.csv", found)
     cells = table(tmp_path / "r.csv")
     t = np.array(cells["t"], float) - 1000
-    assert said == f"{240 - len(t)} readings are left out: no pose within {LONGEST_GAP} s beside them."
+    assert said == f"{240 - len(t)} readings left out: no pose within {LONGEST_GAP} s."
     assert ((t <= 0.4) | (t >= 0.7)).all()
     assert t.max() == 1.0
     assert len(t) == 81 + 61
@@ -77,7 +77,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
             writer.wrench(replace(sample, status=status))
         writer.wrench(WrenchSample(1001.0, (np.nan, 0.0, 0.0), (0.0, 0.0, 0.0)))
     (said,) = write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
-    assert said.startswith("5 readings are left out")
+    assert said.startswith("5 readings left out")
     cells = table(tmp_path / "r.csv")
     assert cells["status"] == ["0", "8"]
     assert "sequence" not in cells
@@ -136,7 +136,7 @@ def test_nothing_to_write_leaves_what_is_there(tmp_path: Path) -> None:
         write_npz(tmp_path / "missing" / "r.npz", found)
     with RecordingWriter(tmp_path / "e.mcap", ABOUT):
         pass
-    with pytest.raises(RecordingError, match="holds no samples"):
+    with pytest.raises(RecordingError, match="contains no samples"):
         write_csv(tmp_path / "r.csv", read_recording(tmp_path / "e.mcap"))
 
 

@@ -50,7 +50,7 @@ def test_the_delay_is_found_within_its_sigma(delay):
         (0.0123, "ms later than the robot."),
         (0.0, "no delay is applied"),
         (-0.02, "publishes its poses late: does it? The delay is not applied. To apply it all the same"),
-        (0.2, "on one clock, and is this the robot that holds the sensor? The delay is not applied."),
+        (0.2, "on one clock, and check that this robot that holds the sensor? The delay is not applied."),
     ],
 )
 def test_a_delay_is_used_where_it_can_be_trusted(delay, words):
@@ -89,7 +89,7 @@ def test_another_robot_is_noticed():
     shuffled = replace(pose, R_BE=Rotation.random(len(pose.times), random_state=0).as_matrix())
     found = estimate_delay(force, shuffled)
     assert found.seconds is None
-    assert "is this the robot" in found.sentence
+    assert "check that this robot" in found.sentence
 
 
 def test_too_little_is_refused():
@@ -131,5 +131,5 @@ def test_a_touch_makes_the_delay_doubtful():
     assert not estimate_delay(force, pose).doubt
     force.wrenches[(force.times > 108) & (force.times < 109), 0] += 20.0
     found = estimate_delay(force, pose)
-    assert "was something touched" in found.doubt
+    assert "something was touched" in found.doubt
     assert found.doubt in found.sentence

@@ -258,7 +258,7 @@ def test_what_is_no_recording_is_refused(tmp_path):
     with pytest.raises(RecordingError, match="no such file"):
         open_sensor(f"replay://{tmp_path}/none.mcap", lambda _: None)
     (tmp_path / "x.mcap").write_bytes(b"t,fx\n")
-    with pytest.raises(RecordingError, match="no MCAP file"):
+    with pytest.raises(RecordingError, match="not an MCAP file"):
         open_poses(f"replay://{tmp_path}/x.mcap", lambda _: None)
     with pytest.raises(RecordingError, match="folder"):
         open_poses(f"replay://{tmp_path}", lambda _: None)

@@ -232,7 +232,7 @@ def test_events_that_are_no_json_are_refused(fields: dict[str, Any], tmp_path: P
 def test_a_recording_is_never_written_over(tmp_path: Path) -> None:
     file = record(tmp_path / "r.mcap", 5, 5)
     before = file.read_bytes()
-    with pytest.raises(RecordingError, match="there is a file of that name"):
+    with pytest.raises(RecordingError, match="this file already exists"):
         RecordingWriter(file, ABOUT)
     assert file.read_bytes() == before
     with pytest.raises(RecordingError, match="cannot be started"):
@@ -295,7 +295,7 @@ def test_a_full_disk_stops_the_recording_and_keeps_what_is_there(
     monkeypatch.setattr(os, call, half_then_full if call == "write" else broken)
     for sample in samples[10:]:
         writer.wrench(sample)
-    with pytest.raises(RecordingError, match="what is in it stays readable"):
+    with pytest.raises(RecordingError, match="its content stays readable"):
         writer.flush()
     monkeypatch.undo()
     with pytest.raises(RecordingError, match="closed"):

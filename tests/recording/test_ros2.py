@@ -124,7 +124,7 @@ def test_a_chain_of_transforms_with_a_static_one(bag: Bag, tmp_path: Path) -> No
         import_ros2(file, tmp_path / "r.mcap")
     with pytest.raises(RecordingError, match="no frame tool0; there are: base, cart"):
         import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="base", flange="tool0"))
-    with pytest.raises(RecordingError, match="go together"):
+    with pytest.raises(RecordingError, match="give both --base and --flange"):
         import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="base"))
     assert not (tmp_path / "r.mcap").exists()
     done = import_ros2(file, tmp_path / "r.mcap", ImportChoice(base="/base", flange="flange"))
@@ -141,14 +141,14 @@ def test_joints_with_a_robot(bag: Bag, tmp_path: Path) -> None:
         bag.add("/joint_states", JOINT_STATE, number, body)
     file = bag.close()
     without = import_ros2(file, tmp_path / "without.mcap")
-    assert "say of which robot, --robot NAME" in without.warnings[0]
+    assert "name their robot with --robot NAME" in without.warnings[0]
     assert without.poses == 0
     done = import_ros2(file, tmp_path / "r.mcap", ImportChoice(robot=Robot.named("elfin3")))
     assert (done.poses, done.pose_topic) == (5, "/joint_states")
     poses = read_recording(tmp_path / "r.mcap").flanges["/flange"]
     np.testing.assert_array_equal(poses.joints[0], [0.3, -0.4, 1.1, 0.5, -0.7, 0.9])
     np.testing.assert_allclose(poses.p_BE_B[0], [0.528910, 0.113500, 0.556217], atol=2e-5)
-    with pytest.raises(RecordingError, match="say of which robot"):
+    with pytest.raises(RecordingError, match="name their robot"):
         import_ros2(file, tmp_path / "x.mcap", ImportChoice(pose_topic="/joint_states"))
 
 
@@ -243,7 +243,7 @@ def test_links_that_are_heard_of_different_moments_are_told(bag: Bag, tmp_path: 
     file = bag.close()
     done = import_ros2(file, tmp_path / "r.mcap", CHAIN)
     assert done.poses == 10
-    assert "moments have no pose" in done.warnings[0]
+    assert "samples have no pose" in done.warnings[0]
     bag = Bag(tmp_path / "never.mcap")
     for number in range(10):
         bag.wrench(number)
@@ -340,7 +340,7 @@ def test_a_bag_of_ros_1_is_refused(tmp_path: Path) -> None:
             data = struct.pack("<IIII4s6d", number, 1_700_000_000, 0, 4, b"tool", 1, 2, 3, 0.1, 0.2, 0.3)
             writer.add_message(channel, START + number * STEP, data, START)
         writer.finish()
-    with pytest.raises(RecordingError, match=r"bag of ROS 1.*convert it to ROS 2"):
+    with pytest.raises(RecordingError, match=r"ROS 1 bag.*convert it to ROS 2"):
         import_ros2(tmp_path / "b.mcap", tmp_path / "r.mcap")
     assert not (tmp_path / "r.mcap").exists()
 

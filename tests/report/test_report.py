@@ -158,14 +158,10 @@ def test_a_failure_is_said_first(given):
 
 
 def test_what_the_model_leaves_is_told(given):
-    assert "What the model leaves was not measured: 0.05 N, 1.0 mN·m are assumed." in words_of(
-        report_html(given)
-    )
+    assert "The model error was not measured; 0.05 N, 1.0 mN·m are assumed." in words_of(report_html(given))
     left = ModelError(0.06, 0.0012, 0.05, 0.001, 0.08, 0.002, 12.4)
     measured = replace(given, verification=replace(given.verification, model_error=left))
-    words = (
-        "What the model leaves: 0.06 N, 1.2 mN·m (95 % upper limit 0.08 N, 2.0 mN·m; the touches count as 12"
-    )
+    words = "Model error: 0.06 N, 1.2 mN·m (95 % upper limit 0.08 N, 2.0 mN·m; the touches count as 12"
     assert words in words_of(report_html(measured))
 
 

@@ -112,7 +112,7 @@ def test_where_little_is_clear_fewer_come(elfin):
         ({"wrist_reach": 0.0}, "wrist_reach"),
         ({"arm_reach": np.nan}, "arm_reach"),
         ({"margin": -0.1}, "margin"),
-        ({"margin": 3.0}, "no room"),
+        ({"margin": 3.0}, "no range"),
     ],
 )
 def test_unusable_options_are_refused(elfin, options, message):

@@ -66,7 +66,7 @@ def test_a_recording_whose_only_chunk_is_damaged_is_kept(folder, damage):
     data = damage(file.read_bytes())
     file.write_bytes(data)
     [words] = repair(folder).adopted
-    assert "kept as it is" in words
+    assert "kept unchanged" in words
     [kept] = inputs(folder)
     assert kept.kind == "unreadable"
     assert (folder / kept.file.path).read_bytes() == data
@@ -98,7 +98,7 @@ def test_one_that_cannot_be_adopted_is_in_no_others_way(folder):
     done = repair(folder)
     assert len(done.adopted) == 1
     assert len(done.left) == 4
-    assert all("stays where it is" in words for words in done.left)
+    assert all("was left in place" in words for words in done.left)
     assert [each.name for each in inputs(folder)] == ["z.mcap"]
     assert len(list((folder / "raw").glob("unfinished-*"))) == 4
     assert len(check(folder).problems) == 3  # the name alone harms nobody

@@ -126,7 +126,7 @@ def test_too_few_poses_are_refused_with_the_reason(folder, tmp_path):
     done("add", folder, tmp_path / "a.mcap", "--kind", "recording")
     result = invoke("session", "compute", folder, "captures", "poses.csv")
     assert result.exit_code == 2
-    assert "hold more of them" in said(result)
+    assert "hold more poses" in said(result)
 
 
 # ---- probes ------------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ def test_a_lock_that_is_a_link_or_a_pipe_is_refused(folder, tmp_path):
     assert (tmp_path / "target").read_text(encoding="utf-8") == "precious"
     (folder / "lock").unlink()
     os.mkfifo(folder / "lock")
-    with pytest.raises(SessionError, match="no regular file"):
+    with pytest.raises(SessionError, match="not a regular file"):
         Session.open(folder)
 
 
@@ -89,7 +89,7 @@ def test_a_journal_that_somebody_else_wrote_takes_no_record(folder):
             journal.write(b"x")
         data = (folder / "journal").read_bytes()
         for _ in range(2):
-            with pytest.raises(SessionError, match="open the session again"):
+            with pytest.raises(SessionError, match="reload the session"):
                 session.note("mine")
     assert (folder / "journal").read_bytes() == data
 
@@ -117,7 +117,7 @@ def test_pipes_are_refused_not_waited_for(folder, tmp_path):
     (folder / "journal").unlink()
     os.mkfifo(folder / "journal")
     for attempt in (Session.open, check, repair):
-        with pytest.raises(SessionError, match="no regular file"):
+        with pytest.raises(SessionError, match="not a regular file"):
             attempt(folder)
 
 
@@ -141,8 +141,11 @@ def test_a_result_of_what_comes_later_is_stale(folder):
     with Session.open(folder, write=False) as session:
         stale = session.stale()
     assert len(stale) == 3000
-    assert all("in no record before it" in reasons[0] for reasons in stale.values())
-    assert any("3000 results were computed from what is in no record" in note for note in check(folder).notes)
+    assert all("in no earlier record" in reasons[0] for reasons in stale.values())
+    assert any(
+        "3000 results were computed from inputs that no earlier record" in note
+        for note in check(folder).notes
+    )
 
 
 # ---- words -------------------------------------------------------------------------------------
@@ -154,7 +157,7 @@ def test_names_and_kinds_are_refused_in_words(folder, tmp_path):
         with pytest.raises(SessionError, match="none of / ") as caught:
             session.add_input(tmp_path / "a.csv", "poses", name="12:30.csv")
         assert "pattern" not in str(caught.value)
-        with pytest.raises(SessionError, match="begins with a small letter"):
+        with pytest.raises(SessionError, match="must begin with a small letter"):
             session.add_input(tmp_path / "a.csv", "Poses")
         with pytest.raises(SessionError) as caught:
             session.add_input(Path(tmp_path), "poses")

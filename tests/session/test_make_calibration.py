@@ -66,7 +66,7 @@ def test_two_tables_are_joined_as_by_the_command(tmp_path):
     told: list[str] = []
     made = captures({"recording": sensor, "robot_poses": robot}, given, None, tell=told.append)
     assert len(told) == 1
-    assert "no pose within 0.25 s beside them" in told[0]
+    assert "no pose within 0.25 s." in told[0]
     options = ["--robot-poses", str(robot), "--euler", "xyz", "--delay", "0.03", "--out"]
     written = tmp_path / "command.csv"
     assert (

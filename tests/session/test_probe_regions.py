@@ -126,7 +126,7 @@ def test_regions_of_another_thing_are_refused(session, tmp_path):
     painted(session)
     far = egg(tmp_path, "far.stl", scale=3.0)
     session.add_input(far, "mesh")
-    with pytest.raises(SessionError, match="nothing of the regions"):
+    with pytest.raises(SessionError, match="none of the regions"):
         made(session)
     inputs = newest_inputs(session.state, "probe", {"regions": ""})
     assert set(compute(session, "probe", "probe.ply", inputs, USUAL).action.inputs) == {"mesh"}

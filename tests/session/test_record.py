@@ -247,7 +247,7 @@ def test_what_is_left_without_samples_or_unreadable(folder):
     (recorded(folder, "foreign.mcap")).write_bytes(b"no recording" * 20)
     RecordingWriter(recorded(folder, "begun.mcap"), RecordingInfo.now()).flush()
     said = " ".join(repair(folder).adopted)
-    for words in ("never begun", "cannot be read, and is kept", "before its first sample"):
+    for words in ("never started", "cannot be read and is kept", "before its first sample"):
         assert words in said
     with Session.open(folder) as session:
         assert [(each.kind, each.name) for each in session.state.inputs] == [("unreadable", "foreign.mcap")]
@@ -255,6 +255,6 @@ def test_what_is_left_without_samples_or_unreadable(folder):
 
 
 def test_a_recording_needs_a_session_that_is_open_for_writing(folder):
-    with Session.open(folder, write=False) as session, pytest.raises(SessionError, match="reading only"):
+    with Session.open(folder, write=False) as session, pytest.raises(SessionError, match="read-only"):
         LiveRecording(session, RecordingInfo.now())
     assert list((folder / "raw").iterdir()) == []

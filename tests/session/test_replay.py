@@ -79,7 +79,7 @@ def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_pat
     files = {file.name: file.read_bytes() for file in (out, out.with_suffix(".json"))}
     session.add_result("probe", "probe.ply", files, inputs, parameters)
     assert [(each.outcome, each.sentence) for each in replay(session)] == [
-        (ReplayOutcome.SAME, "probe probe.ply: the same bytes.")
+        (ReplayOutcome.SAME, "probe probe.ply: identical bytes.")
     ]
 
 
@@ -101,7 +101,7 @@ def test_what_differs_fails_or_is_unknown_is_said(session, poses):
         ReplayOutcome.FAILED,
         ReplayOutcome.UNKNOWN,
     ]
-    assert "other bytes in calibration.json" in found[1].sentence
+    assert "different bytes in calibration.json" in found[1].sentence
     assert "Euler order" in found[2].sentence
     assert len(session.records) == 6
 
@@ -109,7 +109,7 @@ def test_what_differs_fails_or_is_unknown_is_said(session, poses):
 @pytest.mark.parametrize(
     ("parameters", "said"),
     [
-        ({"noise_force": 1.0}, "give both or none"),
+        ({"noise_force": 1.0}, "neither"),
         ({"colour": "red"}, "parameter colour"),
         ({"robot": "elfin3"}, "contradict"),
         ({"contact_force": "strong"}, "parameter contact_force"),

@@ -47,7 +47,7 @@ def test_another_mesh(bench):
     add(bench, "other.stl", b"other", kind="mesh")
     found = stale(bench)
     assert set(found) == {"probe", "report"}
-    assert "The mesh that it was computed from was replaced by other.stl on 20" in found["probe"][0]
+    assert "The mesh it was computed from was replaced by other.stl on 20" in found["probe"][0]
     assert found["report"][0].startswith("It was computed from the probe probe.out, which is stale: The mesh")
     add(bench, "again.stl", b"solid", kind="mesh")
     assert stale(bench) == {}
@@ -80,7 +80,7 @@ def test_recalibration_with_another_outcome(bench):
     result(bench, "calibration", b"c", {"noise_force": 0.1}, poses=poses)
     assert stale(bench) == {}  # the same bytes
     result(bench, "calibration", b"new", {"noise_force": 0.2}, poses=poses)
-    assert "calibration.out that it was computed from was computed anew" in stale(bench)["report"][0]
+    assert "calibration.out it was computed from was recomputed" in stale(bench)["report"][0]
 
 
 def test_a_parameter(bench):
@@ -137,7 +137,7 @@ def test_a_recording_that_was_made_before_a_rezero_and_added_after_it(session):
 def test_the_same_content_under_another_name_hides_no_replacement(bench):
     add(bench, "copy.csv", b"1", "backup")
     add(bench, "poses.csv", b"2")
-    assert "The poses poses.csv that it was computed from was replaced" in stale(bench)["calibration"][0]
+    assert "The poses poses.csv it was computed from was replaced" in stale(bench)["calibration"][0]
 
 
 def test_a_replaced_backup_harms_nothing(session):
@@ -156,7 +156,7 @@ def test_all_files_of_a_result_count(session, by_content):
         "contact", "k", {"k": b"k"}, {"probe": made.content if by_content else made.file.sha256}, {}
     )
     session.add_result("probe", "p.ply", {"p.ply": b"1", "p.json": b"others"}, {}, {})
-    assert "probe p.ply that it was computed from was computed anew" in stale(session)["contact"][0]
+    assert "probe p.ply it was computed from was recomputed" in stale(session)["contact"][0]
     session.add_result("probe", "p.ply", {"p.ply": b"1", "p.json": b"regions"}, {}, {})
     assert stale(session) == {}
 

@@ -103,7 +103,7 @@ def test_what_is_wrong_is_refused(folder, tmp_path):
             session.add_input(tmp_path, "poses")
         with pytest.raises(SessionError, match="cannot be read"):
             session.add_input(tmp_path / "none", "poses")
-        with pytest.raises(SessionError, match="holds nothing with the hash"):
+        with pytest.raises(SessionError, match="contains nothing with the hash"):
             session.add_result("report", "r", {"r": b""}, {"poses": "0" * 64}, {})
         with pytest.raises(SessionError, match="cannot be written"):
             session.set_parameter("a.b", float("nan"))
@@ -111,13 +111,13 @@ def test_what_is_wrong_is_refused(folder, tmp_path):
             session.mark("report", "r", "stale")
         assert len(session.records) == 2
         session.note("still works")
-    with Session.open(folder, write=False) as session, pytest.raises(SessionError, match="reading only"):
+    with Session.open(folder, write=False) as session, pytest.raises(SessionError, match="read-only"):
         session.note("no")
-    with pytest.raises(SessionError, match="there is a session already"):
+    with pytest.raises(SessionError, match="there is already a session"):
         Session.create(folder)
-    with pytest.raises(SessionError, match="the folder holds"):
+    with pytest.raises(SessionError, match="the folder contains"):
         Session.create(tmp_path)
-    with pytest.raises(SessionError, match="holds no session"):
+    with pytest.raises(SessionError, match="is not a session"):
         Session.open(tmp_path)
 
 
@@ -159,11 +159,11 @@ def test_a_torn_record_is_cut_off_with_a_sentence(folder):
     for cut in (len(data) + 1, len(data) + 47, len(data) + 48, len(longer) - 1):
         (folder / "journal").write_bytes(longer[:cut])
         with Session.open(folder, write=False) as session:
-            assert "never acknowledged" in session.notes[0]
+            assert "never confirmed" in session.notes[0]
         assert (folder / "journal").stat().st_size == cut
         assert check(folder).sound
         with Session.open(folder) as session:
-            assert "is cut off" in session.notes[0]
+            assert "has been cut off" in session.notes[0]
             assert len(session.records) == 2
         assert (folder / "journal").read_bytes() == data
 
@@ -194,7 +194,7 @@ def test_damage_in_the_middle_is_named_and_never_repaired(folder):
     data[60] ^= 1
     (folder / "journal").write_bytes(data)
     for attempt in (repair, Session.open):
-        with pytest.raises(JournalError, match=r"record 1 at byte 0 is damaged.*whole records follow"):
+        with pytest.raises(JournalError, match=r"record 1 at byte 0 is damaged.*intact records follow"):
             attempt(folder)
     assert not check(folder).sound
     assert (folder / "journal").read_bytes() == data
@@ -205,7 +205,7 @@ def test_missing_changed_and_longer_files_are_found(folder, poses):
         ref = session.add_input(poses, "poses").action.file
     file = folder / ref.path
     for content, said in (
-        (b"t,fx\n0,2\n", "another content"),
+        (b"t,fx\n0,2\n", "does not match the journal"),
         (b"", "has 0 bytes, not 9"),
         (None, "is missing"),
     ):

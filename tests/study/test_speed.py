@@ -98,7 +98,7 @@ def test_targets_are_judged_both_ways():
     [
         (["--probe", "banana"], "choose one of linear, convex, t-shape"),
         (["--facets", "10"], "too coarse"),
-        (["--facets", "many"], "no whole number"),
+        (["--facets", "many"], "not a whole number"),
         (["--touches", "5"], "at least 1000"),
         (["--facets", "500,501"], "too close to tell apart"),
     ],

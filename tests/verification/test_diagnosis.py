@@ -58,10 +58,10 @@ def test_a_face_pressed_one_way_in_one_orientation_cannot_tell_alignment_from_gr
     assert {found.first, *found.rivals} == {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}
     assert not found.aligned
     text = diagnose(evidence, within=False).text
-    assert "these touches cannot tell; touch in a second orientation, or on other sides" in text
+    assert "These touches cannot tell which it is; touch in a second orientation, or on other sides" in text
     assert "alignment or gravity" in text or "gravity or alignment" in text
-    assert "Align the probe again" not in text
-    assert "Calibrate bias" not in text
+    assert "Realign the probe" not in text
+    assert "Recalibrate bias" not in text
 
 
 def test_sides_or_orientations_tell_them_apart():
@@ -98,7 +98,7 @@ def test_markers_that_are_elsewhere_are_named(wrong):
     errors[np.isin(evidence.markers, wrong)] = [0.0015, 0.0012, 0.0009]
     found = diagnose(with_errors(evidence, errors), within=False)
     assert found.first is ErrorCause.MARKERS
-    assert f"check the places of {'markers 2, 4' if len(wrong) == 2 else 'the marker 8'}." in found.text
+    assert f"check the positions of {'markers 2, 4' if len(wrong) == 2 else 'the marker 8'}." in found.text
     named = diagnose(with_errors(evidence, errors), within=False, names=[f"m{k}" for k in range(15)])
     assert f"m{wrong[0]}" in named.text
 
@@ -108,7 +108,7 @@ def test_where_all_markers_are_off_all_are_to_be_checked():
     places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
     found = diagnose(with_errors(evidence, places[evidence.markers]), within=False)
     assert found.first is ErrorCause.MARKERS
-    assert "check the places of the markers." in found.text
+    assert "check the positions of the markers." in found.text
 
 
 def test_single_touches_do_not_tell_markers_from_noise():

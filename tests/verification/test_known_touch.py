@@ -76,7 +76,7 @@ def test_a_press_on_the_side_passes():
     found = [check(seed=seed, aim=0.001) for seed in range(10)]
     assert all(each.passed for each in found), [each.sentence for each in found]
     assert all(each.error < 0.006 and each.lever > 0.01 for each in found)
-    assert "signs and units are right" in found[0].sentence
+    assert "signs and units are correct" in found[0].sentence
     assert found[0].presses == 1
     assert found[0].force == pytest.approx(10, abs=0.3)
 
@@ -151,7 +151,7 @@ def test_another_place_than_the_point_fails_without_a_wrong_cause():
 def test_an_aim_that_is_hardly_known_decides_nothing():
     found = check(point_sigma=0.02)
     assert found.outcome is CheckOutcome.UNDECIDED
-    assert "hit the point within 2.5 mm" in found.sentence
+    assert "hit the point to within 2.5 mm" in found.sentence
 
 
 def test_a_refused_calibration_passes_nothing():

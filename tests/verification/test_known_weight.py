@@ -124,7 +124,7 @@ def test_it_does_not_pass_when_it_cannot_tell_and_says_what_would():
     assert "or more, hold still for longer" in loud.sentence
     rough = check(mass_sigma=0.02)
     assert rough.outcome is CheckOutcome.UNDECIDED
-    assert "Use a weight that is known better than to 2 %" in rough.sentence
+    assert "Use a weight known to better than 2 %" in rough.sentence
     narrow = check(limit=0.002, mass_sigma=1e-5)
     assert narrow.outcome is CheckOutcome.UNDECIDED
     assert "local gravity" in narrow.sentence
@@ -158,11 +158,11 @@ def test_the_usual_units_and_signs_are_named(T, words):
     assert words in found.sentence
 
 
-def test_exchanged_readings_are_told_from_a_wrong_sign():
+def test_swapped_readings_are_told_from_a_wrong_sign():
     rng = np.random.default_rng(0)
     found = check_weight(CALIBRATION, readings(TILTS[:1], rng, mass=1.0), readings(TILTS[:1], rng), 1.0)
     assert found.outcome is CheckOutcome.FAILED
-    assert "exchanged" in found.sentence
+    assert "swapped" in found.sentence
 
 
 def test_mass_in_pounds_and_in_grams():
@@ -174,7 +174,7 @@ def test_no_weight_at_all():
     rng = np.random.default_rng(0)
     found = check_weight(CALIBRATION, readings(TILTS[:1], rng), readings(TILTS[:1], rng), 1.0)
     assert found.outcome is CheckOutcome.FAILED
-    assert "does not show" in found.sentence
+    assert "do not show" in found.sentence
 
 
 def swapped(a, b):
@@ -251,7 +251,7 @@ def test_down_is_where_the_calibration_says():
     [
         ({"mass": 0.0}, "above 0"),
         ({"mass": float("nan")}, "above 0"),
-        ({"mass_sigma": 2.0}, "less than it"),
+        ({"mass_sigma": 2.0}, "a smaller uncertainty"),
         ({"gravity": 1.6}, "between 9.7"),
         ({"unloaded": []}, "unloaded: there are no still readings"),
         ({"loaded": []}, "loaded: there are no still readings"),

@@ -145,7 +145,7 @@ def test_a_grid_has_its_pitch():
 
 @pytest.mark.parametrize("count", [0, 1001])
 def test_too_few_or_too_many_are_refused(count):
-    with pytest.raises(MarkerError, match="ask for"):
+    with pytest.raises(MarkerError, match="give a number"):
         spread_markers(mesh(2_000), count)
 
 

@@ -116,7 +116,7 @@ def test_few_markers_measure_nothing_and_it_is_said():
 def test_words_say_how_much_and_what_to_do_only_where_it_is_much():
     found = measure_model_error(touches(1.0, "own", 0), MODEL)
     usual, much = (replace(found, force_N=size, torque_Nm=1.2e-3) for size in (0.06, 0.2))
-    assert model_error_words(usual).startswith("What the model leaves: 0.06 N, 1.2 mN·m (95 % upper limit ")
+    assert model_error_words(usual).startswith("Model error: 0.06 N, 1.2 mN·m (95 % upper limit ")
     assert model_error_words(usual).endswith("No action needed.")
     assert "cable" in model_error_words(much).split("allows for it.")[1]
 

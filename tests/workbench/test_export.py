@@ -152,7 +152,11 @@ def test_one_check_is_enough_and_one_that_failed_is_said(verified):
         assert (weight.state.value, touch.state.value) == ("left out", "done")
         before = results_of(session.state)
         weight, touch = done("known_weight", "failed")
-        assert (weight.state.value, weight.sentence, weight.step) == ("failed", "It failed.", Step.GRAVITY)
+        assert (weight.state.value, weight.sentence, weight.step) == (
+            "failed",
+            "The check failed.",
+            Step.GRAVITY,
+        )
         assert touch.state.value == "done"
         assert results_of(session.state) != before
 
@@ -198,7 +202,7 @@ def test_the_session_knows_what_was_exported_and_what_differs_since(verified, tm
         assert "same" in view.preview.changes[0]
         session.set_parameter("config.max_force", 12.0)
         changes = survey(session).preview.changes
-        assert changes == ("limits.max_force_N: 30 → 12 (what the robot must not exceed).",)
+        assert changes == ("limits.max_force_N: 30 → 12 (the limits of the robot).",)
         (tmp_path / "b.zip").unlink()
         assert survey(session).preview.changes is None
 
@@ -220,4 +224,4 @@ def test_differences_are_told_in_few_words():
     assert "3 more" in said[12]
     assert "0.5 mm apart" in said[-1]
     only = (ConfigDifference("provenance.created", "a", "b", ""),)
-    assert "where it comes from" in told(Differences(only, (), None))[0]
+    assert "Only origin" in told(Differences(only, (), None))[0]

@@ -96,7 +96,7 @@ def test_too_few_poses_are_refused_in_words(session):
     record(session, "gravity-1.mcap", batches(2))
     with pytest.raises(SessionError, match="2 still poses, a calibration needs 3"):
         finish(session, "gravity-1.mcap")
-    with pytest.raises(SessionError, match="no recording of this name"):
+    with pytest.raises(SessionError, match="no recording with this name"):
         finish(session, "gravity-7.mcap")
     with pytest.raises(SessionError, match="record some first"):
         change(session, [])

@@ -77,7 +77,7 @@ def test_a_bumped_pose_is_named_left_out_and_can_be_taken_back(work):
     assert all(row.reason for row in rejected)
     outlier = next(row for row in rejected if row.changeable)
     (finding,) = [each for each in view.solved.findings if each.key == f"rejected {outlier.name}"]
-    assert "Take it again" in finding.sentence
+    assert "Retake it" in finding.sentence
     run.set_left_out([outlier.time], True)
     run.wait()
     assert not run.view().solved.findings

@@ -1,4 +1,4 @@
-"""What is being prepared is in the session at every stage, and nothing that is in use hears of it."""
+"""What is in preparation is in the session at every stage, and nothing that is in use hears of it."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_used_it_is_a_draft_no_more_and_undone_it_is_one_again(desk, work, tmp_p
     mesh = work.take(egg(tmp_path))
     keep(desk, mesh, PLAN)
     assert probe_status(desk).state is StepState.READY
-    assert "being prepared" in probe_status(desk).sentence
+    assert "In preparation" in probe_status(desk).sentence
     preview = work.preview(mesh, PLAN)
     _, change = desk.do(observed(lambda session: use_draft(session, preview))).result(30)
     assert draft_of(desk.state) is None

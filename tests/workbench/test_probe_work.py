@@ -195,7 +195,7 @@ def test_picked_places_give_the_mount_back(work, tmp_path):
     assert np.allclose(found.T_SP, mount.T_SP, atol=1e-9)
     assert numbers_of(found) == pytest.approx((3, -4, 50, 10, 20, 100))
     assert np.array_equal(back_to_mesh(picked_S, None), picked_S)
-    with pytest.raises(InputError, match="2 places are picked"):
+    with pytest.raises(InputError, match="2 points are picked"):
         by_points([(picked_P[0], picked_S[0])] * 2)
 
 

@@ -222,7 +222,7 @@ def test_an_empty_region_has_no_shape(work, tool):
 def test_what_was_found_before_another_change_is_not_used(work):
     found = work.finder(Flood(0, math.pi), 1)()
     paint(work, TOP)
-    with pytest.raises(RegionError, match="do it again"):
+    with pytest.raises(RegionError, match="repeat it"):
         work.give(found)
     with pytest.raises(RegionError, match="No region is chosen"):
         work.finder(Clear(), 0)

@@ -42,7 +42,7 @@ def test_devices_unlock_gravity_and_say_whether_they_are_connected(session):
     found = look(session, connected=False)
     assert found[Step.DEVICES].state is StepState.DONE
     assert "sri+tcp://192.168.0.108." in found[Step.DEVICES].sentence
-    assert "not connected" in found[Step.DEVICES].sentence
+    assert "Not connected" in found[Step.DEVICES].sentence
     assert found[Step.GRAVITY].state is StepState.READY
     assert "orientation" in look(session)[Step.DEVICES].sentence  # there is no source of poses
 

@@ -60,13 +60,13 @@ def test_discarding_leaves_no_file_and_says_so(desk, live):
     tape.discard().result(PATIENCE)
     assert not desk.state.current_inputs
     assert not list((desk.folder / "raw").iterdir())
-    assert "given up" in desk.state.notes[-1].text
+    assert "abandoned" in desk.state.notes[-1].text
 
 
 def test_without_a_sample_nothing_is_kept(desk, live):
     live.open(BENCH, BENCH)
     tape = start(desk, live)
-    with pytest.raises(InputError, match="not one sample came"):
+    with pytest.raises(InputError, match="no sample arrived"):
         tape.keep().result(PATIENCE)
     assert not list((desk.folder / "raw").iterdir())
     with pytest.raises(InputError, match="already ended"):
@@ -94,7 +94,7 @@ def test_an_unplugged_sensor_does_not_end_it(desk, live):
         live.open(device.url, None)
         tape = start(desk, live)
         until(lambda: tape.findings)
-        assert any("goes on when it is back" in words for words in tape.findings)
+        assert any("resumes automatically" in words for words in tape.findings)
         before = tape.samples
         assert before
         until(lambda: tape.samples > before + 20)

@@ -136,7 +136,7 @@ def test_a_full_disk_stops_what_would_be_written_and_the_export(session):
 
 
 def test_a_device_that_is_gone(session):
-    said = "The sensor is gone: plug it in again."
+    said = "The sensor is disconnected: plug it in again."
     assert broken(stand(session, devices=said)) == {Step.DEVICES, Step.EXPORT}
     running = stand(session, running=[Step.VERIFY], devices=said)
     assert broken(running) == {Step.DEVICES, Step.VERIFY, Step.EXPORT}

@@ -152,7 +152,7 @@ def test_a_session_that_is_closed_keeps_touches_and_forgets_nothing_else(bench):
 def test_nothing_that_was_touched_is_said_and_kept(bench):
     work = bench.start()
     bench.live.pair.step(250)
-    with pytest.raises(InputError, match="touches the probe"):
+    with pytest.raises(InputError, match="contains no touch"):
         work.finish()
     assert ("recording", "verify-1.mcap") in bench.desk.state.current_inputs
     assert not work.going_on

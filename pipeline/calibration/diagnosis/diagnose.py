@@ -130,7 +130,7 @@ class Diagnosis:
             if finding.hypothesis == hypothesis:
                 return finding
         keys = ", ".join(finding.hypothesis for finding in self.ranking)
-        raise InputError(f"there is no hypothesis {hypothesis!r}; those that were tested: {keys}.")
+        raise InputError(f"there is no hypothesis {hypothesis!r}. Tested: {keys}.")
 
     def corrected(self, hypothesis: str) -> tuple[PoseSample, ...]:
         """Return the poses as they are if a hypothesis holds.
@@ -222,8 +222,9 @@ def diagnose(
     """
     if not FEWEST_POSES <= len(poses) <= MOST_POSES:
         raise PoseError(
-            f"{len(poses)} poses: the convention check needs {FEWEST_POSES} to {MOST_POSES}. Take some with"
-            " different tilts, about two axes; of a long recording, give only where the sensor stood still."
+            f"{len(poses)} poses: the convention check needs {FEWEST_POSES} to {MOST_POSES}. Take"
+            " poses with different tilts about two axes; from a long recording, use only the"
+            " parts where the sensor stood still."
         )
     prior = prior or Prior()
     known = noise is not None and not noise.estimated
@@ -323,7 +324,7 @@ def _untold(
             if case.hypothesis.scales and case.evidence.log_likelihood > least
         ]
         return (
-            f"But {' or '.join(units)} would fit as well: press one known point, and compare."
+            f"But {' or '.join(units)} would fit equally well. Press one known point and compare."
             if units
             else ""
         )
@@ -331,15 +332,15 @@ def _untold(
     error = usual_task().sensor_error(noise)
     if error > _LARGEST_ERROR:
         return (
-            f"But residuals of this size move a contact by {1e3 * error:.1f} mm, and nothing tells whether they are"
-            " noise: give the noise of the sensor's data sheet."
+            f"But residuals of this size move a contact by {1e3 * error:.1f} mm, and nothing shows"
+            " whether they are noise. Give the noise from the sensor's data sheet."
         )
     scales = [case for case in cases if case.hypothesis.scales and case.value > declared.value + _UNTOLD]
     if scales and context.prior.mass is None:
         masses = [f"{case.hypothesis.title} ({case.mass:.2g} kg)" for case in scales[:3]]
         return (
-            f"But units are not told without the tool's mass: {declared.mass:.2g} kg as declared, or"
-            f" {' or '.join(masses)}. Weigh the tool and give its mass."
+            f"But the units cannot be determined without the tool's mass: {declared.mass:.2g} kg"
+            f" as declared, or {' or '.join(masses)}. Weigh the tool and give its mass."
         )
     return ""
 

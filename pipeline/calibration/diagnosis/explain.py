@@ -183,7 +183,7 @@ class Words:
         if none_known:
             yield self._unexplained()
         elif self._blind():
-            yield "As far as these poses tell, the data are consistent as they are. But they do not tell much:"
+            yield "These poses show no inconsistency, but they cannot show much:"
             yield from self._blind()
         elif not best.weighs:
             yield (
@@ -233,14 +233,14 @@ class Words:
         ]
         if same:
             words.append(
-                f"These poses are the same as declared and as {_list(same)}: they do not tell which. Turn the"
-                " wrist about more than one axis between poses."
+                f"These poses fit equally well as declared and as {_list(same)}, so they cannot"
+                " decide between the two. Turn the wrist about more than one axis between poses."
             )
         if not self._context.known:
             mass = "" if self._context.prior.mass is not None else ", or the mass of the tool as weighed"
             words.append(
-                "The noise was not given, so units can only be told by the mass and the centre of mass that they"
-                f" make. Give the noise of the sensor's data sheet{mass}."
+                "The noise was not given, so units can only be judged by the resulting mass and"
+                f" centre of mass. Give the noise from the sensor's data sheet{mass}."
             )
         return tuple(words)
 
@@ -265,21 +265,21 @@ class Words:
         }
         strange = [said[part] for part, weight in best.priors.items() if weight < _STRANGE]
         if strange and best is not self._declared:
-            yield f"But then {_list(strange)}: mend this, then check again for a second mistake."
+            yield f"But then {_list(strange)}. Correct this, then check again for a second mistake."
         elif strange:
-            yield f"But {_list(strange)}: check what was said of the tool and of the world's z axis."
+            yield f"But {_list(strange)}. Check what was declared about the tool and the world's z axis."
 
     def _also(self) -> Iterator[str]:
         if not self._tied:
             return
         changes = [case.hypothesis.change for case in self._tied]
         if self._best.hypothesis.change and all(changes):
-            yield f"It may as well have been before pose {_list([str(change + 1) for change in changes])}."
+            yield f"It may equally have been before pose {_list([str(change + 1) for change in changes])}."
             return
         units = any(case.hypothesis.scales for case in (self._best, *self._tied))
         masses = [f" ({case.mass:.2g} kg)" if units else "" for case in self._tied]
         rivals = [case.hypothesis.title + mass for case, mass in zip(self._tied, masses, strict=True)]
-        yield f"Not told apart from: {'; '.join(rivals[:_LISTED])}. {self._telling(units)}"
+        yield f"Cannot be distinguished from: {'; '.join(rivals[:_LISTED])}. {self._telling(units)}"
 
     def _telling(self, units: bool) -> str:
         """Say what would tell the best reading from those that are as good."""
@@ -288,9 +288,9 @@ class Words:
         if units and self._context.prior.mass is None:
             return "Weigh the tool and give its mass."
         if units and not self._context.known:
-            return "Give the noise of the sensor's data sheet."
+            return "Give the noise from the sensor's data sheet."
         if all(self._as_likely(case) for case in self._tied):
-            return "Press the tool with a finger, and see which way the forces and torques point."
+            return "Press the tool with a finger, and check the directions of the forces and torques."
         return "Take more poses, tilted about two axes by up to 90°."
 
     def _as_likely(self, case: HypothesisCase) -> bool:
@@ -301,7 +301,7 @@ class Words:
         forces = np.abs(self._best.hypothesis.factor[0]) != 1
         if forces and self._context.known and decisive(self._best, self._declared) == RESIDUALS:
             times = 1 / self._declared.evidence.noise[0]
-            yield f"Or the noise that was given is {times:.0f} times too large: weigh the tool to be sure."
+            yield f"Or the specified noise is {times:.0f} times too large: weigh the tool to be sure."
 
     def _because(self, case: HypothesisCase) -> str:
         if decisive(case, self._declared) in (RESIDUALS, NOTHING):
@@ -316,7 +316,10 @@ class Words:
             start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
             return f"with {case.hypothesis.reading} the residuals {change} {start} to {sizes[1]}"
         part = decisive(case, self._declared)
-        return f"the residuals, {self._size(case)}, do not tell, but as declared {self._strange(part, case)}"
+        return (
+            f"the residuals, {self._size(case)}, do not decide it, but as declared"
+            f" {self._strange(part, case)}"
+        )
 
     def _strange(self, part: str, case: HypothesisCase) -> str:
         """Say what would be strange about the load as declared."""
@@ -327,31 +330,36 @@ class Words:
             return f"the centre of mass would lie {_side(_height(declared, prior))} of the sensor"
         if part == DOWN:
             angles = [np.degrees(_angle(each, prior)) for each in (declared, case)]
-            return f"gravity would point {angles[0]:.0f}° away from down, so read {angles[1]:.0f}°"
+            return f"gravity would point {angles[0]:.0f}° away from down; read this way, {angles[1]:.0f}°"
         if part == SIDE:
             sides = [_side(_height(each, prior)) for each in (declared, case)]
-            return f"the centre of mass would lie {sides[0]} of the sensor, so read {sides[1]}"
+            return f"the centre of mass would lie {sides[0]} of the sensor; read this way, {sides[1]}"
         if part == REACH:
-            return f"the centre of mass would lie {_distance(declared)} from the sensor, so read {_distance(case)}"
+            return (
+                f"the centre of mass would lie {_distance(declared)} from the sensor; read this way,"
+                f" {_distance(case)}"
+            )
         if part == QUIET:
-            return f"the noise would be {self._noise(declared)}, so read {self._noise(case)}"
+            return f"the noise would be {self._noise(declared)}; read this way, {self._noise(case)}"
         weighed = f"; {prior.mass:.3g} kg was weighed" if part == WEIGHED else ""
-        return f"the mass would be {declared.mass:.2g} kg, so read {case.mass:.2g} kg{weighed}"
+        return f"the mass would be {declared.mass:.2g} kg; read this way, {case.mass:.2g} kg{weighed}"
 
     def _unexplained(self) -> str:
         best = self._best
-        noise = "noise that was given too small, " if self._context.known and best is self._declared else ""
+        noise = (
+            "a specified noise that is too small, " if self._context.known and best is self._declared else ""
+        )
         if best is self._declared:
-            said = f"as they are they leave {self._size(best)}, and no other reading is more probable"
+            said = f"unchanged they leave {self._size(best)}, and no other reading is more probable"
         else:
             said = (
-                f"the likeliest, {best.hypothesis.title}, leaves {self._size(best)}, and as they are they leave"
-                f" {self._size(self._declared)}"
+                f"the likeliest, {best.hypothesis.title}, leaves {self._size(best)}; unchanged"
+                f" they leave {self._size(self._declared)}"
             )
         return (
-            f"No single convention mistake explains the data: {said} (odds {in_words(self._odds[NONE])} that the"
-            f" cause is another). Look for two mistakes at once, a cable that pulls, drift, {noise}or poses that"
-            " touched something."
+            f"No single convention mistake explains the data: {said} (odds of another cause:"
+            f" {in_words(self._odds[NONE])}). Look for two mistakes at once, a pulling cable,"
+            f" drift, {noise}or poses in which something was touched."
         )
 
     def _left_out(self, case: HypothesisCase) -> Iterator[str]:

@@ -52,7 +52,7 @@ def hypotheses(
     R_WS = poses.R_SW.transpose(0, 2, 1)
     rereadings = Rereadings(R_WS, raw)
     found = [
-        Hypothesis(AS_DECLARED, "as declared", "The data are as declared", "the data as they are", "", R_WS)
+        Hypothesis(AS_DECLARED, "as declared", "The data are as declared", "the unchanged data", "", R_WS)
     ]
     for family in (
         rereadings,
@@ -131,7 +131,7 @@ def signs(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     """Yield readings with reversed signs: of all channels, of forces or torques, of an axis, of one channel."""
     every = np.arange(6)
     for key, what, wrong, why, share in (
-        ("wrench_negated", "forces and torques", every < 6, ", as a sensor that reports the reaction has", _MOST),
+        ("wrench_negated", "forces and torques", every < 6, ", as with a sensor that reports the reaction", _MOST),
         ("torque_negated", "torques", every >= 3, "", _MOST),
         ("force_negated", "forces", every < 3, "", _OFTEN),
     ):  # fmt: skip
@@ -185,8 +185,8 @@ def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[n
         key,
         f"{what} swapped",
         f"Channels are swapped: {what}",
-        "them swapped back",
-        f"Swap {what} in the columns' names or the driver.",
+        "the channels swapped back",
+        f"Swap {what} in the column names or in the driver.",
         R_WS,
         channels=channels,
     )
@@ -223,7 +223,7 @@ def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
         "tool on the other side of the sensor",
         "The sensor's z axis points away from the tool",
         "the tool on the other side of the sensor",
-        "If the sensor is mounted so, the data are right as they are.",
+        "If the sensor is mounted that way, the data are correct as they are.",
         R_WS,
         share=8.0,
         prior=behind,
@@ -251,7 +251,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
         angle = f"{np.degrees(np.linalg.norm(vector)):.1f}°"
         title = f"sensor turned by {angle} on the flange"
         fact = f"The sensor is turned by {angle} about its axis ({words}) on the flange"
-        reading = "the orientations turned so"
+        reading = "that rotation"
         remedy = "Run calibrate --estimate-mount, or correct the sensor's mounting."
     return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, R_WS=evidence.R_WS)
 
@@ -277,7 +277,7 @@ def _gravity(down_W: NDArray[np.float64], name: str) -> tuple[str, str, str, str
     return (
         f"gravity along {name} of the world",
         f"Gravity points along {name} of the world frame",
-        "gravity there",
+        "gravity in that direction",
         remedy,
     )
 
@@ -297,8 +297,8 @@ def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
             f"{SHIFTED}{step}",
             f"orientations shifted by one row to the {whose}",
             f"Orientations and readings are shifted by one row: each reading belongs to the {whose} row's orientation",
-            "them shifted back",
-            "Shift the orientations by one row, and leave out the row at the end that has none.",
+            "the rows shifted back",
+            "Shift the orientations by one row, and remove the row that is left without one.",
             np.roll(R_WS, -step, axis=0),
         )
     pairs, count = _likely_swaps(poses)
@@ -309,8 +309,8 @@ def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
             f"rows_{first + 1}_and_{second + 1}_swapped",
             f"orientations of poses {first + 1} and {second + 1} swapped",
             f"The orientations of poses {first + 1} and {second + 1} are swapped",
-            "them swapped back",
-            "Swap the two orientations, or take the two poses again.",
+            "the channels swapped back",
+            "Swap the two orientations, or retake the two poses.",
             again,
             variants=count,
         )
@@ -348,8 +348,9 @@ def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Ite
             f"rezero_before_{change + 1}",
             f"re-zero before pose {change + 1}",
             f"The sensor was re-zeroed between poses {change} and {change + 1}",
-            "another bias from there on",
-            "Calibrate with the poses before or after it alone, and keep the sensor from re-zeroing itself.",
+            "a new bias from there on",
+            "Calibrate with only the poses before it or only those after it, and stop the sensor"
+            " from re-zeroing itself.",
             R_WS,
             change=change,
             course=(np.arange(n) >= change).astype(np.float64),
@@ -358,7 +359,7 @@ def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Ite
     when = np.arange(n, dtype=np.float64) if times is None else times
     span = float(np.ptp(when))
     if n >= _FEWEST_DRIFTING and span > 0:
-        remedy = "Let the sensor warm up, then take the poses again without a long pause."
+        remedy = "Let the sensor warm up, then retake the poses without a long pause."
         to_go = (when.max() - when) / span
         words = "drifting zero", "The sensor's zero drifts", "a bias that changes evenly", remedy
         yield Hypothesis("drift", *words, R_WS, course=-to_go)

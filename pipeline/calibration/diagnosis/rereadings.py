@@ -84,7 +84,7 @@ class Rereadings:
             "transposed",
             "orientations transposed",
             f"The orientations are transposed ({there}, not {here})",
-            f"them read as {there}",
+            f"the numbers read as {there}",
             "Leave out --inverse." if inverse else "Pass --inverse, or export R_WS.",
             R_WS,
             share=_OFTEN,
@@ -104,8 +104,8 @@ class Rereadings:
                 "quaternion_" + order.replace(", ", ""),
                 f"quaternions in the order {order}",
                 f"The quaternions are in the order {order}, but were read as {read}",
-                f"them read as {order}",
-                "Swap the columns' names or the order in which they are exported: contactbench wants qw, qx, qy, qz.",
+                f"the numbers read as {order}",
+                "Correct the column names or the order of the export: contactbench expects qw, qx, qy, qz.",
                 rotations(np.roll(values, shift, axis=1), convention) @ self._mount,
                 share=_SOMETIMES,
             )
@@ -130,7 +130,7 @@ class Rereadings:
             unit,
             f"angles in {unit}",
             f"The angles are in {unit}, but were read as {other}",
-            f"them read as {unit}",
+            f"the numbers read as {unit}",
             "Pass --radians." if given.degrees else "Leave out --radians.",
             R_WS,
             share=_OFTEN,
@@ -153,7 +153,7 @@ class Rereadings:
             key,
             what,
             f"The orientations are {what}, not {here}",
-            "them read so",
+            "that convention",
             remedy,
             self._read(convention),
             share=share,
@@ -162,7 +162,7 @@ class Rereadings:
     def _converted(self) -> Iterator[Hypothesis]:
         """Yield what an earlier program did that took angles for other angles than they were."""
         self.not_testable.append(
-            "Degrees taken for radians, or the reverse, can only be tested with the angles as they were written."
+            "A mix-up of degrees and radians can only be tested with the angles as they were written."
         )
         R = self._R_WS @ self._mount.T
         inverse = self._raw is not None and self._raw.convention.inverse
@@ -187,8 +187,8 @@ class Rereadings:
             key,
             f"{short_meant} converted as {short_read.removeprefix('Euler angles in the order ')}",
             f"The orientations were made from {meant} as if they were {read}",
-            "that conversion mended",
-            f"Convert again as {meant}, or give contactbench the angles themselves.",
+            "that conversion corrected",
+            f"Convert again as {meant}, or give contactbench the original angles.",
             (R.transpose(0, 2, 1) if inverse else R) @ self._mount,
         )
 
@@ -208,8 +208,8 @@ def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float6
     wrong = np.flatnonzero(np.abs(mounts - mounts[0]).max(axis=(1, 2)) > _SAME)
     if len(wrong):
         raise InputError(
-            f"raw row {wrong[0] + 1} is not the orientation of pose {wrong[0] + 1}, as the other rows are: give"
-            " the numbers that the poses were made from, and the convention by which."
+            f"raw row {wrong[0] + 1} is not the orientation of pose {wrong[0] + 1}, unlike the"
+            " other rows: give the numbers that the poses were made from, and their convention."
         )
     return np.asarray(mounts[0], dtype=np.float64)
 

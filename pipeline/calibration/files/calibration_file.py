@@ -150,7 +150,7 @@ def encode_calibration(
 ) -> bytes:
     """Return what `save_calibration` writes; `name` is what messages call it."""
     if created is not None and created.tzinfo is None:
-        raise CalibrationFileError(f"{name}: created: the time has no zone: use datetime.now(UTC).")
+        raise CalibrationFileError(f"{name}: created has no time zone: use datetime.now(UTC).")
     source = SourceFile.of(source) if isinstance(source, Path) else source
     content = _document(calibration, source, created, mount)
     try:
@@ -549,7 +549,7 @@ def _created(content: _Document, name: str) -> datetime | None:
     try:
         return None if content.created is None else datetime.fromisoformat(content.created)
     except ValueError as error:  # the 31st of February
-        raise CalibrationFileError(f"{name}: created is no time ({error}): {REMEDY}") from None
+        raise CalibrationFileError(f"{name}: created is not a time ({error}): {REMEDY}") from None
 
 
 # ---- sense -------------------------------------------------------------------------------------
@@ -566,8 +566,8 @@ def _check_residuals(
     wrong = np.flatnonzero(off > _ROUNDING * size)
     if len(wrong):
         raise CalibrationFileError(
-            f"{name}: poses[{wrong[0]}]: its residual is not its reading minus what the parameters predict:"
-            f" a number was changed. {REMEDY.capitalize()}"
+            f"{name}: poses[{wrong[0]}]: the residual is not the reading minus the prediction: a"
+            f" number was changed. {REMEDY.capitalize()}"
         )
 
 
@@ -580,7 +580,7 @@ def _check_covariance(C: NDArray[np.float64]) -> None:
     if not (np.abs(correlation - correlation.T) < _ROUNDING).all():
         raise InputError(f"the matrix is not symmetric: {REMEDY}")
     if (np.diag(C) < 0).any() or np.linalg.eigvalsh(correlation)[0] < -_ROUNDING:
-        raise InputError(f"the matrix is not positive semidefinite, so no covariance: {REMEDY}")
+        raise InputError(f"the matrix is not positive semidefinite, so it is not a covariance: {REMEDY}")
 
 
 @contextmanager
@@ -597,7 +597,7 @@ def _parse(data: bytes, name: str) -> _Document:
         content = from_json(data)
     except ValueError as error:
         raise CalibrationFileError(
-            f"{name}: this is not JSON ({error}): choose a calibration file, or copy it again."
+            f"{name}: not valid JSON ({error}): choose a calibration file, or copy it again."
         ) from None
     _check_kind(content, name)
     if content.get("version") == 1 and not isinstance(content["version"], bool):
@@ -614,13 +614,12 @@ def _parse(data: bytes, name: str) -> _Document:
 def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
-        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "there is no schema"
-        raise CalibrationFileError(f"{name}: {found}, not {SCHEMA!r}: choose a calibration file.")
+        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "the schema is missing"
+        raise CalibrationFileError(f"{name}: {found}; expected {SCHEMA!r}: choose a calibration file.")
     version = content.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise CalibrationFileError(
-            f"{name}: this file was written by a newer contactbench (its version is above {VERSION}): update"
-            " contactbench."
+            f"{name}: written by a newer contactbench (version above {VERSION}): update contactbench."
         )
 
 
@@ -677,7 +676,7 @@ def _where(path: tuple[int | str, ...]) -> str:
 
 _WORDS = {
     "missing": "is missing",
-    "extra_forbidden": "is not known here",
+    "extra_forbidden": "is not a known field",
     "finite_number": "is not a finite number",
     "less_than_equal": "is too large",
     "greater_than_equal": "is too small",

@@ -105,16 +105,16 @@ def capture_poses(
     mcap = is_recording(source)
     if mcap and (convention is not None or robot_poses is not None):
         raise InputError(
-            f"{source}: a recording says itself how its orientations are written, and has the robot's: leave the"
-            " convention out, and the robot's table."
+            f"{source}: a recording states its own orientation convention and contains the robot's"
+            " poses: leave out the convention and the robot's table."
         )
     work = Capturing(model)
     if mcap or robot_poses is not None:
         return _of_two(source, convention, robot_poses, R_ES, work, delay, progress)
     if delay is not None:
         raise InputError(
-            f"{source}: a table has wrench and pose in one row: a delay needs a recording, .mcap, or the robot's poses"
-            " as a table of their own."
+            f"{source}: a table has wrench and pose in one row, so a delay has no meaning: use a"
+            " recording (.mcap), or a separate table of robot poses."
         )
     return _of_table(source, convention, R_ES, work, progress)
 
@@ -185,8 +185,8 @@ def read_any_poses(
     warnings = (*found.warnings, *found.left_out)
     if not found.poses:
         raise RecordingError(
-            f"{source}: this is a recording that stands still nowhere: hold each pose for some seconds, touching"
-            f" nothing. {' '.join(warnings)}".rstrip()
+            f"{source}: the recording contains no still pose: hold each pose for a few seconds"
+            f" without touching anything. {' '.join(warnings)}".rstrip()
         )
     quaternions = _quaternions(np.array([pose.R_WS for pose in found.poses]))
     note = f"{source} is a recording: {len(found.poses)} still poses found in {found.rows:,} readings."
@@ -204,8 +204,8 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
 def _only(source: Path | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise RecordingError(
-            f"{source}: there are {len(recording.wrenches)} sensors and {len(recording.flanges)} robots in it: record"
-            " one of each, the robot with --pose."
+            f"{source}: it contains {len(recording.wrenches)} sensors and {len(recording.flanges)}"
+            " robots: record one of each, the robot with --pose."
         )
     (wrenches,), (poses,) = recording.wrenches.values(), recording.flanges.values()
     return wrenches, poses
@@ -218,8 +218,9 @@ def _check_overlap(
     (one, two), (three, four) = wrenches.times[[0, -1]], poses.times[[0, -1]]
     if two < three - _LONGEST_DELAY_S or four < one - _LONGEST_DELAY_S:
         raise RecordingError(
-            f"{source}: column t runs from {one:.10g} to {two:.10g} s, that of {robot_poses} from {three:.10g} to"
-            f" {four:.10g} s: nothing was recorded at the same time. Write both with one clock, in s."
+            f"{source}: column t runs from {one:.10g} to {two:.10g} s, that of {robot_poses} from"
+            f" {three:.10g} to {four:.10g} s: they do not overlap. Write both with the same clock,"
+            " in s."
         )
 
 
@@ -235,7 +236,9 @@ def _delay(
         return seconds
     seconds = 0.0 if delay is None else float(delay)
     if not abs(seconds) <= _LONGEST_DELAY_S:
-        raise InputError(f"a delay of {seconds:g} s is none: give at most {_LONGEST_DELAY_S:g} s, or auto.")
+        raise InputError(
+            f"a delay of {seconds:g} s is out of range: give at most {_LONGEST_DELAY_S:g} s, or auto."
+        )
     return seconds
 
 
@@ -244,12 +247,12 @@ def _kept(
 ) -> NDArray[np.bool_]:
     usable = wrenches.usable
     if bad := int(np.count_nonzero(~usable)):
-        said.append(f"{bad:,} readings are left out: empty, frozen, or no good by what the device says.")
+        said.append(f"{bad:,} readings left out: empty, frozen, or flagged as bad by the device.")
     if lost := int(np.count_nonzero(usable & ~there)):
-        said.append(f"{lost:,} readings are left out: no pose within {LONGEST_GAP} s beside them.")
+        said.append(f"{lost:,} readings left out: no pose within {LONGEST_GAP} s.")
     kept: NDArray[np.bool_] = usable & there
     if not kept.any():
-        raise RecordingError(f"{source}: no wrench with a pose beside it is left. {' '.join(said)}")
+        raise RecordingError(f"{source}: no reading has a pose close enough in time. {' '.join(said)}")
     return kept
 
 
@@ -289,8 +292,8 @@ def _of_table(
         convention = find_convention(reader, convention)
         if "t" in reader.names and not set(convention.columns) & set(reader.names):
             raise reader.error(
-                f"there is no orientation ({', '.join(convention.columns)}) beside the readings: add it, or give the"
-                " robot's poses as a table of their own, --robot-poses FILE.",
+                f"there is no orientation ({', '.join(convention.columns)}) beside the readings:"
+                " add it, or give the robot's poses as a separate table, --robot-poses FILE.",
                 1,
             )
         reader.select(("t", *CHANNELS, *convention.columns), allow_nan=CHANNELS)
@@ -370,9 +373,11 @@ class Capturing:
         settings = self._detector.settings
         needed = settings.window / 2 + settings.min_duration
         reason = (
-            f"the robot stood for {stop - start:.1f} s only, and it takes {needed:.1f} s after all has settled"
+            f"the robot stood for only {stop - start:.1f} s; {needed:.1f} s after settling are needed"
             if stop - start < needed
-            else "the robot stood, but the reading did not come to rest: vibration, a cable that moves, or a hand"
+            else (
+                "the robot stood still, but the reading did not settle: vibration, a moving cable, or a hand"
+            )
         )
         return Rejected(first, last, start, stop, StillState.MOVING, reason)
 

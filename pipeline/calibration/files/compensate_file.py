@@ -147,7 +147,7 @@ def _wording(convention: Convention | None) -> Wording:
         header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
         rows="readings",
         meaning="raw forces in N, torques in N·m, in the sensor frame S, and its orientation",
-        not_finite="remove the row, or pass --allow-nan to have it passed on.",
+        not_finite="remove the row, or use --allow-nan to pass it through.",
         text="a time",
         error=WrenchFileError,
     )
@@ -256,8 +256,9 @@ class _Compensation:
 
     def _warnings(self) -> Iterator[str]:
         if self._refused:
-            yield f"The calibration was refused, so these wrenches should be too. {self._refused}"
+            yield f"The calibration was refused, so do not trust these wrenches. {self._refused}"
         if self._not_finite:
             yield (
-                f"Rows with empty or infinite cells: {self._not_finite} of {self._rows}. Read on with --allow-nan."
+                f"{self._not_finite} of {self._rows} rows have empty or infinite cells; they were"
+                " passed through (--allow-nan)."
             )

@@ -99,8 +99,9 @@ def read_poses(
     reader, chosen = selection.reader, selection.convention
     if "t" in rows.columns and _sampled(rows.column("t")):
         raise reader.error(
-            f"this is a recording, {len(rows.lines)} rows {_step_text(rows.column('t'))} apart, not a table of still"
-            " poses: find those in it with contactbench calibrate captures."
+            f"this is a recording ({len(rows.lines)} rows, {_step_text(rows.column('t'))} apart),"
+            " not a table of still poses: find the still poses with contactbench calibrate"
+            " captures."
         )
     _check_ranges(reader, rows)
     raw = np.column_stack([rows.column(name) for name in chosen.columns])
@@ -239,17 +240,17 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
         return Convention()  # where its columns are missing, the reader says so
     remedies = {
         Kind.EULER: "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
-        " ZYX: about axes that turn along), --rotation-vector if they are axis times angle",
+        " ZYX: about the rotating axes), --rotation-vector if they are axis times angle",
         Kind.JOINTS: f"--robot NAME for the joints j1 to j6 (known: {', '.join(sorted(ROBOTS))})",
     }
     ways = " or ".join(remedies[kind] for kind in there if kind in remedies)
     if len(there) == 1:
         columns = ", ".join(Convention(there[0]).columns)
-        raise reader.error(f"columns {columns} alone do not say which orientation they mean: pass {ways}.", 1)
+        raise reader.error(f"columns {columns} alone do not define the orientation: pass {ways}.", 1)
     if Kind.QUATERNION in there:
         ways += ", or rename these columns to use qw, qx, qy, qz"
     kinds = " and as ".join({Kind.QUATERNION: "quaternions", Kind.EULER: "angles"}.get(k, k) for k in there)
-    raise reader.error(f"orientations are there as {kinds}: say which to use. Pass {ways}.", 1)
+    raise reader.error(f"the orientations are given as {kinds}: choose one. Pass {ways}.", 1)
 
 
 def sensor_orientations(
@@ -408,14 +409,14 @@ def _warnings(
     force, torque = np.linalg.norm(moved[:, :3], axis=1).max(), np.linalg.norm(moved[:, 3:], axis=1).max()
     if torque > max(_LONGEST_ARM * force, _FELT_TORQUE):
         yield (
-            f"From pose to pose torques change by up to {torque:.3g}, forces only by {force:.3g} N: if the"
-            " torques are in N·mm, divide them by 1000."
+            f"Between poses the torques change by up to {torque:.3g}, but the forces by only"
+            f" {force:.3g} N: if the torques are in N·mm, divide them by 1000."
         )
     cosines = (np.einsum("iab,ab->i", R_WS, R_WS[0]) - 1) / 2
     if len(R_WS) > 1 and (cosines > np.cos(_SAME)).all():
         yield (
-            "All poses have the same orientation, within half a degree. Turn the wrist between poses, or check"
-            " that the columns of the orientation are those that the robot updates."
+            "All poses have the same orientation to within half a degree. Turn the wrist between"
+            " poses, or check that the orientation columns are the ones the robot updates."
         )
     yield from _repeats(np.column_stack([raw, wrenches]), rows.lines)
     yield from _copied(R_WS, wrenches, rows.lines)
@@ -435,8 +436,9 @@ def _copied(
         one, other = lines[again[0] : again[0] + 2].tolist()
         more = f", and {len(again) - 1} more such pairs" if len(again) > 1 else ""
         yield (
-            f"Lines {one} and {other} have the same reading to the last digit, though the sensor is turned between"
-            f" them{more}: it was copied, or the readings are shifted by a row. Correct or remove the pose."
+            f"Lines {one} and {other} have exactly the same reading although the sensor was turned"
+            f" between them{more}: the reading was copied, or the readings are shifted by a row."
+            " Correct or remove the pose."
         )
 
 
@@ -446,8 +448,8 @@ def _time_warnings(times: NDArray[np.float64], lines: NDArray[np.int64]) -> Iter
     steps = _steps(times)
     if len(steps) and float(np.median(steps)) <= _CLOSEST_POSES_S:
         yield (
-            f"By column t the poses are {_step_text(times)} apart, and a pose takes a second: write t in s. If the rows"
-            " are samples of a recording, give the whole of it."
+            f"By column t the poses are {_step_text(times)} apart, but a pose takes a second:"
+            " write t in s. If the rows are samples of a recording, give the whole recording."
         )
 
 
@@ -468,8 +470,8 @@ def _disorder(what: str, values: NDArray[np.float64], lines: NDArray[np.int64]) 
     shown = ", ".join(map(str, moved[:6])) + (", ..." if len(moved) > 6 else "")
     how = "two rows are swapped" if len(moved) == 2 else "rows were moved"
     yield (
-        f"The {what} do not rise at lines {shown}: if {how}, in whole or in some columns, put them back; readings must"
-        " stand beside their own orientation."
+        f"The {what} do not increase at lines {shown}: if {how}, entirely or in some columns,"
+        " restore the order. Each reading must stand beside its own orientation."
     )
 
 
@@ -490,8 +492,9 @@ def _repeats(values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[
             again.append((earlier, line))
     if again:
         yield (
-            f"Rows that repeat an earlier one to the last digit: {len(again)}, first line {again[0][1]}, which"
-            f" repeats line {again[0][0]}. They count as poses of their own: remove them."
+            f"Rows that repeat an earlier row exactly: {len(again)}; the first is line"
+            f" {again[0][1]}, which repeats line {again[0][0]}. They count as separate poses:"
+            " remove them."
         )
 
 

@@ -185,8 +185,8 @@ class StillnessIntake:
     def _know(self, rate: float) -> None:
         if rate < _SLOWEST:
             raise InputError(
-                f"{rate:.2g} samples a second: too few to tell stillness from motion; are the times in s? Give"
-                f" {_SLOWEST:g} or more"
+                f"{rate:.2g} samples per second are too few to tell stillness from motion: check"
+                f" that the times are in s, and give {_SLOWEST:g} or more"
             )
         self.rate = rate
         fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST
@@ -204,8 +204,8 @@ class StillnessIntake:
         if stop > len(self._t):
             if stop > _MOST:
                 raise InputError(
-                    f"{stop} samples from {self._t[0]:g} s on, and no {self.length:g} s are over: the times stand"
-                    " still; give the time of each sample, s"
+                    f"{stop} samples since {self._t[0]:g} s span less than {self.length:g} s: the"
+                    " times stand still; give the time of each sample in s"
                 )
             self._t = np.concatenate([self._t[: self._filled], np.empty(2 * count + self._filled)])
             self._w = np.concatenate([self._w[: self._filled], np.empty((2 * count + self._filled, 6))])

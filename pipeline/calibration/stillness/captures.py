@@ -90,7 +90,7 @@ class StillnessSettings:
         if self.min_duration > self.max_duration:
             raise InputError(
                 f"StillnessSettings.min_duration, {self.min_duration} s, is above max_duration,"
-                f" {self.max_duration} s: lower the one or raise the other"
+                f" {self.max_duration} s: lower the first or raise the second"
             )
         if self.window < 6 * BLOCK:
             raise InputError(f"StillnessSettings.window: {self.window} s; give {6 * BLOCK:.1f} s or more")
@@ -213,8 +213,8 @@ def orientation(R_WS: ArrayLike, many: tuple[int, ...]) -> Floats:
 def backwards(t: float, before: float) -> str:
     """Say what is wrong with the time of a sample."""
     return (
-        f"time {t} s after {before} s: times must be finite and must not run backwards; sort the samples, or begin"
-        " with a new detector after a restart of the clock"
+        f"time {t} s after {before} s: times must be finite and must not decrease; sort the"
+        " samples, or start a new detector after the clock restarts"
     )
 
 

@@ -259,7 +259,7 @@ class StillnessDetector:
             if old is self._done:
                 self._done = None
             scatter = size(old.sd, old.sd / loudest)
-            reason = f"withdrawn: it scattered by {scatter}, and the still sensor does not"
+            reason = f"withdrawn: it scattered by {scatter}, more than the still sensor does"
             span = old.start_index, old.stop_index, old.start, old.stop
             self._refuse(Rejected(*span, StillState.MOVING, reason))
 
@@ -326,7 +326,8 @@ class StillnessDetector:
         seconds = self._until_still(unrest)
         if self._held:
             words = (
-                f"Bumped, or left too early: {self._held.reason}. The next capture begins when all is still."
+                f"Bumped, or left too early: {self._held.reason}. The next capture starts once"
+                " everything is still."
             )
             self._state(StillState.BUMPED, words, seconds, window)
             return
@@ -364,7 +365,7 @@ class StillnessDetector:
         elif self._done is None:
             self._touched = len(self.rejected)
             self._reject(window.blocks, StillState.TOUCHED, f"touched: {touch}")
-        words = f"Touched: {touch}. Take away what touches the probe, or recalibrate if nothing does."
+        words = f"Touched: {touch}. Remove whatever touches the probe. If nothing does, recalibrate."
         self._state(StillState.TOUCHED, words, None, window)
 
     # ---- in a capture --------------------------------------------------------------------------
@@ -402,7 +403,7 @@ class StillnessDetector:
         tail = 0 if self._trims == _TRIMS else self._rule.tail(blocks)
         if tail:
             self._trims, self._open = self._trims + 1, self._open[tail:]
-            words = f"Still: it had not quite settled, {self._duration(blocks[tail:]):.1f} s count so far."
+            words = f"Still, after settling late: {self._duration(blocks[tail:]):.1f} s averaged so far."
             self._state(StillState.STILL, words, 0.0, window)
             return
         self._open = []
@@ -453,5 +454,5 @@ class StillnessDetector:
     def _blind(self, block: SampleBlock) -> str:
         """Say why a steady touch would not be seen."""
         if self.model is None:
-            return " A steady touch cannot be seen before a first calibration."
-        return "" if block.R_WS is not None else " A steady touch cannot be seen without the orientation."
+            return " A steady touch cannot be detected before the first calibration."
+        return "" if block.R_WS is not None else " A steady touch cannot be detected without the orientation."

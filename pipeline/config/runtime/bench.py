@@ -164,9 +164,7 @@ def _built(
         rate, error = rate or verified.rate, verified.model_error
         stale += rate_reasons(verified.rate, rate, settings.filters)
     if rate is None:
-        raise RateUnknownError(
-            "the readings a second are unknown: give them with --rate, as the sensor is set."
-        )
+        raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
     return build_config(
         record.calibration,
@@ -220,9 +218,9 @@ def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
     said = []
     for role in ("calibration", "probe"):
         if role not in verified:
-            said.append(f"The verification does not say with which {role} it was made: verify again.")
+            said.append(f"The verification does not state its {role}: verify again.")
         elif verified[role] not in hashes:
-            said.append(f"The verification was made with another {role}: verify again.")
+            said.append(f"The verification used another {role}: verify again.")
     return said
 
 
@@ -336,7 +334,7 @@ def export_from_session(
     if report is not None:
         stale += _doubts(session, report)
         if verification is not None and not set(report.action.inputs.values()) & verification.known_as:
-            stale.append(f"{report.title} is about another verification: make the report anew.")
+            stale.append(f"{report.title} belongs to another verification: create the report again.")
     folder = session.folder
     serials = {each.sensor for each in session.state.current_inputs.values() if each.sensor}
     serial = settings.serial or (serials.pop() if len(serials) == 1 else None)
@@ -405,8 +403,8 @@ def _newest(session: SessionLike, kind: str, *, needed: bool = False) -> Any:
     found += [_brought(each) for each in session.state.current_inputs.values() if each.kind == kind]
     if needed and not found:
         raise ConfigError(
-            f"{session.folder}: there is no {kind}: add one, make one with `contactbench session compute`, or name the"
-            " files."
+            f"{session.folder}: there is no {kind}: add one, compute one with `contactbench"
+            " session compute`, or name the files."
         )
     return max(found, key=lambda each: each.number, default=None)
 

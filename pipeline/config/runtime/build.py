@@ -220,14 +220,14 @@ def reasons_against(
     """Say why a config of these would not be verified; empty if it would."""
     reasons = []
     if calibration.verdict.level == "refuse":
-        reasons.append(f"The calibration is refused: {calibration.verdict.reasons[0]}"[:1000])
+        reasons.append(f"The calibration was refused: {calibration.verdict.reasons[0]}"[:1000])
     if probe_file.frame != "S":
-        reasons.append("The probe is not aligned with the sensor (its frame is P): align it.")
+        reasons.append("The probe is not aligned with the sensor (its frame is P): align it first.")
     health = probe_file.probe.health
     if not (health.watertight and health.outward):
-        reasons.append("The surface of the probe is open or inside out: prepare it.")
+        reasons.append("The surface of the probe is open or inside out: prepare it again.")
     if verification is None:
-        reasons.append("Nobody has verified contacts on markers.")
+        reasons.append("Contacts have not been verified on markers: verify first.")
     elif not verification.passed:
         reasons.append(f"The verification failed: {verification.diagnosis}"[:1000])
     reasons += failed_checks(checks).values()
@@ -317,7 +317,7 @@ def _noise(
     noise: WrenchNoise, wrench_filter: KalmanFilter | None, calibration: Calibration
 ) -> dict[str, Any]:
     if noise.extra is not None:
-        raise ConfigError("noise.extra: the calibration's share is added by itself: leave it out.")
+        raise ConfigError("noise.extra: the calibration's share is added automatically: leave it out.")
     force, torque = _floats(np.broadcast_to(noise.force, 3)), _floats(np.broadcast_to(noise.torque, 3))
     covariance = wrench_covariance(force, torque, wrench_filter, calibration.model)
     return {
@@ -331,7 +331,7 @@ def _noise(
 def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
     error = model.model_error
     if error.extra is not None:
-        raise ConfigError("touch.model_error: a bundle holds no covariance of it: leave extra out.")
+        raise ConfigError("touch.model_error: a bundle stores no covariance for it: leave extra out.")
     return {
         "torsion_arm_m": float(model.torsion_arm),
         "model_error": {
@@ -362,7 +362,7 @@ def _low_pass(location: LowPass | None) -> dict[str, Any] | None:
         return None
     if location.order > _MOST_ORDER:
         raise ConfigError(
-            f"filters.location.order is {location.order}: a runtime takes at most {_MOST_ORDER}."
+            f"filters.location.order is {location.order}: a runtime supports at most {_MOST_ORDER}."
         )
     return {
         "kind": "lowpass",
@@ -399,7 +399,7 @@ def _floats(values: ArrayLike) -> list[float]:
 
 def _seconds(field: str, time: datetime) -> str:
     if time.tzinfo is None:
-        raise ConfigError(f"{field}: the time has no zone: use datetime.now(UTC).")
+        raise ConfigError(f"{field} has no time zone: use datetime.now(UTC).")
     return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 

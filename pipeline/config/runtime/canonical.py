@@ -90,14 +90,15 @@ def _parse(data: bytes, name: str) -> dict[str, Any]:
         content = json.loads(data.decode())
         spelled = _spelled(content)
     except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{name}: this is not sound JSON ({error!s:.200}): {_REMEDY}") from None
+        raise ConfigError(f"{name}: not valid JSON ({error!s:.200}): {_REMEDY}") from None
     if not isinstance(content, dict):
-        raise ConfigError(f"{name}: this is no JSON object: {_REMEDY}")
+        raise ConfigError(f"{name}: not a JSON object: {_REMEDY}")
     # Readers differ in what they make of a key that occurs twice, of 1e999 or of a byte after the end.
     if spelled != data:
         raise ConfigError(
-            f"{name}: byte {first_difference(data, spelled)} is not as contactbench writes it (a space, a key that"
-            f" occurs twice or out of order, or another spelling of a number or a text): {_REMEDY}"
+            f"{name}: byte {first_difference(data, spelled)} differs from what contactbench writes"
+            " (a space, a duplicate or misplaced key, or another spelling of a number or a text):"
+            f" {_REMEDY}"
         )
     return content
 
@@ -111,12 +112,12 @@ def _checked_kind(content: dict[str, Any], name: str) -> dict[str, Any]:
     schema, version = content.get("schema"), content.get("version")
     if schema != SCHEMA:
         raise ConfigError(
-            f"{name}: schema is {schema!a:.{_LONGEST}}, not {SCHEMA!r}: choose a runtime config."
+            f"{name}: schema is {schema!a:.{_LONGEST}}, expected {SCHEMA!r}: choose a runtime config."
         )
     if isinstance(version, bool) or not isinstance(version, int):
         raise ConfigError(f"{name}: version is {version!a:.{_LONGEST}}, not a whole number: {_REMEDY}")
     if version > VERSION:
         raise ConfigError(
-            f"{name}: version is {version}, and this contactbench reads up to {VERSION}: update contactbench."
+            f"{name}: version is {version}, but this contactbench reads up to {VERSION}: update contactbench."
         )
     return content

@@ -84,11 +84,13 @@ def decode_mesh(data: bytes, model: RuntimeModel, name: str) -> Probe:
     wanted = encode_probe(probe, [region.colour for region in model.regions])
     if data != wanted:
         raise ConfigError(
-            f"{name}: byte {first_difference(data, wanted)} is not as contactbench writes this mesh. {_AGAIN}"
+            f"{name}: byte {first_difference(data, wanted)} differs from what contactbench writes"
+            f" for this mesh. {_AGAIN}"
         )
     if float(np.abs(probe.vertices).max()) > _FARTHEST_VERTEX_M:
         raise ConfigError(
-            f"{name}: a vertex is more than {_FARTHEST_VERTEX_M:g} m from the sensor: is the probe in metres? {_AGAIN}"
+            f"{name}: a vertex is more than {_FARTHEST_VERTEX_M:g} m from the sensor: check that"
+            f" the probe is in metres. {_AGAIN}"
         )
     return probe
 
@@ -154,8 +156,8 @@ def _check_regions(model: RuntimeModel, probe: Probe, name: str) -> None:
     hidden = tuple(region.rank for region in model.regions if region.untouchable)
     if probe.untouchable != hidden:
         raise ConfigError(
-            f"{name}: regions says that {list(hidden)} are untouchable, the mesh says {list(probe.untouchable)}."
-            f" {_AGAIN}"
+            f"{name}: regions lists {list(hidden)} as untouchable, the mesh lists"
+            f" {list(probe.untouchable)}. {_AGAIN}"
         )
     names = [region.name for region in model.regions]
     if len(set(names)) < len(names):
@@ -178,10 +180,16 @@ def _check_gravity(model: RuntimeModel, version: int) -> None:
     weight = float(np.linalg.norm(gravity.gravity_W))
     mass = gravity.mass
     if weight > _HEAVIEST_N or mass > _HEAVIEST_KG:
-        _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, more than {_HEAVIEST_KG:g}: were they grams?")
+        _refuse(
+            "gravity.gravity_W_N",
+            f"is {mass:.4g} kg, more than {_HEAVIEST_KG:g}: check whether it was given in grams.",
+        )
     weighs = mass > 0 and mass > _SURE * gravity.mass_sigma
     if weighs and mass < _LIGHTEST_KG:
-        _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, less than {_LIGHTEST_KG:g}: were they kN?")
+        _refuse(
+            "gravity.gravity_W_N",
+            f"is {mass:.4g} kg, less than {_LIGHTEST_KG:g}: check whether forces were in kN.",
+        )
     down = model.world.down_W
     if points_away(gravity, down):
         _refuse(
@@ -189,11 +197,14 @@ def _check_gravity(model: RuntimeModel, version: int) -> None:
             f"points up ({-float(gravity.gravity_W @ down):.4g} N against world.down_W).",
         )
     if weighs and version >= _DOWN_SINCE and points_away(gravity, down, _MOST_LEAN):
-        _refuse("gravity.gravity_W_N", "is more than 60 degrees from world.down_W: how is the robot mounted?")
+        _refuse(
+            "gravity.gravity_W_N",
+            "is more than 60 degrees from world.down_W: check how the robot is mounted.",
+        )
     for field, values, most, unit in (
         ("force_bias_N", part.force_bias_N, _LARGEST_BIAS_N, "N"),
-        ("torque_bias_Nm", part.torque_bias_Nm, _LARGEST_BIAS_NM, "N*m: were they N*mm?"),
-        ("centre_of_mass_S_m", part.centre_of_mass_S_m, _FARTHEST_M, "m: were they mm?"),
+        ("torque_bias_Nm", part.torque_bias_Nm, _LARGEST_BIAS_NM, "N*m: check whether they were N*mm."),
+        ("centre_of_mass_S_m", part.centre_of_mass_S_m, _FARTHEST_M, "m: check whether they were mm."),
     ):
         size = float(np.linalg.norm(values))
         if size > most:
@@ -209,7 +220,7 @@ def _check_noise(model: RuntimeModel) -> None:
         if not 0 < min(sigmas) <= max(sigmas) <= most:
             _refuse(
                 f"noise.{field}",
-                f"is {sigmas}: no sensor has less than 0 or more than {most:g}, nor 0 itself.",
+                f"is {sigmas}: it must be above 0 and at most {most:g}.",
             )
     wrench_filter = None if model.filters.wrench is None else kalman_of(model.filters.wrench)
     told = np.array(part.wrench_covariance)
@@ -220,7 +231,7 @@ def _check_noise(model: RuntimeModel) -> None:
     if not (np.abs(told - true) <= _ROUNDING * np.outer(deviations, deviations)).all():
         _refuse(
             "noise.wrench_covariance",
-            "is not what the noise of a reading, the filter and gravity.covariance make together.",
+            "does not follow from the noise of a reading, the filter and gravity.covariance.",
         )
 
 
@@ -260,7 +271,7 @@ def _check_low_pass(part: LowPassPart) -> None:
     true = low_pass_sections(part.cutoff_Hz, part.rate_Hz, part.order)
     told = np.array(part.sections)
     if told.shape != true.shape or not (np.abs(told - true) <= _SECTIONS).all():
-        _refuse("filters.location.sections", "are not those of cutoff_Hz, order and rate_Hz.")
+        _refuse("filters.location.sections", "do not match cutoff_Hz, order and rate_Hz.")
 
 
 def _check_controller(model: RuntimeModel) -> None:
@@ -298,12 +309,12 @@ def _check_yaml(
         with np.errstate(all="ignore"):  # what overflows is refused
             wanted = regenerate(data.decode("ascii"), gravity_of(model), model.world.down_W).encode("ascii")
     except UnicodeDecodeError:
-        raise ConfigError(f"{name}: this is not ASCII. {_AGAIN}") from None
+        raise ConfigError(f"{name}: not ASCII. {_AGAIN}") from None
     except InputError as error:
-        raise ConfigError(f"{name}: this is not the file of this bundle ({error}). {_AGAIN}") from None
+        raise ConfigError(f"{name}: this file belongs to another bundle ({error}). {_AGAIN}") from None
     if data != wanted:
         line = wanted.count(b"\n", 0, first_difference(data, wanted)) + 1
-        _refuse(f"{name}: line {line}", "is not what contactbench.json says.")
+        _refuse(f"{name}: line {line}", "does not match contactbench.json.")
 
 
 def _check_touch(model: RuntimeModel) -> None:
@@ -316,7 +327,7 @@ def _check_verified(model: RuntimeModel, probe: Probe) -> None:
     if not model.verified:
         return
     if model.verification is None or not model.verification.passed:
-        _refuse("verified", "is true, but verification is not there or not passed.")
+        _refuse("verified", "is true, but verification is missing or did not pass.")
     for kind in failed_checks(model.checks):
         _refuse("verified", f"is true, but checks.{kind} failed.")
     if model.provenance.stale:
@@ -342,7 +353,7 @@ def _check_figures(part: VerificationPart) -> None:
         if getattr(part, field) > _LARGEST_ERROR_M:
             _refuse(
                 f"verification.{field}",
-                f"is {getattr(part, field):g}, more than {_LARGEST_ERROR_M:g} m: was it mm?",
+                f"is {getattr(part, field):g}, more than {_LARGEST_ERROR_M:g} m: check whether it was mm.",
             )
     if part.mean_error_m > part.limit_mean_m or part.max_error_m > part.limit_max_m:
         _refuse("verification.passed", "is true, but an error exceeds its limit.")
@@ -355,7 +366,7 @@ def _check_limits(model: RuntimeModel) -> None:
     for field, most in _LARGEST_LIMITS.items():
         limit = getattr(model.limits, field)
         if limit is not None and limit > most:
-            _refuse(f"limits.{field}", f"is {limit:g}, more than {most:g}: is the unit right?")
+            _refuse(f"limits.{field}", f"is {limit:g}, more than {most:g}: check the unit.")
     most = model.limits.max_force_N
     for axis, limit in enumerate(model.gates.saturation[:3]):
         if limit is not None and limit < most:

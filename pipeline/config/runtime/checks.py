@@ -81,9 +81,9 @@ def _content(data: bytes, name: str, schema: str, words: str, again: str) -> dic
     try:
         content = from_json(data, allow_inf_nan=False)
     except ValueError as error:
-        raise ConfigError(f"{name}: this is not JSON ({error!s:.100}): choose a {words}.") from None
+        raise ConfigError(f"{name}: not valid JSON ({error!s:.100}): choose a {words}.") from None
     if not isinstance(content, dict) or (content.get("schema"), content.get("version")) != (schema, _VERSION):
-        raise ConfigError(f"{name}: this is no {schema} of version {_VERSION}: {again}.")
+        raise ConfigError(f"{name}: not a {schema} of version {_VERSION}: {again}.")
     return content
 
 
@@ -139,8 +139,8 @@ def unchecked(checks: ChecksPart) -> str:
         return ""
     if done:
         return (
-            "The check could not tell whether sign, unit and scale of the sensor are right: check a heavier weight,"
-            " or press the known point again."
+            "The check was inconclusive about sign, unit and scale of the sensor: use a heavier"
+            " weight, or press the known point again."
         )
     return (
         "Neither a known weight nor a known touch was checked: a wrong sign, unit or scale of the sensor would go"
@@ -189,7 +189,7 @@ def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verifie
         data, name, "contactbench.verification", "verification", "verify again with this contactbench"
     )
     if content.get("overall") is None:
-        raise ConfigError(f"{name}: no touch was accepted, there is nothing to export: verify again.")
+        raise ConfigError(f"{name}: no touch was accepted, so there is nothing to export: verify again.")
     try:
         return VerificationPart.model_validate(_summary(content)), _verified(content)
     except ValidationError as error:
@@ -216,15 +216,15 @@ def rate_reasons(verified: float | None, rate: float | None, filters: Filters | 
     said = []
     if verified is not None and rate is not None and abs(rate / verified - 1) > RATE_OFF:
         said.append(
-            f"Contacts were verified at {verified:.4g} readings a second, the config is for {rate:.4g}: verify again"
-            " at this rate."
+            f"Contacts were verified at {verified:.4g} readings per second, but the config is for"
+            f" {rate:.4g}: verify again at this rate."
         )
     for what, made in (
         ("wrench", None if filters is None or filters.wrench is None else filters.wrench.rate),
         ("contact point", None if filters is None or filters.location is None else filters.location.rate),
     ):
         if made is not None and rate is not None and abs(rate / made - 1) > RATE_OFF:
-            said.append(f"The filter of the {what} is for {made:.4g} Hz, the config for {rate:.4g}.")
+            said.append(f"The filter of the {what} is for {made:.4g} Hz, but the config is for {rate:.4g}.")
     return said
 
 
@@ -247,9 +247,7 @@ def _unsaid(content: Mapping[str, Any]) -> str:
     names = {"rate_Hz": "rate", "mount": "mounting", "filters": "filters", "gates": "gates"}
     missing = [name for key, name in names.items() if key not in content.get("settings", {})]
     return (
-        f"The verification does not say its {', '.join(missing)}: make sure they are these."
-        if missing
-        else ""
+        f"The verification does not state its {', '.join(missing)}: make sure they match." if missing else ""
     )
 
 
@@ -259,7 +257,7 @@ def _left_out(content: Mapping[str, Any]) -> str:
     if not isinstance(left_out, dict) or not left_out:
         return ""
     said = ", ".join(f"{name} ({why})" for name, why in left_out.items())
-    return f"Left out on purpose: {said}: nothing is known of contacts there."
+    return f"Skipped on purpose: {said}: contacts there are not verified."
 
 
 def _summary(content: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,8 +2,8 @@
 A runtime config: one folder or zip file that a robot's controller loads.
 
 ========================  ==========================================================================================
-``contactbench.json``     everything there is to know, see `contactbench.pipeline.config.runtime.model`
-``contactbench.sha256``   the hash of that file, as ``sha256sum --check`` takes it; it holds the hashes of the others
+``contactbench.json``     the whole configuration, see `contactbench.pipeline.config.runtime.model`
+``contactbench.sha256``   the hash of that file, for ``sha256sum --check``; it contains the hashes of the others
 ``probe.ply``             the mesh in S, m, with the region of every facet
 ``planes.csv``            its facets as planes in priority order
 ``ros2.yaml``             for ros2_control: offsets and gravity compensation
@@ -52,7 +52,7 @@ _AGAIN = "copy or export the bundle again."
 @dataclass(frozen=True, eq=False)
 class RuntimeConfig:
     """
-    A runtime config that was checked.
+    A checked runtime config.
 
     Make one with `load` or `build_config`: they check; the bare constructor does not.
 
@@ -72,7 +72,7 @@ class RuntimeConfig:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> RuntimeConfig:
         """
-        Load a bundle, and believe nothing in it.
+        Load a bundle and check everything in it.
 
         Parameters
         ----------
@@ -82,8 +82,8 @@ class RuntimeConfig:
         Raises
         ------
         ConfigError
-            It is damaged, was changed, is of a newer version, contradicts itself, or cannot be true; the message
-            names the file and the field.
+            It is damaged, was changed, has a newer version, contradicts itself, or has impossible values; the
+            message names the file and the field.
         """
         return cls.from_files(read_bundle(Path(path)), str(path))
 
@@ -97,7 +97,7 @@ class RuntimeConfig:
         files : mapping
             File name -> content.
         name : str
-            What messages call the bundle.
+            Name of the bundle in messages.
 
         Raises
         ------
@@ -108,9 +108,7 @@ class RuntimeConfig:
         for file, content in files.items():
             check_size(file, len(content), name)
         if files[CHECKSUM] != checksum(files[CONFIG]):
-            raise ConfigError(
-                f"{name}: {CONFIG} does not have the hash in {CHECKSUM}, it was changed: {_AGAIN}"
-            )
+            raise ConfigError(f"{name}: {CONFIG} was changed: its hash does not match {CHECKSUM}: {_AGAIN}")
         model, version = decode_json(files[CONFIG], f"{name}: {CONFIG}")
         others = {file: content for file, content in files.items() if file not in (CONFIG, CHECKSUM)}
         _check_hashes(model, others, name)
@@ -147,7 +145,8 @@ class RuntimeConfig:
             if isinstance(error, ConfigError):
                 raise
             raise ConfigError(
-                f"{target}: the bundle cannot be written ({error}): choose a place that is writable and has space."
+                f"{target}: the bundle cannot be written ({error}): choose a location that is"
+                " writable and has space."
             ) from error
 
     def encoded(self) -> dict[str, bytes]:
@@ -178,5 +177,5 @@ def _check_hashes(model: RuntimeModel, files: Mapping[str, bytes], name: str) ->
     for file, content in files.items():
         if hashlib.sha256(content).hexdigest() != listed[file]:
             raise ConfigError(
-                f"{name}: {file} does not have the hash in provenance.files, it was changed: {_AGAIN}"
+                f"{name}: {file} was changed: its hash does not match provenance.files: {_AGAIN}"
             )

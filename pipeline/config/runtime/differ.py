@@ -13,26 +13,26 @@ if TYPE_CHECKING:
 _ABSENT = "(absent)"
 # The longest that fits first; fields that are not here mean what they say.
 _MEANINGS = {
-    "gravity.covariance": "how sure the calibration is",
-    "gravity": "what is taken off every reading: every contact moves",
-    "noise": "how uncertain a contact is told to be, and which rivals count",
-    "touch": "what else a touch may differ by: torsion, drift, the mesh",
+    "gravity.covariance": "how certain the calibration is",
+    "gravity": "the correction of every reading: every contact moves",
+    "noise": "the stated uncertainty of a contact, and which rivals count",
+    "touch": "the model error: torsion, drift, the mesh",
     "filters.wrench": "lag and noise of the wrench",
     "filters.location": "lag and noise of the contact point",
-    "gates": "which touches are answered",
+    "gates": "which touches get an answer",
     "frames.quaternion_ES": "how the sensor sits on the flange: every contact moves",
     "world": "how the robot is mounted: where down is",
     "zero": "how old the bias is, and how fast it drifted",
     "checks": "whether sign, units and scale were checked with a known weight or touch",
     "sensor": "another sensor: the calibration belongs to one only",
     "probe": "another surface",
-    "regions": "what is preferred among candidates",
+    "regions": "the preference among candidates",
     "planes": "the planes for controllers with their own loop",
     "controller": "how the robot answers a touch",
-    "limits": "what the robot must not exceed",
-    "verification": "what was measured on markers",
-    "verified": "whether anybody has shown that it is right",
-    "provenance": "where it comes from",
+    "limits": "the limits of the robot",
+    "verification": "the results on markers",
+    "verified": "whether contacts were verified",
+    "provenance": "its origin",
 }
 
 

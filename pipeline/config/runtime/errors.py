@@ -25,8 +25,8 @@ class UnverifiedError(ConfigError):
 
     def __init__(self, reasons: tuple[str, ...]) -> None:
         super().__init__(
-            "the config is not verified, and is not written: "
+            "the config is not verified and was not written: "
             + " ".join(reasons)
-            + " Mend that; or export it as unverified, for trials without a person."
+            + " Correct that, or export it as unverified, for trials without a person."
         )
         self.reasons = reasons

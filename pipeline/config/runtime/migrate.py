@@ -161,6 +161,7 @@ def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:
             content = {**step(content), "version": version + 1}
         except (KeyError, TypeError, ValueError) as error:
             raise ConfigError(
-                f"{name}: this config of version {version} cannot be carried over ({error!r:.100}): export it again."
+                f"{name}: this config of version {version} cannot be migrated ({error!r:.100}):"
+                " export it again."
             ) from error
     return content

@@ -1,8 +1,9 @@
 """
-The schema of a runtime config: what a controller needs to compensate, filter and locate, in any language.
+The schema of a runtime config: everything a controller needs to compensate, filter and locate, in any language.
 
-One JSON object, ``contactbench.json``. Every number is SI and finite, every field is there; ``null`` says that there
-is none. What a number means is in its name: ``force_bias_N``. R_WS turns S into W (v_W = R_WS v_S).
+One JSON object, ``contactbench.json``. Every number is SI and finite, and every field is present; ``null`` means that
+there is no value. The name of a number states its meaning and unit: ``force_bias_N``.
+R_WS turns S into W (v_W = R_WS v_S).
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class ConfigPart(BaseModel):
 
 
 class UnitsPart(ConfigPart):
-    """The only units there are; written down so that nobody has to know."""
+    """The only units used, written down so that no reader has to guess."""
 
     force: Literal["N"]
     torque: Literal["N*m"]
@@ -57,11 +58,11 @@ class UnitsPart(ConfigPart):
 
 class FramesPart(ConfigPart):
     """
-    The frames, in words.
+    The frames.
 
-    W is the frame that the calibration's orientations were given in, normally the robot's base: not a levelled world.
-    The direction of gravity in it was measured (``gravity_W_N``), and ``world.down_W`` says where it has to be. A
-    controller must give its orientations in the same frame.
+    W is the frame of the calibration's orientations, normally the robot's base; it need not be level. The direction
+    of gravity in W was measured (``gravity_W_N``); ``world.down_W`` states its expected direction. A controller must
+    give its orientations in the same frame.
 
     ``quaternion_ES`` (w, x, y, z) turns S into the flange E, so that R_WS = R_WE R_ES; null: the calibration's
     orientations were the sensor's own, and the controller gives R_WS itself.
@@ -76,9 +77,9 @@ class FramesPart(ConfigPart):
 
 class WorldPart(ConfigPart):
     """
-    Where down is in W, as somebody said: a unit vector.
+    The declared direction of down in W, a unit vector.
 
-    (0, 0, -1) for a robot that stands, (0, 0, 1) for one that hangs from the ceiling.
+    (0, 0, -1) for an upright robot, (0, 0, 1) for one that hangs from the ceiling.
     """
 
     down_W: _Three
@@ -86,9 +87,9 @@ class WorldPart(ConfigPart):
 
 class SensorPart(ConfigPart):
     """
-    Which sensor this config belongs to: with another one it is wrong.
+    The sensor that this config belongs to; it is wrong for any other.
 
-    ``unknown``: nobody said. ``rate_Hz`` are readings a second: at another rate the filters act at another frequency.
+    ``unknown``: not given. ``rate_Hz`` is in readings per second; at another rate the filters act at another frequency.
     """
 
     model: _Text
@@ -114,7 +115,7 @@ class DriftPart(ConfigPart):
     """
     How fast the bias changed at the end of the calibration, N/s and N·m/s, each with its standard deviation.
 
-    A reading so many seconds later has that much more bias than ``gravity`` says, if the drift went on.
+    A later reading has this much more bias per second than stated in ``gravity``, if the drift continues.
     """
 
     force_Nps: _Three
@@ -125,10 +126,10 @@ class DriftPart(ConfigPart):
 
 class ZeroPart(ConfigPart):
     """
-    How old the bias is.
+    The age of the bias.
 
-    ``measured``: the end of the calibration's poses, as near as its file tells; null: nobody knows. ``drift`` is null
-    where the poses showed none.
+    ``measured``: the end of the calibration's poses, as far as its file states it; null: unknown. ``drift`` is null if
+    the poses showed none.
     """
 
     measured: _Time | None
@@ -137,10 +138,10 @@ class ZeroPart(ConfigPart):
 
 class NoisePart(ConfigPart):
     """
-    How uncertain a wrench is.
+    The uncertainty of a wrench.
 
     ``force_N`` and ``torque_Nm`` are of one reading. ``orientation_rad``: of one pose of the calibration, about each
-    axis; null: it did not say. ``wrench_covariance`` is of a compensated, filtered wrench (N², N²·m, N²·m²), the
+    axis; null: not stated. ``wrench_covariance`` is of a compensated, filtered wrench (N², N²·m, N²·m²), the
     calibration's share included, on average over all orientations. The runtime adds the squares of
     ``touch.model_error`` to its diagonal.
     """
@@ -155,7 +156,8 @@ class KalmanPart(ConfigPart):
     """
     As KalmanFilter: each channel a random walk seen through white noise.
 
-    ``per_sample`` adds Q and R per sample whatever the time; else both belong to ``tuned_rate_Hz`` and follow time.
+    ``per_sample`` adds Q and R per sample regardless of time; otherwise both belong to ``tuned_rate_Hz`` and scale with
+    time.
     """
 
     kind: Literal["kalman"]
@@ -167,7 +169,7 @@ class KalmanPart(ConfigPart):
 
 
 class LowPassPart(ConfigPart):
-    """As LowPass: a Butterworth filter of the contact point; the sections are what the runtime takes."""
+    """As LowPass: a Butterworth filter of the contact point, given as the sections that the runtime uses."""
 
     kind: Literal["lowpass"]
     rate_Hz: _Positive
@@ -177,7 +179,7 @@ class LowPassPart(ConfigPart):
 
 
 class FiltersPart(ConfigPart):
-    """Of the compensated wrench, and of the contact point."""
+    """Filters of the compensated wrench, and of the contact point."""
 
     wrench: KalmanPart | None
     location: LowPassPart | None
@@ -185,9 +187,9 @@ class FiltersPart(ConfigPart):
 
 class ModelErrorPart(ConfigPart):
     """
-    Standard deviation of what drift, cable, hysteresis and mount leave in a wrench, by axis of S.
+    Standard deviation of the error that drift, cable, hysteresis and mount leave in a wrench, by axis of S.
 
-    ``measured``: by the verification; else it is the default.
+    ``measured``: by the verification; otherwise it is the default.
     """
 
     force_N: Annotated[list[Annotated[float, Field(ge=0, le=100)]], Field(min_length=3, max_length=3)]
@@ -197,7 +199,7 @@ class ModelErrorPart(ConfigPart):
 
 class TouchModelPart(ConfigPart):
     """
-    As TouchModel: what is known of a touch beside the sensor's noise.
+    As TouchModel: the model of a touch beside the sensor's noise.
 
     ``torsion_arm_m`` is one standard deviation of the local torque over the force. ``mesh_deviation_m`` is the root
     mean square between mesh and surface, ``mesh_curved`` whether facets stand for a curved surface.
@@ -211,10 +213,11 @@ class TouchModelPart(ConfigPart):
 
 class MotionPart(ConfigPart):
     """
-    What takes the tool's inertia off the readings, where poses have positions.
+    Compensation of the tool's inertia, if poses have positions.
 
-    ``window_s``: over which positions the acceleration is estimated. ``gyration_m``: the tool's radius of gyration
-    about its centre of mass, roughly; what its turning does is not taken off, but added to the uncertainty.
+    ``window_s``: time window of the positions from which the acceleration is estimated. ``gyration_m``: the tool's
+    approximate radius of gyration about its centre of mass; the effect of its rotation is not subtracted, but added
+    to the uncertainty.
     """
 
     window_s: Annotated[float, Field(ge=0.02, le=2)]
@@ -223,11 +226,11 @@ class MotionPart(ConfigPart):
 
 class StreamsPart(ConfigPart):
     """
-    How poses and samples come together, and when a stream is unhealthy.
+    How poses are matched to samples, and when a stream is unhealthy.
 
     The orientation at a sample lies between the poses around it, no more than ``pose_gap_s`` apart; after the last pose
-    it is carried on by the last twist, for at most ``pose_ahead_s``. After ``silence_s`` without a sample the sensor is
-    silent. ``frozen_probability``: chance of a run of equal readings below which the sensor is taken to hang.
+    it is extrapolated with the last twist, for at most ``pose_ahead_s``. After ``silence_s`` without a sample the
+    sensor is silent. ``frozen_probability``: a run of equal readings less probable than this counts as a frozen sensor.
     """
 
     pose_gap_s: Annotated[float, Field(gt=0, le=10)]
@@ -239,11 +242,11 @@ class StreamsPart(ConfigPart):
 
 class GatesPart(ConfigPart):
     """
-    As Gates; a limit of null is none. Odds are so many to one; a runtime takes them as 2 ln(odds).
+    As Gates; null means no limit. Odds are stated as so many to one; a runtime uses 2 ln(odds).
 
     ``implausible_misfit``: d2, in standard deviations squared, beyond which no touch explains a wrench.
     ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
-    its range is taken for a touch: give them, or pass NaN for a sample that the sensor itself flags.
+    its range looks like a touch: give them, or pass NaN for samples that the sensor itself flags.
     """
 
     min_force_N: _NotNegative
@@ -275,8 +278,8 @@ class RegionPart(ConfigPart):
     """
     A region.
 
-    ``odds``: how much likelier a touch there is than one elsewhere; below 1 where it is ``untouchable``, because
-    something hides it.
+    ``odds``: how much more likely a touch there is than elsewhere; below 1 if it is ``untouchable``, because something
+    covers it.
     """
 
     rank: Annotated[int, Field(ge=1, le=1_000)]
@@ -303,7 +306,7 @@ class ForceGainsPart(ConfigPart):
     """
     Along S's z axis: ``M`` x'' + ``D`` x' + ``K`` x = error in N.
 
-    ``gain_per_s`` is how fast the aware variant goes towards the wanted force, whatever the tissue's stiffness.
+    ``gain_per_s`` is the rate at which the aware variant approaches the wanted force, for any tissue stiffness.
     """
 
     mass_kg: _Positive
@@ -316,8 +319,8 @@ class AngleGainsPart(ConfigPart):
     """
     About S's x and y axes, in this order: ``M`` a'' + ``D`` a' + ``K`` a = error in N·m.
 
-    The error is the wanted force times how far the contact is off. ``gain_per_s`` is how fast the aware variant turns
-    towards the tilt that it knows, and ``settling_s`` its mass over damping.
+    The error is the wanted force times the offset of the contact. ``gain_per_s`` is the rate at which the aware
+    variant turns towards the estimated tilt, and ``settling_s`` its mass over damping.
     """
 
     inertia: Annotated[_TwoPositive, Field(description="N*m*s²/rad")]
@@ -329,10 +332,10 @@ class AngleGainsPart(ConfigPart):
 
 class LeadPart(ConfigPart):
     """
-    What the aware variant needs to estimate how the tissue moves, and to lead it.
+    Parameters with which the aware variant estimates the tissue's motion, for feed-forward.
 
-    ``bandwidth_per_s``: of the place, the tilt about x, the tilt about y. ``lean_rad`` and ``lean_s``: how far friction
-    leans the tissue's force, and for how long.
+    ``bandwidth_per_s``: of the place, the tilt about x, the tilt about y. ``lean_rad`` and ``lean_s``: angle by which
+    friction tilts the tissue's force, and its duration.
     """
 
     bandwidth_per_s: _ThreePositive
@@ -342,7 +345,7 @@ class LeadPart(ConfigPart):
 
 
 class TouchPart(ConfigPart):
-    """How tissue is met, lost and left; ``probing_m`` is the press that measures its stiffness, 0 for none."""
+    """Approach, loss of contact and retraction; ``probing_m``: depth of the press that measures stiffness, 0: none."""
 
     approach_speed_mps: _Positive
     approach_travel_m: _Positive
@@ -357,11 +360,11 @@ class TouchPart(ConfigPart):
 
 class ToolPart(ConfigPart):
     """
-    What is known of sensor and tool beside the calibration.
+    Properties of sensor and tool beside the calibration.
 
-    ``left_force_N`` and ``left_torque_Nm`` are what is left of the sensor's bias; ``taring_s`` is how long it waits in
-    the air before each run, 0 for not at all; ``gyration_m`` is the tool's radius of gyration about its centre of mass,
-    0 for unknown.
+    ``left_force_N`` and ``left_torque_Nm`` are the remaining bias of the sensor; ``taring_s`` is the waiting time in
+    the air before each run, 0: none; ``gyration_m`` is the tool's radius of gyration about its centre of
+    mass, 0: unknown.
     """
 
     left_force_N: _Positive
@@ -372,11 +375,11 @@ class ToolPart(ConfigPart):
 
 class WatchPart(ConfigPart):
     """
-    When it stops and goes back.
+    When the controller stops and retracts.
 
-    Without a fresh sample for ``stale_s`` nothing moves; after ``give_up_s`` more it goes back. An arm that is late by
-    more than ``following_s`` at the largest speeds does not follow. Turned by more than ``max_tilt_rad`` against how it
-    began, it goes back.
+    Without a fresh sample for ``stale_s`` it stops; after ``give_up_s`` more it retracts. An arm that lags by more than
+    ``following_s`` at the largest speeds does not follow. Turned by more than ``max_tilt_rad`` from its start, it
+    retracts.
     """
 
     stale_s: _Positive
@@ -389,8 +392,8 @@ class ControllerPart(ConfigPart):
     """
     Admittance control in force and orientation; see the control documentation.
 
-    ``plain`` follows the force and the place of the contact alone; ``aware`` also estimates how the tissue moves, and
-    leads it. A set-point is due every ``period_s``; the arm is there ``servo_lag_s`` later.
+    ``plain`` follows only force and contact position; ``aware`` also estimates the tissue's motion and feeds it
+    forward. A set-point is due every ``period_s``; the arm reaches it ``servo_lag_s`` later.
     """
 
     variant: Literal["plain", "aware"]
@@ -406,7 +409,7 @@ class ControllerPart(ConfigPart):
 
 
 class LimitsPart(ConfigPart):
-    """What a controller must never exceed."""
+    """Limits that a controller must never exceed."""
 
     max_force_N: _Positive
     max_torque_Nm: _Positive
@@ -415,7 +418,7 @@ class LimitsPart(ConfigPart):
 
 
 class VerificationPart(ConfigPart):
-    """What was measured on markers; lengths in m. ``ratio`` is the error over the noise bound."""
+    """Results measured on markers; lengths in m. ``ratio`` is the error over the noise bound."""
 
     touches: _Count
     markers: _Count

@@ -59,9 +59,12 @@ def mount_reasons(
         None: the verification does not tell.
     """
     return [
-        f"The {what} was made with the mounting {_degrees(other)}, the config has {_degrees(mount)}: {remedy}."
+        (
+            f"The {what} was made with the mounting {_degrees(other)}, but the config has"
+            f" {_degrees(mount)}: {remedy}."
+        )
         for what, other, remedy in (
-            ("calibration", calibrated, "calibrate again, or leave --mount out"),
+            ("calibration", calibrated, "calibrate again, or leave out --mount"),
             ("verification", verified, "verify again with the mounting of the calibration"),
         )
         if other is not None and _apart(mount, other) > _SAME_RAD

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.bench import ExportSettings
 
 KIND, SERIAL = "config", "devices.serial"
-_GIVE_PAIR = "--noise-force and --noise-torque: give both or none."
+_GIVE_PAIR = "Give both --noise-force and --noise-torque, or neither."
 
 _Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]

@@ -66,7 +66,7 @@ def read_bundle(path: Path) -> dict[str, bytes]:
 def read_zip(stream: BinaryIO, name: str) -> dict[str, bytes]:
     """Read all files of a zipped bundle; ConfigError as `read_bundle`."""
     if stream.seek(0, io.SEEK_END) > _LARGEST_ZIP:
-        raise ConfigError(f"{name}: the file is larger than {_LARGEST_ZIP >> 20} MiB: it is no bundle.")
+        raise ConfigError(f"{name}: the file is larger than {_LARGEST_ZIP >> 20} MiB: not a bundle.")
     try:
         with zipfile.ZipFile(stream) as packed:
             members = packed.infolist()
@@ -75,16 +75,16 @@ def read_zip(stream: BinaryIO, name: str) -> dict[str, bytes]:
                 _check_member(member, name)
             if sum(member.file_size for member in members) > _LARGEST_ZIP:
                 raise ConfigError(
-                    f"{name}: the files are larger than {_LARGEST_ZIP >> 20} MiB: it is no bundle."
+                    f"{name}: the files are larger than {_LARGEST_ZIP >> 20} MiB: not a bundle."
                 )
             return {member.filename: _unpacked(packed, member, name) for member in members}
     # What the zipfile module lets through of damaged files.
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError) as error:
-        raise ConfigError(f"{name}: this is no sound zip file ({error!s:.200}): {_AGAIN}") from error
+        raise ConfigError(f"{name}: not an intact zip file ({error!s:.200}): {_AGAIN}") from error
     except ValueError as error:
         if isinstance(error, ConfigError):
             raise
-        raise ConfigError(f"{name}: this is no sound zip file ({error!s:.200}): {_AGAIN}") from error
+        raise ConfigError(f"{name}: not an intact zip file ({error!s:.200}): {_AGAIN}") from error
 
 
 def encode_zip(files: Mapping[str, bytes]) -> bytes:
@@ -101,12 +101,12 @@ def encode_zip(files: Mapping[str, bytes]) -> bytes:
 def check_names(names: list[str], where: str) -> None:
     """Refuse names that are not those of a bundle's files, each once, none missing; ConfigError names the first."""
     if len(names) > MOST_FILES:
-        raise ConfigError(f"{where}: there are {len(names)} files, more than {MOST_FILES}: it is no bundle.")
+        raise ConfigError(f"{where}: there are {len(names)} files, more than {MOST_FILES}: not a bundle.")
     for name in names:
         if name not in KNOWN:
             raise ConfigError(f"{where}: the file {name!a:.120} does not belong in a bundle: remove it.")
         if names.count(name) > 1:
-            raise ConfigError(f"{where}: the file {name} is there twice: {_AGAIN}")
+            raise ConfigError(f"{where}: the file {name} appears twice: {_AGAIN}")
     missing = [name for name in NEEDED if name not in names]
     if missing:
         raise ConfigError(f"{where}: the file {missing[0]} is missing: {_AGAIN}")
@@ -188,9 +188,11 @@ def _check_member(member: zipfile.ZipInfo, where: str) -> None:
     elif kind not in (0, stat.S_IFREG) or member.filename != member.orig_filename:
         what = "is a link or device, not a file"
     elif member.file_size > LARGEST_RATIO * max(member.compress_size, 1):
-        what = f"grows more than {LARGEST_RATIO} times when it is unpacked"
+        what = f"expands more than {LARGEST_RATIO} times when unpacked"
     if what:
-        raise ConfigError(f"{where}: {member.filename} {what}: pack the bundle's files with a usual program.")
+        raise ConfigError(
+            f"{where}: {member.filename} {what}: pack the bundle's files with a common program."
+        )
     check_size(member.filename, member.file_size, where)
 
 
@@ -198,5 +200,5 @@ def _unpacked(packed: zipfile.ZipFile, member: zipfile.ZipInfo, where: str) -> b
     with packed.open(member) as stream:
         content = stream.read(member.file_size + 1)
     if len(content) != member.file_size:
-        raise ConfigError(f"{where}: {member.filename} is not as long as it says: {_AGAIN}")
+        raise ConfigError(f"{where}: {member.filename} does not have its declared length: {_AGAIN}")
     return content

@@ -57,7 +57,7 @@ def check_planes(data: bytes, probe: Probe, name: str) -> None:
     wanted = encode_planes(probe)
     if data != wanted:
         line = wanted.count(b"\n", 0, first_difference(data, wanted)) + 1
-        raise ConfigError(f"{name}: line {line} is not that of the mesh in {PROBE}: export the config again.")
+        raise ConfigError(f"{name}: line {line} does not match the mesh in {PROBE}: export the config again.")
 
 
 def _order(probe: Probe) -> NDArray[np.int64]:

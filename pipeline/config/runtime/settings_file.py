@@ -95,19 +95,19 @@ def controller_in(data: bytes, name: str) -> ControllerPart:
     """
     given = _read(data, name)
     if given.controller is None:
-        raise ConfigError(f"{name}: there is no controller in it: choose the gains.json of control tune.")
+        raise ConfigError(f"{name}: it contains no controller: choose the gains.json of control tune.")
     return given.controller
 
 
 def _read(data: bytes, name: str) -> _Settings:
     if len(data) > _LARGEST:
-        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a file of settings.")
+        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a settings file.")
     try:
         return _Settings.model_validate(from_json(data, allow_inf_nan=False))
     except ValidationError as error:
         raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
     except ValueError as error:
-        raise ConfigError(f"{name}: this is not JSON ({error!s:.100}): correct it.") from None
+        raise ConfigError(f"{name}: not valid JSON ({error!s:.100}): correct it.") from None
 
 
 def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:

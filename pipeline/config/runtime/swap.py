@@ -112,13 +112,12 @@ def _refuse_others(folder: Path, known: Collection[str]) -> None:
     if not os.path.lexists(folder):
         return
     if folder.is_symlink() or not folder.is_dir():
-        raise ConfigError(
-            f"{folder}: there is a file or a link of this name: choose another folder, or a .zip name."
-        )
+        raise ConfigError(f"{folder}: a file or a link has this name: choose another folder, or a .zip name.")
     strangers = sorted(file.name for file in folder.iterdir() if file.name not in known)
     if strangers:
         raise ConfigError(
-            f"{folder}: the folder holds {strangers[0]!a:.120}, which is of no bundle: choose a new or empty folder."
+            f"{folder}: the folder contains {strangers[0]!a:.120}, which belongs to no bundle:"
+            " choose a new or empty folder."
         )
 
 

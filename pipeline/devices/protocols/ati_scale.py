@@ -149,13 +149,13 @@ def _counts(found: dict[str, str], name: str, unit_name: str, units: dict[str, f
     factor = units.get(re.sub(r"[ .·-]", "", unit).lower())
     if factor is None:
         raise ScaleError(
-            f"{where}: {PAGE}: {unit_name}: unit {unit!r} is unknown: set the sensor to N and N-m, or give cpf and cpt"
-            " in the address."
+            f"{where}: {PAGE}: {unit_name}: unknown unit {unit!r}: set the sensor to N and N-m, or"
+            " give cpf and cpt in the address."
         )
     value = float(number) if _NUMBER.fullmatch(number) else math.nan
     if not _FEWEST <= value <= _MOST:  # also what is not a number
         raise ScaleError(
-            f"{where}: {PAGE}: {name}: {number!r} is no such number: give cpf and cpt in the address."
+            f"{where}: {PAGE}: {name}: {number!r} is not a valid number: give cpf and cpt in the address."
         )
     return value / factor
 
@@ -201,9 +201,7 @@ class _Reader:
 
     def begin(self, name: str, _attributes: dict[str, str]) -> None:
         if name in _NAMES and name in self.found:
-            raise ScaleError(
-                f"{self._where}: {PAGE}: {name} is there twice: give cpf and cpt in the address."
-            )
+            raise ScaleError(f"{self._where}: {PAGE}: {name} appears twice: give cpf and cpt in the address.")
         self._name = name if name in _NAMES else None
         if self._name is not None:
             self.found[self._name] = ""
@@ -218,5 +216,5 @@ class _Reader:
     def refuse(self, *_declaration: Any) -> None:
         # Without a document type there are no entities, so nothing is expanded and nothing fetched.
         raise ScaleError(
-            f"{self._where}: {PAGE} has a document type, which a sensor's page has not: check the address."
+            f"{self._where}: {PAGE} has a document type, which no sensor page has: check the address."
         )

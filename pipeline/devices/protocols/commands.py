@@ -61,9 +61,7 @@ def check_rate(device: str, rate_hz: float, low: float, high: float) -> float:
         It is not finite or outside low .. high, Hz.
     """
     if not (math.isfinite(rate_hz) and low <= rate_hz <= high):
-        raise ProtocolError(
-            f"{device}: the rate must be between {low:g} and {high:g} Hz, not {rate_hz:g}: choose one there."
-        )
+        raise ProtocolError(f"{device}: the rate must be between {low:g} and {high:g} Hz, not {rate_hz:g}.")
     return rate_hz
 
 
@@ -83,6 +81,7 @@ def check_line(device: str, rate_hz: float, baud: int | None, frame_bytes: int) 
     ceiling = highest_rate(baud, frame_bytes)
     if rate_hz > ceiling:
         raise ProtocolError(
-            f"{device}: {rate_hz:g} Hz does not fit on a line of {baud} baud, which carries "
-            f"{math.floor(ceiling)} frames of {frame_bytes} bytes a second: lower the rate or raise the baud rate."
+            f"{device}: {rate_hz:g} Hz is too fast for {baud} baud, which carries"
+            f" {math.floor(ceiling)} frames of {frame_bytes} bytes per second: lower the rate or"
+            " raise the baud rate."
         )

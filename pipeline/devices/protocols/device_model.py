@@ -177,10 +177,10 @@ class Model(ABC):
         named = frozenset(quirks)
         for quirk in named - self.possible_quirks:
             there = ", ".join(sorted(self.possible_quirks)) or "none"
-            raise EmulatorError(f"quirk {str(quirk)!r}: {self.name} cannot have it; there are: {there}.")
+            raise EmulatorError(f"quirk {str(quirk)!r}: not available for {self.name}. Choose from: {there}.")
         return frozenset(map(Quirk, named))
 
     def _now(self) -> tuple[SensorReading, FrameMoment]:
         if self.answer is None:
-            raise EmulatorError(f"{self.name}: it is asked before it runs: start the emulator first.")
+            raise EmulatorError(f"{self.name}: not running yet: start the emulator first.")
         return self.answer()

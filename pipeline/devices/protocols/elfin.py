@@ -128,18 +128,19 @@ def read_position(reply: Reply) -> tuple[float, ...]:
         It answers something else, is a failure, or a value is missing or not a finite number.
     """
     if reply.kind is ReplyKind.UNKNOWN_COMMAND:
-        raise ElfinError(f"Elfin: the controller does not know {_POSITION}: ask in another way.")
+        raise ElfinError(f"Elfin: the controller does not know {_POSITION}. Use another query.")
     if reply.command != _POSITION:
-        raise ElfinError(f"Elfin: {_POSITION} was asked, {reply.command!r} was answered: reconnect.")
+        raise ElfinError(f"Elfin: asked for {_POSITION}, received {reply.command!r}. Reconnect.")
     if reply.kind is ReplyKind.FAIL:
         code = reply.values[0] if reply.values else "none"
         raise ElfinError(
-            f"Elfin: the controller refused {_POSITION} with error code {code}: look it up on the robot's panel."
+            f"Elfin: the controller refused {_POSITION} with error code {code}. Look it up on the"
+            " robot's panel."
         )
     if len(reply.values) < _NUMBERS:
         raise ElfinError(
-            f"Elfin: {_POSITION} gave {len(reply.values)} values instead of {_NUMBERS}: "
-            "this controller's software is not supported."
+            f"Elfin: {_POSITION} returned {len(reply.values)} values instead of {_NUMBERS}: this"
+            " controller's software is not supported."
         )
     return tuple(map(_finite, reply.values[:_NUMBERS]))
 

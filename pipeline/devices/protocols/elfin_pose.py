@@ -80,14 +80,15 @@ def resolve_order(numbers: Sequence[float], robot: Robot) -> OrderFit:
     if len(good) == 1:
         return good[0]
     if good:
-        raise ElfinError("Elfin: joints and pose cannot be told apart here: move the arm and try again.")
+        raise ElfinError("Elfin: joints and pose look the same here. Move the arm and try again.")
     found = " and ".join(
         f"{fit.rotation_deg:.1f}° and {np.linalg.norm(fit.tool) * 1e3:.0f} mm ({fit.order.name.lower()})"
         for fit in fits
     )
     raise ElfinError(
-        f"Elfin: joints and pose do not belong to each other: the tool frame is {found} from the flange of "
-        f"{robot.description.name}: choose a tool frame without rotation, and check the robot's model."
+        f"Elfin: joints and pose do not match: the tool frame is {found} from the flange of"
+        f" {robot.description.name}. Choose a tool frame without rotation, and check the robot"
+        " model."
     )
 
 

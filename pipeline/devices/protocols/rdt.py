@@ -224,9 +224,9 @@ def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
     except InputError as error:
         scale = parser.scale
         return (
-            f"The sensor did not tell its counts per newton ({error}) {scale.per_newton:g} per N and"
-            f" {scale.per_newton_metre:g} per N·m are assumed: compare with its calibration sheet, and give cpf and cpt"
-            " in the address."
+            f"The sensor did not report its counts per newton ({error}) {scale.per_newton:g} per N"
+            f" and {scale.per_newton_metre:g} per N·m are assumed: compare with its calibration"
+            " sheet, and give cpf and cpt in the address."
         )
     return ""
 

@@ -49,6 +49,6 @@ def driver_for(address: DeviceAddress) -> SensorDriver:
     known = PROTOCOLS.get(address.protocol)
     if known is None or known.driver is None:
         raise AddressError(
-            f"address {str(address)!r}: it is no force/torque sensor: give the address of one."
+            f"address {str(address)!r}: not a force/torque sensor. Give the address of a sensor."
         )
     return known.driver(address)

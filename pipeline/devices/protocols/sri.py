@@ -255,7 +255,9 @@ def _troubles(parser: SriParser) -> dict[str, str]:
     if parser.trailer is Trailer.SUM:
         return {}
     return {
-        "trailer": "The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, and are checked by that."
+        "trailer": (
+            "The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, which is checked instead."
+        )
     }
 
 

@@ -110,11 +110,11 @@ def check_accepted(reply: Packet, kind: PacketKind) -> None:
         It is another kind of packet, or says no.
     """
     if reply.kind is not kind or len(reply.payload) != 1:
-        raise RtdeError(f"UR: {kind.name.lower()} was asked, {_shown(reply)} was answered: reconnect.")
+        raise RtdeError(f"UR: asked for {kind.name.lower()}, received {_shown(reply)}. Reconnect.")
     if reply.payload != b"\x01":
         raise RtdeError(
-            f"UR: the controller refused the {kind.name.lower()} request: "
-            "its software may be older than 3.10 or 5.4; no other RTDE client may hold the same variables."
+            f"UR: the controller refused the {kind.name.lower()} request. Its software may be"
+            " older than 3.10 or 5.4, or another RTDE client may hold the same variables."
         )
 
 
@@ -138,15 +138,15 @@ class OutputRecipe:
             A variable is not there or is in use, the types are unknown, or it is another answer.
         """
         if reply.kind is not PacketKind.OUTPUTS or len(reply.payload) < 1:
-            raise RtdeError(f"UR: variables were asked for, {_shown(reply)} was answered: reconnect.")
+            raise RtdeError(f"UR: asked for variables, received {_shown(reply)}. Reconnect.")
         types = tuple(reply.payload[1:].decode("ascii", "replace").split(","))
         if len(types) != len(names):
-            raise RtdeError(f"UR: {len(names)} variables were asked for, {len(types)} answered: reconnect.")
+            raise RtdeError(f"UR: asked for {len(names)} variables, received {len(types)}. Reconnect.")
         for name, kind in zip(names, types, strict=True):
             if kind not in _FORMATS:
                 raise RtdeError(
-                    f"UR: the variable {name} is {kind[:40]!r}: "
-                    "this controller's software is too old, or another client holds it."
+                    f"UR: the variable {name} is {kind[:40]!r}: the controller's software is too"
+                    " old, or another client holds it."
                 )
         return cls(reply.payload[0], names, types)
 
@@ -171,13 +171,13 @@ class OutputRecipe:
         """
         if data.kind is not PacketKind.DATA or len(data.payload) != self.payload_bytes:
             raise RtdeError(
-                f"UR: {_shown(data)} came instead of {self.payload_bytes} bytes of data: reconnect."
+                f"UR: received {_shown(data)} instead of {self.payload_bytes} bytes of data. Reconnect."
             )
         number, *flat = self._layout.unpack(data.payload)
         if number != self.number:
-            raise RtdeError(f"UR: data of recipe {number} came instead of {self.number}: reconnect.")
+            raise RtdeError(f"UR: received data of recipe {number} instead of {self.number}. Reconnect.")
         if not all(map(math.isfinite, flat)):
-            raise RtdeError("UR: a number is not finite: the robot may not be powered.")
+            raise RtdeError("UR: a value is not finite: the robot may not be powered.")
         fields: dict[str, tuple[float, ...]] = {}
         start = 0
         for name, kind in zip(self.names, self.types, strict=True):

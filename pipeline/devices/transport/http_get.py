@@ -57,7 +57,9 @@ def http_get(host: str, path: str, port: int = 80, *, timeout: float = TIMEOUT_S
             opened.sendall(page.request())
             data = _receive(opened, deadline)
     except TimeoutError as error:
-        raise page.error(f"no whole answer within {timeout:g} s", "check cable, address and power") from error
+        raise page.error(
+            f"no complete answer within {timeout:g} s", "check cable, address and power"
+        ) from error
     except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
         raise page.error(
             f"no connection ({error})", "check that the device is on, and on this network"
@@ -76,9 +78,9 @@ class _Page:
         if not (self.path.startswith("/") and f"{self.host}{self.path}".isascii()) or any(
             character.isspace() or not character.isprintable() for character in self.host + self.path
         ):
-            raise self.error("it is no address of a page", "give a host, and a path that begins with /")
+            raise self.error("not the address of a page", "give a host, and a path that begins with /")
         if not 1 <= self.port <= 65_535:
-            raise self.error("it is no port", "give a whole number from 1 to 65535")
+            raise self.error("not a port", "give a whole number from 1 to 65535")
 
     def error(self, what: str, remedy: str) -> PageError:
         where = f"http://{self.host}:{self.port}{self.path}"

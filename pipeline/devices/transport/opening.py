@@ -27,4 +27,4 @@ def line_to(address: DeviceAddress) -> Line:
         return TcpLine(address.host, address.port)
     if address.carrier is Carrier.UDP and address.port is not None:
         return UdpLine(address.host, address.port)
-    raise AddressError(f"address {str(address)!r}: it has no line: give the address of a device.")
+    raise AddressError(f"address {str(address)!r} has no line: give the address of a device.")

@@ -21,10 +21,10 @@ else:
 _OPENING_ERRORS: tuple[type[Exception], ...] = (*_ERRORS, ValueError)
 _WRITE_TIMEOUT_S = 1.0
 _REMEDIES = {
-    errno.ENOENT: "plug the device in, or choose another of the ports that are listed",
-    errno.EACCES: "get the right to use serial ports (on Linux: the group dialout), or close the other program",
-    errno.EAGAIN: "another program uses it: close that one",
-    errno.EBUSY: "another program uses it: close that one",
+    errno.ENOENT: "plug in the device, or choose another of the listed ports",
+    errno.EACCES: "get permission to use serial ports (on Linux: the group dialout), or close the other program",
+    errno.EAGAIN: "another program is using it: close that program",
+    errno.EBUSY: "another program is using it: close that program",
 }
 
 
@@ -57,7 +57,9 @@ class SerialLine:
             )
         except _OPENING_ERRORS as error:
             number = getattr(error, "errno", None)
-            remedy = _REMEDIES.get(number or 0, "check the path and the speed, and that it is plugged in")
+            remedy = _REMEDIES.get(
+                number or 0, "check the path and the speed, and that the device is plugged in"
+            )
             raise LineUnavailable(f"{self.name}: the port cannot be opened ({error}): {remedy}.") from error
 
     def read(self, timeout: float) -> Chunk:
@@ -95,6 +97,4 @@ class SerialLine:
 
     def _lost(self, error: Exception) -> LineLost:
         self.close()
-        return LineLost(
-            f"{self.name}: the line is lost ({error}): check the plug; it can be opened again then."
-        )
+        return LineLost(f"{self.name}: connection lost ({error}): check the plug, then reconnect.")

@@ -75,13 +75,12 @@ class _SocketLine:
 
     def _lost(self, why: str) -> LineLost:
         self.close()
-        return LineLost(
-            f"{self.name}: the line is lost ({why}): check cable and device; it can be opened again then."
-        )
+        return LineLost(f"{self.name}: connection lost ({why}): check cable and device, then reconnect.")
 
     def _unavailable(self, error: Exception) -> LineUnavailable:
         return LineUnavailable(
-            f"{self.name}: no connection ({error}): check that the device is on, on this network, and not in use."
+            f"{self.name}: no connection ({error}): check that the device is on, in this network,"
+            " and not in use."
         )
 
 
@@ -103,7 +102,7 @@ class TcpLine(_SocketLine):
     def open(self) -> None:
         """Connect within 3 s; see `Line.open`."""
         self.close()
-        refused: OSError = OSError("the name stands for no address")
+        refused: OSError = OSError("the name has no address")
         for found in self._addresses(socket.SOCK_STREAM):
             try:
                 self._socket = self._connected(found)

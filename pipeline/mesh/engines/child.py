@@ -221,8 +221,8 @@ class Child:
             watch.check(self.library)
             if deadline is not None and time.monotonic() > deadline:
                 raise EngineError(
-                    f"{self.library} took longer than {watch.timeout_s:g} s for '{request.kind}' and was stopped. "
-                    "Allow more time, or begin with fewer facets."
+                    f"{self.library} took longer than {watch.timeout_s:g} s for '{request.kind}'"
+                    " and was stopped. Allow more time, or start with fewer facets."
                 )
             with contextlib.suppress(queue.Empty):
                 match events.get(timeout=_POLL_S):
@@ -251,14 +251,14 @@ class Child:
         try:
             code = process.wait(timeout=1)
         except subprocess.TimeoutExpired:
-            how = "gave an answer that makes no sense"
+            how = "returned a nonsensical answer"
         else:
             how = f"died ({_cause(code)})"
         facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
         return EngineError(
-            f"{self.library} {how} on '{request.kind}' of {facets} facets; nothing else was harmed.{self._last_words()}"
-            " Facets without area, duplicates and holes are the usual reason: repair the mesh first, or use"
-            " another engine."
+            f"{self.library} {how} on '{request.kind}' of {facets} facets; nothing else was"
+            f" affected.{self._last_words()} The usual causes are facets without area, duplicates"
+            " and holes: repair the mesh first, or use another engine."
         )
 
     def _last_words(self) -> str:
@@ -267,7 +267,7 @@ class Child:
         self._noise.seek(0)
         lines = self._noise.read()[-_LAST_WORDS:].decode(errors="replace").split("\n")
         words = next((line.strip() for line in reversed(lines) if line.strip()), "")
-        return f" Its last words: {words}." if words else ""
+        return f" Last output: {words}." if words else ""
 
     def _discard(self) -> None:
         process, noise = self._process, self._noise
@@ -321,7 +321,7 @@ def _cause(code: int) -> str:
     if code >= 0:
         return f"exit code {code}"
     name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
-    return f"{name}, perhaps for want of memory" if name == "SIGKILL" else name
+    return f"{name}, possibly out of memory" if name == "SIGKILL" else name
 
 
 def _widen(process: subprocess.Popen[bytes]) -> None:

@@ -109,7 +109,9 @@ def cut_along_crossings(
     born = result.get("born")
     right = born is not None and born.dtype == np.int32 and born.shape == (len(new_faces),)
     if born is None or not right or born.min() < 0 or born.max() >= len(arrays["faces"]):
-        raise EngineError(f"{Library.CGAL} did not say what its facets are pieces of: use another mesh.")
+        raise EngineError(
+            f"{Library.CGAL} did not report which original facets its facets come from: use another mesh."
+        )
     return new_vertices, new_faces, born
 
 
@@ -136,5 +138,6 @@ def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
             if right and count and triangles.min() >= 0 and triangles.max() < len(points):
                 return points, triangles
     raise EngineError(
-        f"{operation.library} made no usable mesh of '{operation}': repair the mesh first, or use another engine."
+        f"{operation.library} produced no usable mesh from '{operation}': repair the mesh first,"
+        " or use another engine."
     )

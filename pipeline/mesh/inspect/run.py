@@ -74,7 +74,7 @@ def inspect(
         As asked for.
     """
     if samples < 100:
-        raise MeshError(f"samples={samples} are too few to tell what is hidden: give at least 100.")
+        raise MeshError(f"samples={samples} are too few to detect hidden surfaces: give at least 100.")
     work = _Work(progress or (lambda _: None), cancelled or (lambda: False))
     work.reach(0.0)
     if isinstance(source, Probe):

@@ -15,9 +15,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
 
 _SHELL = "Make the outer shell before use."
-_IF_CAVITY = (
-    "Make the outer shell: it closes the mouths of cavities, and keeps grooves and tubes seen through."
-)
+_IF_CAVITY = "Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes."
 
 # Shares are counted on some thousand points; less than this is a groove or chance.
 _SOME = 0.005
@@ -44,7 +42,7 @@ def facts(found: Inspection) -> tuple[str, ...]:
         f"{found.name}: {found.facets:,} facets, {found.vertices:,} vertices, {_parts(found.part_count)}.",
         f"It measures {x:.1f} x {y:.1f} x {z:.1f} mm, with an area of {found.area_m2 * 1e4:.1f} cm²"
         + (f" and a volume of {found.volume_m3 * 1e6:.1f} cm³." if found.volume_m3 else "."),
-        f"Edges are {lengths} long, half of them under {_length(edges.median_m)}.",
+        f"Edges are {lengths} long; half of them are shorter than {_length(edges.median_m)}.",
     ]
     if found.unit is not None and found.unit.certain:
         said.append(f"Units: {found.unit.units}. {found.unit.reason}")
@@ -77,9 +75,9 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
     if found.seam_vertices:
         yield MeshFinding(
             "doubt",
-            f"Seams are not sewn: {_count(found.seam_vertices, 'vertex', 'vertices')} of open edges lie beside"
-            " another, closer than the eye sees. The surface counts as open there although it looks closed."
-            " Export again with a finer tolerance, or make the outer shell.",
+            f"Seams are not joined: {_count(found.seam_vertices, 'vertex', 'vertices')} of open"
+            " edges lie right beside another edge. The surface looks closed there but counts as"
+            " open. Export again with a finer tolerance, or make the outer shell.",
         )
     if found.hole_count:
         holes = found.holes[:_NAMED]
@@ -106,8 +104,9 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
     if _inside_out(found):
         yield MeshFinding(
             "fault",
-            "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
-            " probe. Flip all normals in the CAD program, or make the outer shell, which does.",
+            "The mesh is inside out: its facets face inwards, so contacts would be found on the"
+            " far side of the probe. Flip all normals in the CAD program, or make the outer"
+            " shell, which flips them.",
         )
     elif seen.turned_share > _SOME:
         turned = sum(1 for part in found.parts if (part.turned_share or 0) > 0.5)
@@ -127,7 +126,7 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
                 if sheet
                 else "All visible facets face outwards; only hidden ones disagree. "
                 if seen.turned_share <= _SOME
-                else "Contacts on those that are turned over are missed. "
+                else "Contacts on flipped facets are missed. "
             )
             + "Make the normals consistent in the CAD program, or make the outer shell.",
         )
@@ -157,8 +156,8 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
         if little > _DEEP:
             yield MeshFinding(
                 "note",
-                f"{_share(little)} of the area sees little or nothing of the outside: grooves, bores and gaps,"
-                " which the outer shell keeps. A finger hardly reaches there.",
+                f"{_share(little)} of the area has little or no view of the outside: grooves,"
+                " bores and gaps, which the outer shell keeps. A finger hardly reaches there.",
             )
     else:
         yield from _recesses(found)
@@ -176,8 +175,9 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
         else:
             yield MeshFinding(
                 "doubt",
-                f"{said}; none lies inside another. The preparation needs one body: delete what is not the probe in the"
-                " CAD program, or bridge a narrow gap with a larger --gap.",
+                f"{said}; none lies inside another. The preparation needs a single body: delete"
+                " everything that is not the probe in the CAD program, or bridge a narrow gap"
+                " with a larger --gap.",
             )
 
 
@@ -187,36 +187,38 @@ def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
     if found.overlapping_parts:
         yield MeshFinding(
             "fault",
-            f"{found.overlapping_parts} of the {found.part_count} parts overlap, so walls of one lie inside another."
-            " Unite them in the CAD program, or make the outer shell before use.",
+            f"{found.overlapping_parts} of the {found.part_count} parts overlap, so walls of one"
+            " lie inside another. Merge them in the CAD program, or make the outer shell before"
+            " use.",
         )
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
         whole = f" ({parts} of the {found.part_count} parts entirely)" if parts else ""
         yield MeshFinding(
             "fault",
-            f"{_share(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner walls or parts"
-            f" that nothing can touch, but that a line of force meets. {_SHELL}",
+            f"{_share(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner"
+            f" walls or parts that cannot be touched, but that a line of force can hit. {_SHELL}",
         )
     elif nested:
         yield MeshFinding(
             "fault",
-            f"{_count(nested, 'closed part lies', 'closed parts lie')} inside the body. Nothing can touch them, but a"
-            f" line of force meets them. {_SHELL}",
+            f"{_count(nested, 'closed part lies', 'closed parts lie')} inside the body. They"
+            f" cannot be touched, but a line of force can hit them. {_SHELL}",
         )
     if seen.sheltered_share > _DEEP:
         yield MeshFinding(
             "doubt",
-            f"{_share(seen.sheltered_share)} of the area is seen from outside through narrow openings only, or"
-            " lies deep in grooves. If these are inner walls behind a hole, contacts can be placed on them."
-            f" {_SHELL}",
+            f"{_share(seen.sheltered_share)} of the area is visible from outside only through"
+            " narrow openings, or lies deep in grooves. If these are inner walls behind a hole,"
+            f" contacts can be placed on them. {_SHELL}",
         )
     if seen.double_wall_share > _DEEP and seen.wall_m is not None:
         if seen.wall_m < _COPY * found.size_m:
             yield MeshFinding(
                 "fault",
-                f"The surface is there twice: behind {_percent(seen.double_wall_share)} of the outside lies another,"
-                f" typically {_length(seen.wall_m)} away. A force meets two surfaces at once. {_SHELL}",
+                f"The surface is doubled: behind {_percent(seen.double_wall_share)} of the outside"
+                f" lies a second surface, typically {_length(seen.wall_m)} away. A force meets two"
+                f" surfaces at once. {_SHELL}",
             )
         else:
             yield MeshFinding(
@@ -236,7 +238,7 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
         "fault" if bottle else "doubt",
         (f"{_hollow(seen)} " if hollow else "")
         + " ".join(_unseen(seen))
-        + ("" if hollow else " Where these are inner walls, contacts can be placed on them.")
+        + ("" if hollow else " If these are inner walls, contacts can be placed on them.")
         + f" {_SHELL if bottle else _IF_CAVITY}",
     )
 
@@ -246,16 +248,16 @@ def _unseen(seen: Visibility) -> Iterator[str]:
         yield f"{_share(seen.hidden_share)} of the area cannot be seen from outside."
     if seen.sheltered_share > _NONE:
         yield (
-            f"{_share(seen.sheltered_share)} of the area sees the outside only through narrow openings or out of deep"
-            " grooves."
+            f"{_share(seen.sheltered_share)} of the area has a view of the outside only through"
+            " narrow openings or from deep grooves."
         )
 
 
 def _hollow(seen: Visibility) -> str:
     return (
-        f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall, typically"
-        f" {_length(seen.wall_m or 0.0)} thick, with a space behind it that hardly any light reaches. Contacts can be"
-        " placed on the inner side of the wall, and facets are wasted on it."
+        f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall,"
+        f" typically {_length(seen.wall_m or 0.0)} thick, with a nearly closed space behind it."
+        " Contacts can be placed on the inner side of the wall, and facets are wasted on it."
     )
 
 
@@ -264,9 +266,9 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
     if health.duplicate_facets:
         yield MeshFinding(
             "fault",
-            f"{_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates')} of another, with the"
-            " same corners and the same side. They answer twice and slow the search. Remove duplicates in the CAD"
-            " program, or make the outer shell.",
+            f"{_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates')}"
+            " of another, with the same corners and the same side. They give double answers and"
+            " slow the search. Remove duplicates in the CAD program, or make the outer shell.",
         )
     if found.back_to_back:
         yield MeshFinding(
@@ -279,10 +281,14 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
         share = slivers.count / found.facets
         yield MeshFinding(
             "doubt" if share > 0.1 and not found.shell_made else "note",
-            f"{_count(slivers.count, 'facet')} ({_percent(share)}) are slivers with an angle under 1°; the worst is"
-            f" {slivers.worst_aspect:,.0f} times as long as high. CAD exports have them; they make normals"
-            " uncertain and simplification worse."
-            + ("" if found.shell_made else " Simplify the mesh, or export with a limit on the aspect ratio."),
+            f"{_count(slivers.count, 'facet')} ({_percent(share)}) are slivers with an angle under"
+            f" 1°; the worst is {slivers.worst_aspect:,.0f} times longer than high. They are"
+            " common in CAD exports, make normals uncertain and simplification worse."
+            + (
+                ""
+                if found.shell_made
+                else " Simplify the mesh, or export it with a limit on the aspect ratio."
+            ),
         )
     if health.dropped_facets:
         yield MeshFinding(
@@ -330,8 +336,9 @@ def _vertices(found: Inspection) -> Iterator[MeshFinding]:
     if found.coincident_vertices and found.hole_count:
         yield MeshFinding(
             "doubt",
-            f"{_count(found.coincident_vertices, 'vertex', 'vertices')} lie exactly on another and are not merged:"
-            " the surface falls apart there. Save the mesh to a file and read it again, which merges them.",
+            f"{_count(found.coincident_vertices, 'vertex', 'vertices')} lie exactly on another but"
+            " are not merged, so the surface falls apart there. Save the mesh to a file and read"
+            " it again to merge them.",
         )
 
 

@@ -80,7 +80,7 @@ def decode_json(data: bytes, probe: Probe) -> RegionSet:
     """
     document = parse_json(data)
     if _of(document, "format", str) != FORMAT:
-        raise RegionError("this JSON file does not hold regions: choose a file that was exported as regions.")
+        raise RegionError("this JSON file contains no regions: choose a file that was exported as regions.")
     version = _of(document, "version", int)
     if version != VERSION:
         raise RegionError(
@@ -179,7 +179,7 @@ def save_regions(regions: RegionSet, probe: Probe, file: Path) -> None:
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise RegionError(
-            f"{file}: the regions cannot be written ({error}): choose another place."
+            f"{file}: the regions cannot be written ({error}): choose another location."
         ) from error
 
 
@@ -204,7 +204,9 @@ def read_limited(file: Path) -> bytes:
     except (OSError, ValueError) as error:
         raise RegionError(f"the file cannot be read ({error}): check the path.") from error
     if len(data) > SIZE_LIMIT:
-        raise RegionError(f"the file is larger than {SIZE_LIMIT // 2**20} MiB: it does not hold regions.")
+        raise RegionError(
+            f"the file is larger than {SIZE_LIMIT // 2**20} MiB, too large for regions: choose another."
+        )
     return data
 
 
@@ -238,9 +240,7 @@ def _fill(labels: npt.NDArray[np.int32], rank: int, runs: list[Any], name: str) 
 
 def _check_mesh(mesh: dict[str, Any], probe: Probe) -> None:
     facets = _of(mesh, "facets", int)
-    remedy = (
-        "Transfer them from the mesh that they were made for instead (contactbench probe regions transfer)."
-    )
+    remedy = "Transfer them from their own mesh instead (contactbench probe regions transfer)."
     if facets != len(probe.faces):
         raise RegionError(
             f"the regions are for a mesh of {str(facets)[:20]} facets, this one has {len(probe.faces)}. {remedy}"
@@ -271,4 +271,4 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _no_constant(text: str) -> float:
-    raise RegionError(f"{text} is not a number that JSON knows: export the file again.")
+    raise RegionError(f"{text} is not a valid JSON number: export the file again.")

@@ -103,8 +103,9 @@ class FacetGraph:
             far = int(np.argmin(distances <= within))
             place = ", ".join(f"{1e3 * value:g}" for value in rows[far])
             raise RegionError(
-                f"the point {place} mm is {1e3 * distances[far]:.3g} mm from the surface, more than"
-                f" {1e3 * within:.3g} mm: give one on the surface, in mm and in the probe's frame."
+                f"the point {place} mm is {1e3 * distances[far]:.3g} mm from the surface, more"
+                f" than {1e3 * within:.3g} mm: give a point on the surface, in mm and in the"
+                " probe's frame."
             )
         return faces, nearest
 

@@ -85,7 +85,7 @@ def mirror(
     n, p = unit(normal, "normal"), vector(point, "point")
     reach = _edge(graph) if tolerance is None else float(tolerance)
     if not (math.isfinite(reach) and reach > 0):
-        raise RegionError(f"a tolerance of {tolerance} m is none: give a length above 0.")
+        raise RegionError(f"a tolerance of {tolerance} m is not valid: give a length above 0.")
     centres, normals = graph.centroids, graph.probe.normals
     images = centres - 2 * np.outer((centres - p) @ n, n)
     turned = normals - 2 * np.outer(normals @ n, n)

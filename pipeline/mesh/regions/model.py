@@ -402,4 +402,4 @@ class RegionModel:
 
     def _refuse_during_stroke(self) -> None:
         if self._stroke is not None:
-            raise RegionError("a stroke is being drawn: finish or abort it first.")
+            raise RegionError("a stroke is in progress: finish or cancel it first.")

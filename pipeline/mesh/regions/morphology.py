@@ -159,7 +159,9 @@ def _near_border(graph: FacetGraph, mask: Mask, distance: float) -> Mask:
 
 def _check_amount(rings: int, distance: float) -> None:
     if (rings == 0) == (distance == 0):
-        raise RegionError("say how far, either in rings of facets or as a distance.")
+        raise RegionError("give the distance, either in rings of facets or as a length.")
     if not (0 <= rings <= _MOST_RINGS and distance >= 0 and math.isfinite(distance)):
         what = f"{rings} rings" if rings else f"{distance} m"
-        raise RegionError(f"{what} is not an amount: give 1 to {_MOST_RINGS} rings, or a length above 0.")
+        raise RegionError(
+            f"{what} is not a valid distance: give 1 to {_MOST_RINGS} rings, or a length above 0."
+        )

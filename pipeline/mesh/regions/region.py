@@ -67,7 +67,9 @@ def _checked_name(name: str) -> str:
             f" {LONGEST_NAME} characters."
         )
     if not text.isprintable():
-        raise RegionError(f"the region name {text!r} holds characters that cannot be shown: leave them out.")
+        raise RegionError(
+            f"the region name {text!r} contains characters that cannot be displayed: leave them out."
+        )
     return text
 
 

@@ -175,4 +175,4 @@ def _rotation(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def _check_angle(angle: float) -> None:
     if not 0 <= angle <= math.pi:
-        raise RegionError(f"{angle} rad is no angle between two directions: give 0 to 180 degrees.")
+        raise RegionError(f"{angle} rad is not an angle between two directions: give 0 to 180 degrees.")

@@ -169,4 +169,4 @@ class Stroke:
 
     def _refuse_ended(self) -> None:
         if not self._open:
-            raise RegionError("this stroke has ended: begin another one.")
+            raise RegionError("this stroke has ended: start another one.")

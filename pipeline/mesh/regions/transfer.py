@@ -111,8 +111,9 @@ class Transferred:
         ]
         if self.unmatched:
             found.append(
-                f"{self.unmatched} of {len(self.regions.labels)} facets have nothing of the old surface near them"
-                " and belong to no region: check that both meshes are in the same place."
+                f"{self.unmatched} of {len(self.regions.labels)} facets have no part of the old"
+                " surface near them and belong to no region: check that both meshes are in the"
+                " same place."
             )
         return tuple(found)
 

@@ -107,7 +107,7 @@ def load_steps(files: Sequence[Path]) -> KeptSteps:
         steps = KeptSteps(_steps(document, "done"), _steps(document, "undone"))
     except RegionError as error:
         raise RegionError(
-            f"{file}: {error} Delete it: the regions themselves stay as they are, but cannot be undone."
+            f"{file}: {error} Delete the file: the regions stay as they are, but cannot be undone."
         ) from error
     return steps if document.get("files") == _digests(files) else KeptSteps(changed=True)
 
@@ -139,12 +139,12 @@ def _steps(document: Mapping[str, Any], key: str) -> list[KeptStep]:
     found = document.get(key)
     known = document.get("format") == FORMAT and document.get("version") == VERSION
     if not known or not isinstance(found, list):
-        raise RegionError("this file does not hold the steps of regions, or is of another version.")
+        raise RegionError("this file does not contain region steps, or has another version.")
     steps = []
     for number, each in enumerate(found, 1):
         kinds = {"text": str, "entry": dict, "other": dict}
         if not isinstance(each, dict) or any(not isinstance(each.get(k), kind) for k, kind in kinds.items()):
-            raise RegionError(f"step {number} of {key!r} is not one with text, entry and regions.")
+            raise RegionError(f"step {number} of {key!r} lacks its text, entry or regions.")
         if not isinstance(each["entry"].get("step"), str):  # it goes into the probe's history
             raise RegionError(f"the entry of step {number} of {key!r} has no name.")
         steps.append(KeptStep(each["text"], each["entry"], each["other"]))

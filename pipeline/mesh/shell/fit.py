@@ -61,8 +61,9 @@ class ShellFit:
     def sentence(self) -> str:
         """The fit in words."""
         return (
-            f"From the visible outside of the original to the shell: {1e3 * self.visible_median:.3f} mm in the"
-            f" median, {1e3 * self.visible_p95:.3f} mm for 95 %, {1e3 * self.visible_max:.2f} mm at most."
+            "Distance from the visible outside of the original to the shell: median"
+            f" {1e3 * self.visible_median:.3f} mm, 95 % below {1e3 * self.visible_p95:.3f} mm, at"
+            f" most {1e3 * self.visible_max:.2f} mm."
         )
 
     def to_json(self) -> dict[str, Any]:

@@ -201,6 +201,6 @@ def _inside(polygon: NDArray[np.float64], points: NDArray[np.float64]) -> NDArra
 def _refuse_crossing(rim: NDArray[np.float64], opening: Opening) -> None:
     if len(crossings(rim)) or shoelace(rim) <= 0:
         raise MeshError(
-            f"{opening.sentence} has a rim that crosses itself, and cannot be closed by itself: close it in the"
-            " CAD program, or leave it open (closing 'open')."
+            f"{opening.sentence} has a rim that crosses itself and cannot be closed automatically:"
+            " close it in the CAD program, or leave it open (closing 'open')."
         )

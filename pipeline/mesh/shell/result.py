@@ -36,7 +36,7 @@ class ClosedOpening:
     def sentence(self) -> str:
         """What was done, in words."""
         how = {
-            Closing.FAIR: "closed by a fair surface",
+            Closing.FAIR: "closed by a smooth surface",
             Closing.RULED: "closed by straight lines between its long rims",
             Closing.HULL: "closed by the hull of its rim",
             Closing.OPEN: "left open",
@@ -133,14 +133,15 @@ class Shell:
         if self.how == HULL:
             out += [text.format(number) for text, number in zip(_DONE, self._done, strict=True) if number]
         if self.how == WRAPPED and self.dropped:
-            out.append(f"Specks beside the part were left out (facets: {self.dropped}).")
+            out.append(f"Specks next to the part were left out (facets: {self.dropped}).")
         out += self.faults
         out += [f"Found {opening.sentence}" for opening in self.openings]
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
-                f"{1e6 * self.invented_area:.0f} mm² ({100 * share:.1f} %) of the shell is invented: a touch there"
-                " rests on a guess. Measure the part, or ask for its drawing, if it will be touched."
+                f"{1e6 * self.invented_area:.0f} mm² ({100 * share:.1f} %) of the shell is"
+                " invented: contacts there rest on a guess. If that area will be touched, measure"
+                " the part or get its drawing."
             )
         if self.fit is not None:
             out.append(self.fit.sentence)
@@ -171,21 +172,24 @@ class Shell:
 
 _HOW = {
     UNCHANGED: "The mesh is its own outer shell: no repair was needed.",
-    HULL: "The outer hull was made of the facets of the file; none of them was moved.",
+    HULL: "The outer hull was made from the facets of the file; none was moved.",
     WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
 }
 
 NO_SPACE = (
-    "Its own facets enclose no space, even with the holes closed: too much of it is loose, torn or a sheet."
+    "The mesh's own facets enclose no space, even with the holes closed: too many are loose, torn"
+    " or without thickness."
 )
-LEAKS = "Its own facets could not be used: what closes the openings does not meet their rims everywhere."
-UNSOUND = "Its own facets could not be used: cut where they cross, they gave no sound surface."
+LEAKS = (
+    "The mesh's own facets could not be used: the patches do not meet the rims of the openings everywhere."
+)
+UNSOUND = "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
 
 _DONE = (
     "Facets turned to face outwards: {:,}.",
     "Facets cut where others crossed or touched them: {:,}.",
-    "Facets left out because nothing outside reaches them, inner walls and repeats: {:,}.",
+    "Unreachable facets left out (inner walls and repeats): {:,}.",
     "Facets left out because they were sheets without thickness: {:,}.",
     "Small holes and open seams closed: {:,}.",
-    "Vertices in which bodies only met, made separate: {:,}.",
+    "Vertices separated where bodies only met in a point: {:,}.",
 )

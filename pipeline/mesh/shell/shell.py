@@ -85,7 +85,7 @@ class Steps:
         Cancelled
         """
         if self.cancelled is not None and self.cancelled():
-            raise Cancelled("the shell was cancelled: the mesh is as it was.")
+            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
         if self._progress is not None:
             self._progress(self._from + share * (self._to - self._from))
 
@@ -328,7 +328,7 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     shell = Probe.from_arrays(wrapped.vertices, wrapped.faces, invented=invented, name=name, check_size=False)
     if shell.health.sentences:
         raise MeshError(
-            "the wrap is not sound (" + " ".join(shell.health.sentences) + ") Try another alpha, or close the"
+            "the wrap is not valid (" + " ".join(shell.health.sentences) + ") Try another alpha, or close the"
             " mesh in the CAD program."
         )
     if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
@@ -368,9 +368,9 @@ def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
     if np.count_nonzero(large) > 1:
         one, two = (vertices[faces[label == part]].mean(axis=(0, 1)) for part in np.argsort(-areas)[:2])
         raise MeshError(
-            f"the mesh has {np.count_nonzero(large)} parts that do not touch, the middles of two of them"
-            f" {1e3 * np.linalg.norm(one - two):.4g} mm apart: delete what is not the probe in the CAD program, or"
-            " bridge the gap between them by a larger one (gap)."
+            f"the mesh has {np.count_nonzero(large)} parts that do not touch; the middles of two"
+            f" of them are {1e3 * np.linalg.norm(one - two):.4g} mm apart. Delete everything that"
+            " is not the probe in the CAD program, or bridge the gap with a larger value (gap)."
         )
     _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
     return np.asarray(~large[label[nearest]])
@@ -475,7 +475,7 @@ def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> 
     listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
     if len(listed) > max(len(found), 1):
         raise MeshError(
-            f"{len(listed)} closings were given, but the mesh has {len(found)} openings: leave the others out."
+            f"{len(listed)} closings were given, but the mesh has {len(found)} openings: leave out the rest."
         )
     return [*listed, *[listed[-1]] * (len(found) - len(listed))][: len(found)]
 

@@ -149,7 +149,7 @@ def _mended(
     degree = neighbours.sum(axis=1)
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
-            raise Cancelled("the shell was cancelled: the mesh is as it was.")
+            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
         found = check_soundness(settled, faces, original, invented=invented)
         crossing = found.facets_of(CROSSING, OVERLAP, TOUCHING)
         if len(crossing) + len(found.folded_facets) == 0 or attempt == _PUT_BACK:

@@ -130,8 +130,8 @@ class SimplifyJob:
             except MeshError as error:
                 failed = str(error)
         raise MeshError(
-            f"the surface cannot be simplified to {count:,} facets, nor to a few times as many: {failed} Ask for more"
-            " facets, or repair the mesh first."
+            f"the surface cannot be simplified to {count:,} facets, nor to a few times as many:"
+            f" {failed} Choose more facets, or repair the mesh first."
         )
 
     def attempt(self, count: int) -> Attempt:
@@ -191,7 +191,7 @@ class SimplifyJob:
 
     def _go_on(self, fraction: float) -> None:
         if self._cancelled is not None and self._cancelled():
-            raise Cancelled("the simplification was cancelled: nothing was changed.")
+            raise Cancelled("the simplification was cancelled: the mesh is unchanged.")
         self._progress(fraction)
 
     @cached_property

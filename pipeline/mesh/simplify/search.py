@@ -130,5 +130,6 @@ def _check_original(job: SimplifyJob, error: Callable[[Attempt], float], limit: 
     value = error(job.unchanged())
     if not value <= limit:
         raise MeshError(
-            f"the error of the full mesh is {value:.4g} already, above the limit of {limit:.4g}: raise the limit."
+            f"the full mesh already has an error of {value:.4g}, above the limit of {limit:.4g}:"
+            " raise the limit."
         )

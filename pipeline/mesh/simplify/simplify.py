@@ -26,7 +26,7 @@ _COARSE = {"uniform": 3_000, "most": 2_500}
 _THOROUGH = {"uniform": 20_000, "most": 200_000}
 
 
-_ROUGH = "which miss the limit, but more facets hardly help: the surface itself is rough"
+_ROUGH = "which miss the limit, but more facets hardly help because the surface itself is rough"
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +141,7 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
     have = len(job.probe.faces)
     if isinstance(target, Count):
         if target.facets >= have:
-            job.steps.append(f"The surface has {have} facets already: it is left as it is.")
+            job.steps.append(f"The surface already has {have} facets and was left unchanged.")
             return job.unchanged(), ""
         attempt = job.reach(target.facets)
         if len(attempt.probe.faces) <= target.facets:
@@ -149,32 +149,33 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
         wanted = f"{target.facets:,}"
         return (
             attempt,
-            f"more than the {wanted} asked for, because no smaller number that was tried gave a sound surface",
+            f"more than the requested {wanted}, because no smaller number tried gave a valid surface",
         )
     if isinstance(target, MaxDeviation):
         found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
     else:
         if have <= target.enough:
-            job.steps.append(f"The surface has {have} facets, few enough: it is left as it is.")
+            job.steps.append(f"The surface has {have} facets, few enough, and was left unchanged.")
             return job.unchanged(), ""
         found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
     if found is not None:
         rough = isinstance(target, MaxError) and _error(target, found) > target.limit
         return found, _ROUGH if rough else ""
-    job.steps.append("No fewer facets keep the limit: the surface is left as it is.")
-    return job.unchanged(), "as many as before, because no smaller number that was tried keeps the limit"
+    job.steps.append("Fewer facets would exceed the limit: the surface was left unchanged.")
+    return job.unchanged(), "as many as before, because no smaller number tried keeps the limit"
 
 
 def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, ...]:
     told = []
     if engine != "auto":
         told.append(
-            f"The engine {engine} is gone: contactbench collapses the edges itself, and facets differ."
+            f"The engine {engine} no longer exists: contactbench collapses the edges itself, so"
+            " the facets differ."
         )
     if region_ratio != 1 and not probe.preferred.any():
         told.append(
-            f"The region ratio is {region_ratio:g}, but the mesh has no region: facets are spread evenly. Mark one"
-            " first (contactbench probe regions add)."
+            f"The region ratio is {region_ratio:g}, but the mesh has no region: facets are spread"
+            " evenly. Mark a region first (contactbench probe regions add)."
         )
     return tuple(told)
 

@@ -37,9 +37,7 @@ class Count:
 
     def __post_init__(self) -> None:
         if self.facets < FEWEST:
-            raise MeshError(
-                f"{self.facets} facets are asked for, but no closed surface has fewer than {FEWEST}: ask for more."
-            )
+            raise MeshError(f"{self.facets} facets are too few: no closed surface has fewer than {FEWEST}.")
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 SCHEMA, VERSION = "contactbench.alignment", 1
-_REMEDY = "use the file as contactbench wrote it, or align again."
+_REMEDY = "use the file that contactbench wrote, or align again."
 _LARGEST_FILE = 2**20
 
 
@@ -76,7 +76,7 @@ class Alignment:
         object.__setattr__(self, "T_SP", check_transform(self.T_SP))
         object.__setattr__(self, "method", AlignmentMethod(self.method))
         if (self.covariance is None) != (self.about_S is None):
-            raise AlignmentError("covariance, about_S: give both or neither: the one is about the other.")
+            raise AlignmentError("covariance, about_S: give both or neither.")
         if self.covariance is not None and self.about_S is not None:
             object.__setattr__(self, "covariance", _check_covariance(self.covariance))
             object.__setattr__(self, "about_S", _frozen(check_numbers(self.about_S, (3,), "about_S")))
@@ -165,7 +165,7 @@ def from_json(data: str | bytes, name: str = "alignment") -> Alignment:
     try:
         content = parse_json(data)
     except (ValueError, UnicodeEncodeError) as error:
-        raise AlignmentError(f"{name}: this is not JSON ({error}): choose an alignment file.") from None
+        raise AlignmentError(f"{name}: not valid JSON ({error}): choose an alignment file.") from None
     _check_kind(content, name)
     try:
         document = _Document.model_validate_json(data)
@@ -214,13 +214,12 @@ class _Document(BaseModel):
 def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
-        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "there is no schema"
-        raise AlignmentError(f"{name}: {found}, not {SCHEMA!r}: choose an alignment file.")
+        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "the schema is missing"
+        raise AlignmentError(f"{name}: {found}; expected {SCHEMA!r}: choose an alignment file.")
     version = content.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise AlignmentError(
-            f"{name}: this file was written by a newer contactbench (its version is above {VERSION}): update"
-            " contactbench."
+            f"{name}: written by a newer contactbench (version above {VERSION}): update contactbench."
         )
 
 

@@ -78,7 +78,7 @@ def align_axes(
     warnings = []
     if weight == "volume" and not (probe_P.health.watertight and probe_P.health.outward):
         weight = "area"
-        warnings.append("The mesh is open or badly wound and has no volume: its area was weighed instead.")
+        warnings.append("The mesh is open or badly wound and has no volume, so its area was used instead.")
     centroid, moment = _volume_moments(probe_P) if weight == "volume" else _area_moments(probe_P)
     values, vectors = np.linalg.eigh(moment)
     spreads = np.sqrt(np.maximum(values, 0.0))[[1, 0, 2]]
@@ -98,8 +98,8 @@ def align_axes(
         (
             "The tip is the end"
             f" {'nearer to the point picked' if tip_P is not None else 'further from the mesh origin'};"
-            " x is towards +x of the mesh's frame, or +y or +z where that is across. Three other rotations fit"
-            " as well."
+            " x points towards +x of the mesh's frame, or +y or +z where that is across. Three"
+            " other rotations fit equally well."
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
@@ -137,9 +137,12 @@ def _tip_sign(
         return 1.0 if (check_numbers(tip_P, (3,), "tip_P") - centroid) @ z_P >= 0 else -1.0
     heights = probe.vertices[np.unique(probe.faces)] @ z_P
     low, high = float(-heights.min()), float(heights.max())
-    told = "The tip was taken to be the end further from the mesh's origin, which many files put at the lens."
+    told = (
+        "The end farther from the mesh's origin was taken as the tip; many files have their origin at"
+        " the lens."
+    )
     if abs(high - low) < _MIDDLE * (high + low):
-        told = "The mesh's origin lies in its middle and does not tell the tip from the handle."
+        told = "The mesh's origin lies in its middle, so it cannot tell the tip from the handle."
     warnings.append(f"{told} Pick a point on the tip to be sure.")
     return 1.0 if high >= low else -1.0
 

@@ -80,7 +80,7 @@ def find_mounting_face(
     """
     if not 0 <= facet < len(probe_P.faces):
         raise AlignmentError(
-            f"facet: {facet} is not between 0 and {len(probe_P.faces) - 1}: pick one of the mesh."
+            f"facet: {facet} is not between 0 and {len(probe_P.faces) - 1}: pick a facet of the mesh."
         )
     if not 0 < angle_deg <= 45:
         raise AlignmentError(f"angle_deg: {angle_deg} is not above 0 and at most 45.")
@@ -140,9 +140,8 @@ def align_flange(
     direction = _direction(face, toward_P)
     if direction is None:
         warnings.append(
-            "No clocking direction was given: the mesh is turned about the axis as little as possible. Pick a"
-            " point or"
-            " an edge that fixes it."
+            "No clocking direction was given, so the mesh is turned about the axis as little as"
+            " possible. Pick a point or an edge to fix it."
         )
     else:
         x, y, _ = R_SP @ direction
@@ -233,7 +232,7 @@ def _direction(face: MountingFace, toward: ArrayLike | None) -> Floats | None:
     flat: Floats = given - (given @ face.normal_P) * face.normal_P
     if np.linalg.norm(flat) <= _NO_DIRECTION * max(float(np.linalg.norm(given)), 1e-6):
         raise AlignmentError(
-            "toward_P: it points along the axis, so it shows no turn about it: pick it to the side."
+            "toward_P points along the axis, so it does not fix the turn about it: pick a point to the side."
         )
     return flat
 
@@ -247,11 +246,12 @@ def _face_warnings(face: MountingFace) -> tuple[str, ...]:
         )
     if np.sqrt(face.area_m2) < _SMALL_M:
         words.append(
-            f"The face has only {1e6 * face.area_m2:.2g} mm²: a turn of it hardly shows. Was the right facet picked?"
+            f"The face has only {1e6 * face.area_m2:.2g} mm², so a turn hardly shows. Check that"
+            " the right facet was picked."
         )
     if not face.round:
         words.append(
-            "The rim is not round: the axis goes through the middle of the area inside it, which screw holes and"
-            " notches in the rim shift. Check it against the drawing."
+            "The rim is not round, so the axis goes through the middle of the area inside it;"
+            " screw holes and notches in the rim shift that. Check it against the drawing."
         )
     return tuple(words)

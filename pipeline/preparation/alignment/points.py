@@ -66,8 +66,8 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     rms = float(np.sqrt((left**2).mean()))
     warnings = _warnings(a, b, left, accuracy)
     how = (
-        f"{len(a)} points of the mesh laid on their places in the sensor frame by least squares; {1e3 * rms:.2g} mm"
-        " rms is left."
+        f"{len(a)} points of the mesh fitted to their positions in the sensor frame by least"
+        f" squares; residual {1e3 * rms:.2g} mm rms."
     )
     covariance = _covariance(b - b0, accuracy) * max(1.0, _scatter(left, accuracy))
     return Alignment(T_SP, AlignmentMethod.POINTS, (how,), warnings, covariance, b0, rms)
@@ -120,12 +120,12 @@ def align_frame(
     _refuse_line(points - points.mean(axis=0), accuracy)
     along = np.linalg.norm(z - o)
     if along < _CLEAR * accuracy:
-        raise AlignmentError("axis_P: it coincides with origin_P: pick it further along the axis.")
+        raise AlignmentError("axis_P coincides with origin_P: pick it farther along the axis.")
     ez = (z - o) / along
     side = (x - o) - ((x - o) @ ez) * ez
     beside = np.linalg.norm(side)
     if beside < max(_CLEAR * accuracy, _THIN * float(np.linalg.norm(x - o))):
-        raise AlignmentError("plane_P: it lies on the axis: pick it off to the side, towards +x of S.")
+        raise AlignmentError("plane_P lies on the axis: pick it to the side, towards +x of S.")
     ex = side / beside
     R_SP = np.array([ex, np.cross(ez, ex), ez])
     # The axis point turns about x and y, the plane point about z; the origin moves both ends of each lever.
@@ -136,8 +136,11 @@ def align_frame(
     J[4, [0, 3]] = np.array([-1, 1]) / along
     J[5, 7], J[5, 1] = 1 / beside, -1 / beside
     J[5, [1, 4]] += np.array([1, -1]) * level / (along * beside)
-    how = "The mesh's origin point laid on its place, its axis point on +z, its plane point towards +x."
-    warnings = ("Three points that span a frame leave nothing over: a wrong pick does not show.",)
+    how = (
+        "The mesh's origin point was placed on its position, its axis point on +z, its plane point"
+        " towards +x."
+    )
+    warnings = ("Three points define a frame exactly, so a wrong pick does not show.",)
     covariance = accuracy**2 * J @ J.T
     T_SP = make_transform(R_SP, origin - R_SP @ o)
     return Alignment(T_SP, AlignmentMethod.FRAME, (how,), warnings, covariance, origin)
@@ -160,11 +163,12 @@ def _left(T: Floats, a: Floats, b: Floats) -> Floats:
 def _refuse_line(centred: Floats, accuracy: float) -> None:
     spread = np.linalg.svd(centred, compute_uv=False) / np.sqrt(len(centred))
     if spread[0] < _CLEAR * accuracy:
-        raise AlignmentError("The points are all in one place: pick points far from one another.")
+        raise AlignmentError("The points are all in one place: pick points far apart.")
     if spread[1] < max(_THIN * spread[0], _CLEAR * accuracy):
         raise AlignmentError(
-            f"The points lie nearly on one line ({1e3 * spread[1]:.2g} mm off it, {1e3 * spread[0]:.2g} mm along it,"
-            " rms), so a turn about it cannot be seen: pick one well to the side."
+            f"The points lie nearly on one line ({1e3 * spread[1]:.2g} mm off it,"
+            f" {1e3 * spread[0]:.2g} mm along it, rms), so a turn about it is not determined: pick"
+            " one well to the side."
         )
 
 
@@ -186,7 +190,7 @@ def _scatter(left: Floats, accuracy: float) -> float:
 
 def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str, ...]:
     if len(a) == 3:
-        few = "Three points check one another in their distances only: a fourth would show a wrong one."
+        few = "Three points check one another only by their distances: a fourth would reveal a wrong one."
         return (few,) if _scatter(left, accuracy) == 1 else (_disagreement(left, accuracy), few)
     if _scatter(left, accuracy) == 1:
         return ()
@@ -203,15 +207,16 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str,
         without = [float(np.sqrt((_left(_fit(a[o], b[o]), a[o], b[o]) ** 2).mean())) for o in others]
         worst = int(np.argmin(without))
         words.append(
-            f"Without point {worst + 1} the others agree within {1e3 * without[worst]:.2g} mm rms: check its place."
+            f"Without point {worst + 1} the others agree within {1e3 * without[worst]:.2g} mm rms:"
+            " check its position."
         )
     return tuple(words)
 
 
 def _disagreement(left: Floats, accuracy: float) -> str:
     return (
-        f"The points disagree by up to {1e3 * left.max():.2g} mm, more than {1e3 * accuracy:g} mm accuracy explains."
-        " The uncertainty has been widened by that."
+        f"The points disagree by up to {1e3 * left.max():.2g} mm, more than an accuracy of"
+        f" {1e3 * accuracy:g} mm explains. The uncertainty has been widened accordingly."
     )
 
 

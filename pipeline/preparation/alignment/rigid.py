@@ -89,8 +89,8 @@ def make_transform(R_SP: ArrayLike, p_SP_S: ArrayLike, name: str = "T_SP") -> Fl
     if np.abs(p).max() >= FARTHEST_M or np.linalg.norm(p) >= FARTHEST_M:
         millimetres = ", ".join(f"{1e3 * value:.6g}" for value in p)
         raise AlignmentError(
-            f"{name}: the translation ({millimetres}) mm is {FARTHEST_M:g} m or longer, which no mount is. Was a"
-            " length given in another unit?"
+            f"{name}: the translation ({millimetres}) mm is {FARTHEST_M:g} m or longer, too long"
+            " for a mount. Check its unit."
         )
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = R_SP, p

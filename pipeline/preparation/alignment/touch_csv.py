@@ -31,7 +31,7 @@ _WORDING = Wording(
         " outward normal) and marker (a name) may be added"
     ),
     not_finite="remove the row, or touch the marker again.",
-    text="a marker's name",
+    text="the name of a marker",
     error=TouchFileError,
 )
 
@@ -62,7 +62,7 @@ def read_touches(source: Path | BinaryIO) -> MarkerTouches:
     def select(reader: TableReader) -> None:
         some = [column for column in NORMAL if column in reader.names]
         if some and len(some) < 3:
-            raise reader.error(f"only {', '.join(some)} of nx,ny,nz is there: give all three, or none.", 1)
+            raise reader.error(f"only {', '.join(some)} of nx,ny,nz is given: give all three, or none.", 1)
         reader.select((*POINT, *CHANNELS), optional=NORMAL, text=NAME if NAME in reader.names else None)
         readers.append(reader)
 

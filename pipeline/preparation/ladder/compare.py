@@ -159,9 +159,10 @@ class ContactReference:
         settled = int(np.count_nonzero(_settled(judged.noisy)))
         if settled < FEWEST / 2:
             raise LadderError(
-                f"the full mesh settles only {settled} of {len(judged.noisy)} touches ({_reasons(judged.noisy)}), so"
-                " there is nothing to compare with: check that the surface is a closed shell in the sensor's frame,"
-                " and that the forces are those expected."
+                f"the full mesh settles only {settled} of {len(judged.noisy)} touches"
+                f" ({_reasons(judged.noisy)}), so there is nothing to compare with: check that the"
+                " surface is a closed shell in the sensor's frame, and that the forces are the"
+                " expected ones."
             )
 
 

@@ -106,7 +106,7 @@ def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:
         return Recommendation(None, limit, _none_keeps(simplified, full, goal, limit))
     rung = simplified[keeping]
     sentences = [
-        f"Take {rung.facets:,} facets, the fewest measured that will do: {_errors(rung, goal, limit)}."
+        f"Take {rung.facets:,} facets, the fewest measured that suffice: {_errors(rung, goal, limit)}."
     ]
     if keeping:
         coarser = simplified[keeping - 1]
@@ -121,9 +121,14 @@ def _none_keeps(simplified: Sequence[Rung], full: Rung, goal: Goal, limit: float
     if not simplified:
         return f"{keep}: no simplified one was measured."
     if limit == 0:
-        return f"{keep}: the sensor is said to be without noise, so nothing may be added. Give a limit as a length."
+        return (
+            f"{keep}: the sensor is declared noise-free, so no error may be added. Give a limit as a length."
+        )
     finest = simplified[-1]
-    return f"{keep}: no simplified one will do. Even with {finest.facets:,} {_shortfall(finest.judged, goal, limit)}."
+    return (
+        f"{keep}: no simplified mesh suffices. Even with {finest.facets:,}"
+        f" {_shortfall(finest.judged, goal, limit)}."
+    )
 
 
 def _errors(rung: Rung, goal: Goal, limit: float) -> str:
@@ -158,8 +163,9 @@ def _shortfall(errors: PartErrors, goal: Goal, limit: float) -> str:
 def _elsewhere(errors: PartErrors, goal: Goal) -> str:
     """Say what the part that does not decide pays."""
     return (
-        f"Outside the regions, which does not decide, the {_WORDS[goal.statistic]} is"
-        f" {_mm(errors.noisy.statistic(goal.statistic))} mm, where noise gives {_mm(errors.bound)} mm."
+        f"Outside the regions, which does not count for the choice, the {_WORDS[goal.statistic]}"
+        f" is {_mm(errors.noisy.statistic(goal.statistic))} mm; noise alone gives"
+        f" {_mm(errors.bound)} mm."
     )
 
 

@@ -49,22 +49,20 @@ class ExpectedTouches:
         low, high = self.force
         if not 0 < low <= high < math.inf:
             raise LadderError(
-                f"the force range is {low:g} to {high:g} N: give two numbers above 0, the smaller one first."
+                f"the force range is {low:g} to {high:g} N: give two numbers above 0, smaller first."
             )
         low, high = self.friction_angle
         if not 0 <= low <= high < 90:
             raise LadderError(
-                f"the friction angle's range is {low:g} to {high:g} degrees: give two numbers from 0 to under 90,"
-                " the smaller one first."
+                f"the friction angle's range is {low:g} to {high:g} degrees: give two numbers from"
+                " 0 to below 90, smaller first."
             )
         if not 0 <= self.torsion_arm < math.inf:
             raise LadderError(
                 f"the torsion arm is {self.torsion_arm:g} m: give a length of 0 or more, such as 0.0003."
             )
         if self.count < FEWEST:
-            raise LadderError(
-                f"{self.count} touches say too little about an error: ask for at least {FEWEST}."
-            )
+            raise LadderError(f"{self.count} touches are too few to judge an error: give at least {FEWEST}.")
         if self.seed < 0:
             raise LadderError(f"the seed is {self.seed}: give a whole number of at least 0.")
 
@@ -114,7 +112,7 @@ def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, .
     inside, outside = touchable & (probe.region > 0), probe.region == 0
     parts: list[tuple[Part, npt.NDArray[np.bool_]]] = [("region", inside), ("rest", outside)]
     if not touchable.any():
-        raise LadderError("all of the probe is marked untouchable: correct the regions.")
+        raise LadderError("the whole probe is marked untouchable: correct the regions.")
     if not inside.any():
         parts = [("all", outside)]
     return tuple(

@@ -209,7 +209,7 @@ def _pose(R: ArrayLike, p: ArrayLike, where: str) -> NDArray[np.float64]:
     if not (shapes and np.isfinite(turn).all() and np.isfinite(place).all()):
         raise InputError(f"{where}: give finite numbers: a rotation (3, 3) and a place (3,), m.")
     if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
-        raise InputError(f"{where}: {turn.round(4).tolist()} is no rotation matrix.")
+        raise InputError(f"{where}: {turn.round(4).tolist()} is not a rotation matrix.")
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = turn, place
     return T

@@ -143,13 +143,13 @@ class BenchScene(PhysicsScene):
         path = Rotation.from_matrix(start.T @ R).as_rotvec()
         needed = max(_SHORTEST_S, float(np.linalg.norm(path)) / _SPEED) if seconds is None else seconds
         if not 0 < needed < 1e4:
-            raise InputError(f"the wrist: {needed:g} s is no time for a turn: give a positive number.")
+            raise InputError(f"the wrist: {needed:g} s is not a valid duration: give a positive number.")
         angle = float(np.linalg.norm(path))
         shortest = max(angle / _FASTEST, float(np.sqrt(_PEAK * angle / _HARDEST)))
         if needed < shortest:
             raise InputError(
-                f"the wrist: {np.degrees(angle):.0f} degrees in {needed:g} s are faster than any arm: give"
-                f" {shortest:.3f} s or more."
+                f"the wrist: {np.degrees(angle):.0f} degrees in {needed:g} s is too fast for an"
+                f" arm: give {shortest:.3f} s or more."
             )
         self._turn = _Turn(self.time, needed, start, path)
         return needed
@@ -179,7 +179,7 @@ class BenchScene(PhysicsScene):
             It is aimed at nothing.
         """
         if self.aimed_S is None:
-            raise InputError("the tip is aimed at nothing: aim at a marker first.")
+            raise InputError("the tip has no target: aim at a marker first.")
         self.indenter.press(press)
 
     def release(self) -> None:

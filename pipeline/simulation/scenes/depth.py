@@ -63,7 +63,7 @@ def depth_for(
         raise InputError(f"depth for {force} N: give a positive force.")
     tissue = tissue or Tissue()
     if tissue.cylinder is not None:
-        raise InputError("depth: only of a flat phantom: leave its cylinder out.")
+        raise InputError("depth: only for a flat phantom: leave out its cylinder.")
     where, normals, area = spread(truth.probe, places)
     centres = where - BALL_M * normals - [0.0, 0.0, float(truth.probe.vertices[:, 2].max())]
     above, upright = _gaps(centres, motion)
@@ -75,13 +75,11 @@ def depth_for(
     most = missing(FACE_DEPTH_M) + force
     if most <= force:
         raise InputError(
-            f"depth for {force:g} N: at {1e3 * FACE_DEPTH_M:g} mm this tissue pushes with {most:.1f} N: ask for"
-            " less, or take a stiffer one."
+            f"depth for {force:g} N: at {1e3 * FACE_DEPTH_M:g} mm this tissue already pushes with"
+            f" {most:.1f} N: choose a smaller force, or a stiffer tissue."
         )
     if missing(0.0) >= 0:
-        raise InputError(
-            f"depth for {force:g} N: the motion alone presses harder: let it heave or turn less."
-        )
+        raise InputError(f"depth for {force:g} N: the motion alone presses harder: reduce its heave or turn.")
     return float(brentq(missing, 0.0, FACE_DEPTH_M, xtol=1e-9))
 
 

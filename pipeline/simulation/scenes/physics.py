@@ -237,8 +237,8 @@ class PhysicsScene:
             for k in np.flatnonzero(self._warnings)
         ]
         raise PhysicsError(
-            f"the physics came apart ({', '.join(names)}): what came after that would not be true. Push less hard, or"
-            " turn more slowly."
+            f"the physics diverged ({', '.join(names)}), so later results would be wrong. Push"
+            " less hard, or turn more slowly."
         )
 
     def look(self) -> None:

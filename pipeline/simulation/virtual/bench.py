@@ -335,7 +335,7 @@ class VirtualBench:
 
     def _do(self, command: Command) -> Done:
         if self._ended:
-            raise CommandError(f"{command.name}: the run is at its end.")
+            raise CommandError(f"{command.name}: the run has ended.")
         done = Done(self.time, command, self._act(command))
         self._last_end = max(done.until, done.time)
         self.log.append(done)
@@ -377,7 +377,9 @@ class VirtualBench:
         elif 1 <= command.marker <= len(self.markers):
             place = self.real.targets[command.marker - 1]
         else:
-            raise CommandError(f"touch: marker {command.marker}: there are 1 to {len(self.markers)}.")
+            raise CommandError(
+                f"touch: there is no marker {command.marker}: choose 1 to {len(self.markers)}."
+            )
         self.scene.aim(self.real.aimed(place, command.press))
         self.scene.press(command.press)
         self._slips.end()
@@ -419,5 +421,7 @@ def bundled(name: str) -> TrueSurface:
 def _mounting(R_SE: ArrayLike | None) -> NDArray[np.float64]:
     R = np.eye(3) if R_SE is None else np.array(R_SE, dtype=np.float64)
     if R.shape != (3, 3) or not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0:
-        raise InputError("virtual bench: the mounting R_SE is no rotation: give three rows of three numbers.")
+        raise InputError(
+            "virtual bench: the mounting R_SE is not a rotation: give three rows of three numbers."
+        )
     return np.asarray(Rotation.from_matrix(R).as_matrix())

@@ -40,14 +40,14 @@ class TurnTo:
 
     def __post_init__(self) -> None:
         if (self.rpy is None) == (self.R_WS is None):
-            raise CommandError("turn_to: give one of rpy (three angles in degrees) and R_WS.")
+            raise CommandError("turn_to: give either rpy (three angles in degrees) or R_WS.")
         if self.rpy is not None:
             object.__setattr__(self, "rpy", _numbers(self, "rpy"))
         else:
             rows = np.asarray(_array(self, "R_WS", (3, 3)))
             if not np.allclose(rows @ rows.T, np.eye(3), atol=1e-6) or np.linalg.det(rows) < 0:
                 raise CommandError(
-                    "turn_to: R_WS is no rotation: its rows must be right-handed unit vectors."
+                    "turn_to: R_WS is not a rotation: its rows must be right-handed unit vectors."
                 )
             object.__setattr__(self, "R_WS", tuple(tuple(row) for row in rows.tolist()))
         _check_seconds(self)
@@ -76,7 +76,7 @@ class TouchCommand:
 
     def __post_init__(self) -> None:
         if (self.marker is None) == (self.point_S is None):
-            raise CommandError("touch: give one of marker (a number from 1) and point_S (three lengths, m).")
+            raise CommandError("touch: give either marker (a number from 1) or point_S (three lengths, m).")
         if self.marker is not None and (isinstance(self.marker, bool) or not isinstance(self.marker, int)):
             raise CommandError(f"touch: marker {self.marker!r}: give a whole number from 1.")
         if self.point_S is not None:
@@ -172,11 +172,11 @@ def read_command(given: Mapping[str, object]) -> Command:
     values = {key: value for key, value in given.items() if key != "do"}
     for key in values:
         if key not in known:
-            raise CommandError(f"{name}: {key!r} is unknown: it can have {', '.join(known) or 'nothing'}.")
+            raise CommandError(f"{name}: unknown key {key!r}. Possible: {', '.join(known) or 'nothing'}.")
     try:
         command: Command = kind(**values)
     except TypeError as error:
-        raise CommandError(f"{name}: it needs {', '.join(known)}; not all are there.") from error
+        raise CommandError(f"{name}: some of these are missing: {', '.join(known)}.") from error
     return command
 
 

@@ -93,7 +93,7 @@ def markers_on(probe: Probe, count: int = 15) -> Array:
         There are too few of them, or no surface that a tip reaches.
     """
     if count < ON_FACE:
-        raise InputError(f"{count} markers are too few: ask for at least {ON_FACE}.")
+        raise InputError(f"{count} markers are too few: give at least {ON_FACE}.")
     rng = np.random.default_rng(0)
     facets = rng.choice(len(probe.faces), _SAMPLES, p=probe.areas / probe.areas.sum())
     shares = rng.dirichlet(np.ones(3), _SAMPLES)
@@ -113,7 +113,7 @@ def _placed(
     tip = float(points[:, 2].max())
     face = (normals[:, 2] > _FACING) & (points[:, 2] > tip - _FACE_DEPTH_M)
     if not face.any():
-        raise InputError("markers: nothing of the probe faces along +z near its tip: is it aligned?")
+        raise InputError("markers: no part of the probe faces +z near its tip: check that it is aligned.")
     low, high = points[face].min(axis=0), points[face].max(axis=0)
     # In whole millimetres: the drawn points end a little before the face does, and not evenly on both sides.
     middle, half = np.round((low + high) / 2, 3), np.round((high - low) / 2, 3)
@@ -129,7 +129,7 @@ def _placed(
     side = flat & ~face & (beside > _CLEAR_OF_FACE_M)
     side &= (points[:, 2] > tip - _HEAD_DEPTH_M) & (normals[:, 2] > _LOWEST_NORMAL)
     if np.count_nonzero(side) < count:
-        raise InputError("markers: the probe has no sides that a tip reaches: is it aligned?")
+        raise InputError("markers: the probe has no sides that a tip can reach: check that it is aligned.")
     others = foot(_spread(points[side], count - ON_FACE))
     turn = np.arctan2(others[:, 1], others[:, 0] - middle[0])
     return np.concatenate([first, others[np.argsort(turn)]])

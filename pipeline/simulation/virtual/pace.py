@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 CATCH_UP_S = 0.2
 _SLICE_S = 0.01  # a command waits no longer than this much of a bench that is late
 _LOOK_S = 0.002
-_SLOW = "This computer is too slow for the virtual bench: time was left out. Lower the rate, or close other programs."
+_SLOW = (
+    "The simulation is running behind because this computer is too slow. Lower the rate, or close"
+    " other programs."
+)
 
 
 class BenchError(InputError):

@@ -66,7 +66,7 @@ def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, addres
         A file cannot be written, or a command cannot be done.
     """
     if not bench.scripted:
-        raise InputError("virtual bench: there is no script: nothing would happen.")
+        raise InputError("virtual bench: no script was given.")
     _refuse_taken(out, truth)
     devices = [
         DeviceInfo("wrench", WRENCH_TOPIC, address, "virtual bench", rate=bench.rate),
@@ -86,12 +86,16 @@ def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, addres
 
 def _refuse_taken(out: Path, truth: Path | None) -> None:
     if truth is not None and truth.resolve() == out.resolve():
-        raise InputError(f"{out}: the recording and the truth cannot be one file: give them two names.")
+        raise InputError(f"{out}: recording and truth need different files: give them two names.")
     for file in (out, truth):
         if file is not None and not file.parent.is_dir():
-            raise InputError(f"{file}: there is no folder {file.parent}: make it, or choose another place.")
+            raise InputError(
+                f"{file}: there is no folder {file.parent}: create it, or choose another location."
+            )
         if file is not None and file.exists():
-            raise InputError(f"{file}: it exists, and is not written over: choose another name or delete it.")
+            raise InputError(
+                f"{file}: this file exists and is never overwritten: choose another name or delete it."
+            )
 
 
 def _scratch(unfinished: ExitStack, file: Path) -> Path:
@@ -104,7 +108,7 @@ def _put(scratch: Path, file: Path) -> None:
     try:
         scratch.rename(file)
     except OSError as error:
-        raise InputError(f"{file}: it cannot be written ({error}): choose another place.") from error
+        raise InputError(f"{file}: it cannot be written ({error}): choose another location.") from error
 
 
 def _go(bench: VirtualBench, about: RecordingInfo, out: Path, truth: Path | None) -> tuple[int, int]:
@@ -118,7 +122,9 @@ def _go(bench: VirtualBench, about: RecordingInfo, out: Path, truth: Path | None
             try:
                 file = files.enter_context(truth.open("x", newline="", encoding="utf-8"))
             except OSError as error:
-                raise InputError(f"{truth}: it cannot be written ({error}): choose another place.") from error
+                raise InputError(
+                    f"{truth}: it cannot be written ({error}): choose another location."
+                ) from error
             table = TruthTable(file)
         while _goes_on(bench):
             batch = bench.advance(_SLICE_S)
@@ -136,7 +142,7 @@ def _goes_on(bench: VirtualBench) -> bool:
         left = bench.pending
         if left:
             raise ScriptError(
-                f"{left[0].where}: it is due after {LONGEST_S:,.0f} s, the longest run: divide the script."
+                f"{left[0].where}: it is due after {LONGEST_S:,.0f} s, the longest run: split the script."
             )
         return False
     return bench.scripted or bench.time < bench.idle_from + _AFTERWARDS_S

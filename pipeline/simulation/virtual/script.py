@@ -70,7 +70,7 @@ def parse_script(text: str, name: str = "script") -> tuple[Timed, ...]:
     found: list[Timed] = []
     lines = text.splitlines()
     if len(lines) > _MOST_LINES:
-        raise ScriptError(f"{name}: {len(lines):,} lines are more than {_MOST_LINES:,}: divide it.")
+        raise ScriptError(f"{name}: {len(lines):,} lines are more than {_MOST_LINES:,}: split the script.")
     latest = earliest = 0.0
     for number, line in enumerate(lines, 1):
         if not line.strip() or line.lstrip().startswith("#"):
@@ -86,7 +86,7 @@ def parse_script(text: str, name: str = "script") -> tuple[Timed, ...]:
         earliest = timed.at if timed.at is not None else earliest + (timed.after or 0.0)
         if earliest > LONGEST_S:
             raise ScriptError(
-                f"{timed.where}: it is due after {LONGEST_S:,.0f} s, the longest run: divide the script."
+                f"{timed.where}: it is due after {LONGEST_S:,.0f} s, the longest run: split the script."
             )
         found.append(timed)
     if not found:
@@ -105,11 +105,11 @@ def script_text(commands: Iterable[Timed]) -> str:
 
 def _read_line(line: str, where: str) -> Timed:
     if len(line) > _LONGEST_LINE:
-        raise ScriptError(f"{where}: it is longer than {_LONGEST_LINE:,} characters: is it a script?")
+        raise ScriptError(f"{where}: longer than {_LONGEST_LINE:,} characters: check that it is a script.")
     fields = read_object(line, where)
     when = {key: fields.pop(key) for key in ("at", "after") if key in fields}
     if len(when) != 1:
-        raise ScriptError(f"{where}: give one of at and after, s.")
+        raise ScriptError(f"{where}: give either at or after, s.")
     ((key, seconds),) = when.items()
     if not is_finite(seconds) or not 0 <= seconds <= LONGEST_S:
         raise ScriptError(
@@ -134,8 +134,8 @@ def read_object(line: str, where: str) -> dict[str, Any]:
         value = json.loads(line)
     except (ValueError, RecursionError) as error:
         raise ScriptError(
-            f'{where}: it is no JSON ({error}): write {{"at": 2, "do": "release"}} or the like.'
+            f'{where}: not valid JSON ({error}): write {{"at": 2, "do": "release"}} or the like.'
         ) from error
     if not isinstance(value, dict):
-        raise ScriptError(f'{where}: it is no JSON object: write {{"at": 2, "do": "release"}} or the like.')
+        raise ScriptError(f'{where}: not a JSON object: write {{"at": 2, "do": "release"}} or the like.')
     return value

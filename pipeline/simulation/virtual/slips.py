@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 SLIPPED_S = 0.5
 _SENTENCE = (
-    "The tip presses nothing: it slid off the probe. Release it, and touch elsewhere or with less tilt."
+    "The tip slid off the probe and presses nothing. Release it, and touch elsewhere or with less tilt."
 )
 
 

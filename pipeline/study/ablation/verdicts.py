@@ -100,7 +100,7 @@ class ChoiceVerdict:
             return "model it"
         if need:
             return f"model it in {', '.join(need)}"
-        return "keep it: it costs nothing" if self.cost and self.cost.free else "leave it out"
+        return "keep it: no cost" if self.cost and self.cost.free else "leave it out"
 
     @property
     def sentence(self) -> str:

@@ -113,7 +113,7 @@ def test_a_recording_is_shown_and_narrowed(qtbot, viewer, files):
 def test_a_quantity_that_is_not_there_is_said(qtbot, viewer, files):
     opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
     viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("error"))
-    qtbot.waitUntil(lambda: "points that were touched" in viewer.sides[0].words.text(), timeout=LONG)
+    qtbot.waitUntil(lambda: "touched points" in viewer.sides[0].words.text(), timeout=LONG)
     viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("peak"))
     qtbot.waitUntil(lambda: viewer.sides[0].frame is not None, timeout=LONG)
     assert np.nanmax(viewer.sides[0].frame.values) == pytest.approx(8.0, abs=0.1)

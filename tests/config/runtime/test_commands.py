@@ -185,7 +185,7 @@ def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
     wavering = known_weight(bench, "undecided")
     made = invoke("export", *files_of(bench), "--known-weight", wavering, "--out", bench / "b")
     assert made.exit_code == 0
-    assert "could not tell" in words(made)
+    assert "was inconclusive" in words(made)
 
 
 @pytest.mark.parametrize(
@@ -335,7 +335,7 @@ def test_a_drift_is_told_by_the_hour(tmp_path):
     example_bundle(tmp_path / "b", 300, clamped=True)
     checked = invoke("check", tmp_path / "b", "--json")
     assert checked.exit_code == 0
-    assert "drifted by up to 0.11 N and 0.72 mN·m an hour" in words(checked)
+    assert "drifted by up to 0.11 N and 0.72 mN·m per hour" in words(checked)
     assert json.loads(checked.stdout)["zero"]["measured"] == "2026-01-01T12:00:00Z"
 
 
@@ -344,7 +344,7 @@ def test_what_is_not_verified_is_refused_or_marked(bench):
     some = (*files_of(bench)[:4], *RATE)
     refused = invoke("export", *some, "--out", out, "--json")
     assert refused.exit_code == 1
-    assert "Nobody has verified" in json.loads(refused.stdout)["reasons"][0]
+    assert "Contacts have not been verified" in json.loads(refused.stdout)["reasons"][0]
     assert not out.exists()
     assert invoke("export", *some, "--out", out, "--unverified").exit_code == 0
     assert invoke("check", out).exit_code == 1
@@ -400,7 +400,7 @@ def test_the_schema_is_printed():
 
 @pytest.mark.parametrize(
     ("data", "words"),
-    [(b"x", "not JSON"), (b"{}", "is no contactbench.verification"),
+    [(b"x", "not valid JSON"), (b"{}", "not a contactbench.verification"),
      (b'{"schema":"contactbench.verification","version":1}', "no touch was accepted"),
      (b'{"schema":"contactbench.verification","version":1,"overall":{}}', "lacks a figure")],
 )  # fmt: skip
@@ -575,7 +575,7 @@ def test_settings_from_a_file_reach_everything(bench):
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [("x", "not JSON"), ('{"gain":1}', "gain"), ('{"gates":{"rival_odds":0.5}}', "rival_odds"),
+    [("x", "not valid JSON"), ('{"gain":1}', "gain"), ('{"gates":{"rival_odds":0.5}}', "rival_odds"),
      ('{"limits":{}}', "limits.max_force_N"), ('{"gates":{"no":1}}', "no")],
 )  # fmt: skip
 def test_wrong_settings_are_refused(bench, text, words):

@@ -16,8 +16,8 @@ def test_a_controller_is_read_from_a_file_of_settings():
     data = json.dumps({"controller": part.model_dump(), "limits": None}).encode()
     assert controller_in(data, "gains.json") == part
     for wrong, words in (
-        (b"{}", "gains.json: there is no controller"),
-        (b"x", "not JSON"),
+        (b"{}", "gains.json: it contains no controller"),
+        (b"x", "not valid JSON"),
         (b'{"controller":{"variant":"bold"}}', "gains.json: controller.variant is 'bold'"),
         (b" " * (2**20 + 1), "larger than 1 MiB"),
     ):
@@ -51,9 +51,7 @@ def verification(**settings):
 
 def test_markers_that_were_left_out_are_repeated_with_why():
     part, _ = read_verification(verification(left_out={"7": "nothing reaches it"}), "v.json")
-    assert part.diagnosis.startswith(
-        "Left out on purpose: 7 (nothing reaches it): nothing is known of contacts"
-    )
+    assert part.diagnosis.startswith("Skipped on purpose: 7 (nothing reaches it): contacts")
     for none in ({}, {"left_out": {}}, {"left_out": None}):
         part, _ = read_verification(verification(**none), "v.json")
-        assert "Left out" not in part.diagnosis
+        assert "Skipped" not in part.diagnosis

@@ -31,7 +31,7 @@ def test_an_older_version_is_carried_over(monkeypatch):
     assert model.controller.force.damping_Nspm == 80.0
     assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
     del content["gravity"]["mass_W_kg"]
-    with pytest.raises(ConfigError, match="version 0 cannot be carried over"):
+    with pytest.raises(ConfigError, match="version 0 cannot be migrated"):
         decode_json(encode_json({**content, "version": 0}), "old")
 
 
@@ -81,16 +81,16 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
 @pytest.mark.parametrize(
     ("controller", "words"),
     [
-        ({**OLD_GAINS, "extra": 1}, "version 1 cannot be carried over"),
+        ({**OLD_GAINS, "extra": 1}, "version 1 cannot be migrated"),
         (
             {name: value for name, value in OLD_GAINS.items() if name != "angle_inertia"},
-            "cannot be carried over",
+            "cannot be migrated",
         ),
         ({**OLD_GAINS, "angle_inertia": [0.1, 0.2]}, "controller.angle.inertia"),
         ({**OLD_GAINS, "angle_damping": 0.0}, "controller.angle.damping.0 is 0.0"),
         ({**OLD_GAINS, "force_mass_kg": "1"}, "controller.force.mass_kg is '1'"),
-        ([], "cannot be carried over"),
-        (3, "cannot be carried over"),
+        ([], "cannot be migrated"),
+        (3, "cannot be migrated"),
     ],
 )
 def test_a_wrong_controller_of_version_1_is_refused(controller, words):
@@ -149,7 +149,7 @@ def old_gates(**changes):
     ],
 )
 def test_what_version_2_never_was_is_refused(changes):
-    with pytest.raises(ConfigError, match="version 2 cannot be carried over"):
+    with pytest.raises(ConfigError, match="version 2 cannot be migrated"):
         RuntimeConfig.from_files(of_version_2(example().encoded(), **changes))
 
 
@@ -199,5 +199,5 @@ def frames(**changes):
     ],
 )
 def test_what_version_3_never_was_is_refused(changes):
-    with pytest.raises(ConfigError, match="version 3 cannot be carried over"):
+    with pytest.raises(ConfigError, match="version 3 cannot be migrated"):
         RuntimeConfig.from_files(of_version_3(example().encoded(), **changes))

@@ -131,7 +131,7 @@ def well_after(device: Emulator) -> int:
 @pytest.mark.parametrize("protocol", SENSORS)
 def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
     if fault not in possible_faults(protocol):
-        pytest.skip(f"{protocol} cannot have it")
+        pytest.skip(f"{protocol} does not have it")
     with device_for(protocol, Script([(0.04, fault, 0.08)])) as device:
         host = Host(device, protocol)
         host.read_until(lambda: well_after(device) >= 20)
@@ -240,17 +240,17 @@ def test_a_host_that_does_not_read_stops_nothing():
 
 
 def test_what_cannot_be_made_is_refused():
-    with pytest.raises(EmulatorError, match="there are sri"):
+    with pytest.raises(EmulatorError, match=r"Known: .*sri"):
         emulator("other")
-    with pytest.raises(EmulatorError, match="speaks over serial"):
+    with pytest.raises(EmulatorError, match="use serial"):
         emulator("bota", "tcp")
-    with pytest.raises(EmulatorError, match="cannot have it"):
+    with pytest.raises(EmulatorError, match="not available for"):
         emulator("elfin", script=Script([(0, Fault.DRIFT, 1)]))
     with emulator("ur") as device, pytest.raises(EmulatorError, match="choose another"):
         emulator("ur", port=int(device.url.rpartition(":")[2]))
-    with pytest.raises(EmulatorError, match="has none"):
+    with pytest.raises(EmulatorError, match="has no tool option"):
         emulator("elfin", tool=(0.0,) * 6)
-    with pytest.raises(EmulatorError, match="there are: none"):
+    with pytest.raises(EmulatorError, match="Choose from: none"):
         emulator("bota", quirks=["older"])
     assert len(EMULATED) == 6
 

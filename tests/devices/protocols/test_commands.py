@@ -121,9 +121,9 @@ def test_a_stream_is_stopped_before_it_is_set_up() -> None:
 
 def test_a_rate_that_the_line_cannot_carry_is_refused() -> None:
     sri.start_commands(370, baud=115200)
-    with pytest.raises(ProtocolError, match=r"372 Hz does not fit .* carries 371 frames"):
+    with pytest.raises(ProtocolError, match=r"372 Hz is too fast .* carries 371 frames"):
         sri.start_commands(372, baud=115200)
-    with pytest.raises(ProtocolError, match="does not fit"):
+    with pytest.raises(ProtocolError, match="is too fast"):
         bota.start_commands(1000, baud=115200)
     with pytest.raises(ProtocolError, match="choose one of 9600"):
         bota.start_commands(200, baud=921600)

@@ -86,8 +86,8 @@ def test_the_tool_frame_is_taken_off() -> None:
     ("reply", "message"),
     [
         (packet(PacketKind.VERSION, b"\x00"), "refused the version"),
-        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes was answered"),
-        (packet(PacketKind.VERSION), "a version packet of 0 bytes was answered"),
+        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes"),
+        (packet(PacketKind.VERSION), "a version packet of 0 bytes"),
     ],
 )
 def test_a_refused_version(reply: bytes, message: str) -> None:
@@ -102,9 +102,9 @@ def test_a_refused_version(reply: bytes, message: str) -> None:
     [
         (b"\x01DOUBLE,NOT_FOUND,VECTOR6D", "actual_q is 'NOT_FOUND'"),
         (b"\x01DOUBLE,VECTOR6D,IN_USE", "actual_TCP_pose is 'IN_USE'"),
-        (b"\x01DOUBLE", "3 variables were asked for, 1 answered"),
+        (b"\x01DOUBLE", "asked for 3 variables, received 1"),
         (b"\x01\xff,\xff,\xff", "timestamp is"),
-        (b"", "0 bytes was answered"),
+        (b"", "0 bytes"),
     ],
 )
 def test_refused_variables(types: bytes, message: str) -> None:
@@ -116,11 +116,11 @@ def test_refused_variables(types: bytes, message: str) -> None:
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        (data(recipe=2), "recipe 2 came instead of 1"),
-        (data()[:-1].replace(b"\x00\x6c", b"\x00\x6b", 1), "of 104 bytes came instead of 105"),
+        (data(recipe=2), "recipe 2 instead of 1"),
+        (data()[:-1].replace(b"\x00\x6c", b"\x00\x6b", 1), "of 104 bytes instead of 105"),
         (data(clock=math.nan), "not finite"),
         (data(pose=(1e200,) * 6), "is not a pose"),
-        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes came instead"),
+        (packet(PacketKind.START, b"\x01"), "a start packet of 1 bytes instead"),
     ],
 )
 def test_data_that_were_not_agreed(wrong: bytes, message: str) -> None:

@@ -111,7 +111,7 @@ def test_what_is_no_page_is_refused(answer, words):
 def test_a_slow_answer_ends_at_the_deadline(trickle):
     with (
         serving(b"HTTP/1.1 200 OK\r\n\r\n", *trickle, pause=0.05, close=False) as (port, _),
-        pytest.raises(PageError, match=r"no whole answer within 0\.3 s"),
+        pytest.raises(PageError, match=r"no complete answer within 0\.3 s"),
     ):
         http_get("127.0.0.1", "/", port, timeout=0.3)
 

@@ -140,12 +140,12 @@ def test_an_open_line_can_be_opened_again(pair: Pair):
 def test_a_serial_line_is_for_one_only(serial: Pair):
     serial.line.open()
     other = SerialLine(serial.line.name, 115_200)
-    with pytest.raises(LineUnavailable, match="another program uses it"):
+    with pytest.raises(LineUnavailable, match="another program is using it"):
         other.open()
 
 
 def test_lines_that_are_not_there(tmp_path):
-    with pytest.raises(LineUnavailable, match="plug the device in"):
+    with pytest.raises(LineUnavailable, match="plug in the device"):
         SerialLine(str(tmp_path / "none"), 115_200).open()
     (tmp_path / "file").touch()
     with pytest.raises(LineUnavailable, match="cannot be opened"):

@@ -98,7 +98,7 @@ def test_an_engine_killed_at_work_is_an_error(ball: Ball) -> None:
         if fraction > 0 and pid is not None:
             os.kill(pid, signal.SIGKILL)
 
-    with pytest.raises(engines.EngineError, match=r"meshlab died \(SIGKILL, perhaps for want of memory\)"):
+    with pytest.raises(engines.EngineError, match=r"meshlab died \(SIGKILL, possibly out of memory\)"):
         engines.alpha_wrap(*ball, *ENDLESS, progress=kill_at_work)
 
 

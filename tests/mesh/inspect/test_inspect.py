@@ -131,7 +131,7 @@ def test_unsewn_seams_are_told_from_holes():
     rim = found.holes[0].edges
     assert (found.hole_count, found.seam_vertices) == (2, 2 * rim)
     assert found.coincident_vertices >= rim
-    assert f"Seams are not sewn: {2 * rim} vertices" in texts(found, "doubt")
+    assert f"Seams are not joined: {2 * rim} vertices" in texts(found, "doubt")
     apart = look(*joined(halves[0], (halves[1][0] - [0, 0, 0.001], halves[1][1])))
     assert apart.seam_vertices == 0
 
@@ -263,7 +263,7 @@ def test_a_doubled_shell_is_not_inside_out():
 def test_a_copy_just_beneath_is_called_that():
     inner = BOX.vertices * (1 - 1e-5)
     found = look(*joined(arrays(BOX), (inner, np.array(BOX.faces))))
-    assert "The surface is there twice" in texts(found, "fault")
+    assert "The surface is doubled" in texts(found, "fault")
     assert "hollow" not in texts(found, "fault")
 
 
@@ -273,7 +273,7 @@ def test_closed_parts_beside_each_other_are_no_fault():
     assert found.sound
     assert not found.clear
     assert "2 separate parts (60 x 40 x 20 mm, 60 x 40 x 20 mm); none lies inside" in texts(found, "doubt")
-    assert "needs one body" in texts(found, "doubt")
+    assert "needs a single body" in texts(found, "doubt")
     assert "--gap" in texts(found, "doubt")
     speck = look(*joined((vertices, faces), (0.05 * vertices + [0.07, 0, 0], faces)))
     assert speck.clear
@@ -337,7 +337,7 @@ def test_a_file_whose_shell_was_made_is_not_sent_back_for_one(tmp_path):
     found = inspect(tmp_path / "made.ply", samples=2000)
     assert found.shell_made
     assert found.clear
-    assert "sees little or nothing of the outside" in texts(found, "note")
+    assert "has little or no view of the outside" in texts(found, "note")
     (tmp_path / "made.json").unlink()
     assert not inspect(tmp_path / "made.ply", samples=2000).shell_made
     # A made shell that is not sound is a fault all the same.
@@ -378,7 +378,7 @@ def test_slivers():
     assert found.slivers.count == 1
     assert found.slivers.worst_aspect == pytest.approx(1000)
     assert found.slivers.smallest_angle_deg == pytest.approx(np.degrees(np.arctan(0.002)), rel=1e-6)
-    assert "slivers with an angle under 1°; the worst is 1,000 times as long as high" in " ".join(
+    assert "slivers with an angle under 1°; the worst is 1,000 times longer than high" in " ".join(
         found.sentences
     )
 

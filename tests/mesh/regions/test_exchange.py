@@ -112,7 +112,7 @@ def document(probe: Probe) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda d: d.update(format="other"), "does not hold regions"),
+        (lambda d: d.update(format="other"), "contains no regions"),
         (lambda d: d.pop("format"), "'format' is missing"),
         (lambda d: d.update(version=2), "format 2"),
         (lambda d: d.update(version=True), "'version' is bool"),
@@ -122,7 +122,7 @@ def document(probe: Probe) -> dict[str, Any]:
         (lambda d: d.update(regions={}), "'regions' is dict"),
         (lambda d: d.update(regions=[5]), "region 1 of the file is not an object"),
         (lambda d: d.update(regions=d["regions"][:1] * 300), "300 regions"),
-        (lambda d: d["regions"][0].update(name="\u0007"), "cannot be shown"),
+        (lambda d: d["regions"][0].update(name="\u0007"), "cannot be displayed"),
         (lambda d: d["regions"][0].update(name="n" * 65), "64"),
         (lambda d: d["regions"][0].update(name=d["regions"][1]["name"]), "two regions"),
         (lambda d: d["regions"][0].update(colour="blue"), "#rrggbb"),

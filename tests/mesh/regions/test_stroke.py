@@ -144,9 +144,9 @@ def test_nothing_else_during_a_stroke(ball: FacetGraph) -> None:
     stroke = model.stroke(ball, Brush(0.01), 1)
     stroke.extend(0, ball.centroids[0])
     for edit in (model.undo, model.redo, model.add, lambda: model.assign([1], 1), lambda: model.remove(1)):
-        with pytest.raises(RegionError, match="a stroke is being drawn"):
+        with pytest.raises(RegionError, match="a stroke is in progress"):
             edit()
-    with pytest.raises(RegionError, match="a stroke is being drawn"):
+    with pytest.raises(RegionError, match="a stroke is in progress"):
         model.stroke(ball, Brush(0.01), 1)
     stroke.finish()
     for late in (stroke.finish, stroke.abort, lambda: stroke.extend(0, ball.centroids[0])):

@@ -114,7 +114,7 @@ def test_a_region_that_vanished_is_told() -> None:
 def test_what_is_far_away_belongs_to_nothing() -> None:
     old = sphere(3)
     new = Probe.from_arrays(old.vertices + [0.01, 0, 0], old.faces)
-    with pytest.warns(MeshWarning, match="nothing of the old surface near"):
+    with pytest.warns(MeshWarning, match="no part of the old surface near"):
         result = transfer(caps(old), old, new)
     assert result.unmatched > 100
     with warnings.catch_warnings():

@@ -55,7 +55,7 @@ def test_the_lid_is_invented_and_nothing_else(closed):
     assert probe.invented[lid].all()
     assert not probe.invented[centres[:, 2] < HEIGHT - ALPHA].any()
     assert closed.invented_area == pytest.approx(MOUTH, rel=0.1)
-    assert any("is invented: a touch there rests on a guess" in sentence for sentence in closed.sentences)
+    assert any("is invented: contacts there rest on a guess" in sentence for sentence in closed.sentences)
 
 
 def test_the_opening_is_measured_at_its_lip(closed):
@@ -166,7 +166,7 @@ def test_an_inside_out_mesh_with_a_part_within_and_repeats():
     assert shell.dropped == 2 + len(inner_faces)
     assert shell.probe.health.sentences == ()
     assert shell.invented_area == 0
-    assert any(sentence.endswith("repeats: 14.") for sentence in shell.sentences)
+    assert any(sentence.endswith("repeats): 14.") for sentence in shell.sentences)
 
 
 def test_facets_turned_over_and_a_fin_do_not_matter():

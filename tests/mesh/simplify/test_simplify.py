@@ -76,7 +76,7 @@ def test_a_probe_that_is_coarse_enough_is_left_as_it_is() -> None:
     made = simplify(probe, Count(320))
     assert made.probe is probe
     assert made.engine == "none"
-    assert "left as it is" in made.steps[0]
+    assert "left unchanged" in made.steps[0]
     assert made.deviation.hausdorff < 1e-15
 
 
@@ -145,7 +145,7 @@ def test_a_limit_that_no_fewer_facets_keep_leaves_the_probe() -> None:
     probe = _bumpy(2)
     made = simplify(probe, MaxDeviation(1e-9))
     assert made.probe is probe
-    assert "left as it is" in made.steps[-1]
+    assert "left unchanged" in made.steps[-1]
 
 
 def test_any_error_can_be_the_target() -> None:
@@ -158,7 +158,7 @@ def test_any_error_can_be_the_target() -> None:
     made = simplify(probe, MaxError(volume_error, 0.01))
     assert volume_error(made.probe) <= 0.01
     assert made.count < 1500
-    with pytest.raises(MeshError, match=r"full mesh is 3 already, above the limit of 1"):
+    with pytest.raises(MeshError, match=r"full mesh already has an error of 3, above the limit of 1"):
         simplify(_bumpy(2), MaxError(lambda _probe: 3.0, 1.0))
 
 
@@ -241,14 +241,14 @@ def test_what_is_not_sound_is_not_used(monkeypatch: pytest.MonkeyPatch, spoil: o
     assert asked == [500, 525, 600]
     assert made.count == 600
     assert made.probe.health.watertight
-    assert made.sentences[0].startswith("600 facets, more than the 500 asked for, because")
+    assert made.sentences[0].startswith("600 facets, more than the requested 500, because")
     assert "That took 3 attempts" in made.sentences[1]
     assert why in made.steps[0]
 
 
 def test_when_nothing_is_sound_it_fails_after_few_attempts(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = _spoil(monkeypatch, _turned, 10**9)
-    with pytest.raises(MeshError, match=r"cannot be simplified to 500 facets.*disagree.*Ask for more"):
+    with pytest.raises(MeshError, match=r"cannot be simplified to 500 facets.*disagree.*Choose more"):
         simplify(_bumpy(), Count(500))
     assert asked == [500, 525, 600, 750, 1000, 2000, 4000]
 

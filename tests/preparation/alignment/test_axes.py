@@ -67,7 +67,7 @@ def test_the_tip_is_the_end_further_from_the_origin_or_the_one_picked():
     assert np.isclose(align_axes(probe, tip_P=[0, 0, 0]).alignment.R_SP[2, 2], -1.0)
     middle = Probe.from_arrays(probe.vertices - [0, 0, 0.075], probe.faces)
     assert any("in its middle" in sentence for sentence in align_axes(middle).alignment.warnings)
-    assert any("further from the mesh's origin" in sentence for sentence in up.alignment.warnings)
+    assert any("farther from the mesh's origin" in sentence for sentence in up.alignment.warnings)
     assert not align_axes(probe, tip_P=[0, 0, 0.15]).alignment.warnings
 
 

@@ -77,7 +77,7 @@ def test_a_square_face_is_centred_by_its_area_and_said_to_be_so():
 def test_what_is_no_datum_is_refused():
     probe = bundled("linear", 1000)
     face = find_mounting_face(probe, lowest(probe))
-    with pytest.raises(AlignmentError, match="pick one of the mesh"):
+    with pytest.raises(AlignmentError, match="pick a facet of the mesh"):
         find_mounting_face(probe, len(probe.faces))
     with pytest.raises(AlignmentError, match="at most 45"):
         find_mounting_face(probe, 0, angle_deg=90)

@@ -48,7 +48,7 @@ def test_a_file_is_named_in_its_errors(tmp_path):
         ([HEADER, ROWS[0], ROWS[1], "nan,0,150,0,0,-9,0,0,0"], "line 4.*remove the row"),
         ([HEADER, ROWS[0], ROWS[1], "0,0,150,0,0,-0.1,0,0,0"], "line 4: the force is 0.1 N"),
         ([HEADER, ROWS[0], ROWS[1], "0,0,150000,0,0,-9,0,0,0"], "line 4: the marker is over 10 m away"),
-        ([HEADER + ",nx,ny,nz", *(row + ",0,0,0" for row in ROWS)], "line 2: the normal has no length"),
+        ([HEADER + ",nx,ny,nz", *(row + ",0,0,0" for row in ROWS)], "line 2: the normal has zero length"),
         ([""], "empty"),
     ],
 )

@@ -142,7 +142,7 @@ def test_a_clear_gain_is_adopted_with_its_figures(bench):
     assert 0.6 < found.check.ratio < 1.6
     again = from_json(found.fitted.to_json())
     assert np.array_equal(again.T_SP, found.fitted.T_SP)
-    assert any("better than the calibration" in sentence for sentence in again.how)
+    assert any("better than its calibration" in sentence for sentence in again.how)
     far, _ = case.error(found.T_SP)
     assert far < case.error(case.T_before)[0]
 
@@ -243,7 +243,7 @@ def test_touches_that_cannot_be_used_are_refused(bench):
         align_touches(case.probe_P, MarkerTouches(points, -wrenches), case.T_before, NOISE)
     with pytest.raises(AlignmentError, match="mm from the mesh"):
         align_touches(case.probe_P, MarkerTouches(points * 2, wrenches), case.T_before, NOISE)
-    with pytest.raises(AlignmentError, match="infinitely sure"):
+    with pytest.raises(AlignmentError, match="infinitely certain"):
         align_touches(case.probe_P, case.touches, case.T_before, WrenchNoise(0, 0), placement=0.0)
     with pytest.raises(AlignmentError, match="not a rotation"):
         align_touches(case.probe_P, case.touches, case.T_before @ np.diag([2, 2, 2, 1.0]), NOISE)
@@ -270,7 +270,7 @@ def test_a_marker_beside_the_mesh_is_moved_onto_it_and_told(bench):
     _, _, warnings = put_on_mesh(
         MarkerTouches(case.touches.points_P, case.touches.wrenches, flipped), case.probe_P
     )
-    assert any(sentence.startswith("touch 5: the normal given is 180°") for sentence in warnings)
+    assert any(sentence.startswith("touch 5: the given normal is 180°") for sentence in warnings)
 
 
 def test_the_same_touches_give_the_same_bytes(bench):

@@ -179,10 +179,10 @@ def test_a_jump_or_a_touch_that_the_noise_misplaced_does_not_hide_the_growth() -
     ("arguments", "said"),
     [
         ({"force": (0.0, 5.0)}, "above 0"),
-        ({"force": (5.0, 2.0)}, "smaller one first"),
+        ({"force": (5.0, 2.0)}, "smaller first"),
         ({"force": (1.0, np.nan)}, "force range"),
-        ({"friction_angle": (0.0, 90.0)}, "under 90"),
-        ({"friction_angle": (20.0, 10.0)}, "smaller one first"),
+        ({"friction_angle": (0.0, 90.0)}, "below 90"),
+        ({"friction_angle": (20.0, 10.0)}, "smaller first"),
         ({"torsion_arm": -1e-3}, "0 or more"),
         ({"count": 99}, "at least 100"),
         ({"seed": -1}, "at least 0"),

@@ -39,7 +39,7 @@ def test_the_fewest_facets_within_the_noise_are_taken() -> None:
     found = recommend(_rungs(_errors(0.5e-3), _errors(0.2e-3, growth=0.021)), Goal())
     assert found.facets == 1280
     assert found.limit == pytest.approx(np.sqrt(1.05**2 - 1) * BOUND)
-    assert "1,280 facets, the fewest measured that will do: the 95th percentile" in found.reason
+    assert "1,280 facets, the fewest measured that suffice: the 95th percentile" in found.reason
     assert "0.2 mm, 0.2 of the noise's 1 mm, and the total error changes by +2.1 %" in found.reason
     assert "With 320 the 95th percentile is 0.5 mm, over the limit of 0.32 mm." in found.reason
     assert "1 µs a solve (1 on the full mesh), the paper's loop 50 µs (50)" in found.reason
@@ -52,7 +52,10 @@ def test_what_the_rest_of_the_probe_pays_is_told_and_does_not_decide() -> None:
     ]
     found = recommend(rungs, Goal())
     assert found.facets == 320
-    assert "Outside the regions, which does not decide, the 95th percentile is 0.7 mm" in found.reason
+    assert (
+        "Outside the regions, which does not count for the choice, the 95th percentile is 0.7 mm"
+        in found.reason
+    )
 
 
 def test_the_coarsest_rung_that_will_do_is_taken_even_when_a_finer_one_fails() -> None:
@@ -69,7 +72,7 @@ def test_a_limit_in_metres_goes_before_the_noise() -> None:
     found = recommend(rungs, Goal(limit_m=0.1e-3))
     assert found.facets is None
     assert found.limit == 0.1e-3
-    assert "Keep the full mesh of 5,120 facets: no simplified one will do." in found.reason
+    assert "Keep the full mesh of 5,120 facets: no simplified mesh suffices." in found.reason
     assert "Even with 1,280 the 95th percentile is 0.2 mm, over the limit of 0.1 mm" in found.reason
 
 

@@ -192,7 +192,7 @@ def test_what_cannot_be_is_refused(truth: TrueSurface) -> None:
     far[0, 3] = 2.0
     with pytest.raises(InputError, match="elfin3 does not reach"):
         ArmScene(truth, T_BP=far)
-    with pytest.raises(InputError, match=r"T_ES: .* no rotation matrix"):
+    with pytest.raises(InputError, match=r"T_ES: .* not a rotation matrix"):
         ArmScene(truth, R_ES=2 * np.eye(3))
     with pytest.raises(InputError, match=r"T_BP: give a pose of \(4, 4\)"):
         ArmScene(truth, T_BP=np.eye(3))

@@ -117,7 +117,7 @@ def test_a_turn_faster_than_any_arm_is_refused_and_the_fastest_is_sound(
 ) -> None:
     R_WS = Rotation.from_euler("x", degrees, degrees=True).as_matrix()
     scene = BenchScene(truth)
-    with pytest.raises(InputError, match="faster than any arm") as error:
+    with pytest.raises(InputError, match="too fast for an arm") as error:
         scene.turn_to(R_WS, 0.01)
     fastest = float(str(error.value).split("give ")[1].split(" s")[0])
     scene.turn_to(R_WS, fastest + 0.001)
@@ -129,9 +129,9 @@ def test_what_cannot_be_is_refused(truth: TrueSurface) -> None:
     scene = BenchScene(truth)
     with pytest.raises(InputError, match="rotation matrix"):
         scene.turn_to(np.ones((3, 3)))
-    with pytest.raises(InputError, match="no time"):
+    with pytest.raises(InputError, match="not a valid duration"):
         scene.turn_to(np.eye(3), -1.0)
-    with pytest.raises(InputError, match="aimed at nothing"):
+    with pytest.raises(InputError, match="no target"):
         scene.press(TipPress(5))
     with pytest.raises(InputError, match="a bump"):
         scene.bump([1, 2], 0.1)

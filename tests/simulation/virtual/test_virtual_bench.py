@@ -159,7 +159,7 @@ def test_a_script_that_asks_for_the_impossible_ends_with_its_line():
         ({"seed": -1}, "seed -1"),
         ({"probe": "axe"}, "no probe 'axe'"),
         ({"sensor": "best"}, "choose one of ideal"),
-        ({"R_SE": -np.eye(3)}, "no rotation"),
+        ({"R_SE": -np.eye(3)}, "not a rotation"),
     ],
 )
 def test_a_bench_that_cannot_be_is_refused(how, message):

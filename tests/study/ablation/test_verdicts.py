@@ -96,7 +96,7 @@ def need(scene, models):
         ((need("touch", True), need("arm", True)), 1.0, "model it"),
         ((need("touch", True), need("arm", False)), 1.0, "model it in touch"),
         ((need("touch", False),), 1.0, "leave it out"),
-        ((need("touch", False),), -1.0, "keep it: it costs nothing"),
+        ((need("touch", False),), -1.0, "keep it: no cost"),
     ],
 )
 def test_verdicts_in_words(scenes, cost, said):

@@ -169,7 +169,8 @@ def _check_noise(noise: WrenchNoise, placement: float) -> None:
         )
     if placement == 0 and np.linalg.eigvalsh(noise.covariance[3:, 3:])[0] <= 0:
         raise AlignmentError(
-            "With no torque noise and no placement error every touch would be infinitely sure: state one of them."
+            "Without torque noise and placement error every touch would be infinitely certain:"
+            " give one of them."
         )
 
 
@@ -177,10 +178,9 @@ def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
     pulling = int((~pressed).sum())
     if 2 * pulling > len(pressed):
         raise AlignmentError(
-            f"{pulling} of {len(pressed)} forces pull on the surface. The wrenches must be what the tissue does"
-            " to the"
-            " probe: negate them if the sensor reports the reaction; or the mesh is inside out or the first mount"
-            " turned over."
+            f"{pulling} of {len(pressed)} forces pull on the surface. The wrenches must be the"
+            " force of the tissue on the probe: negate them if the sensor reports the reaction."
+            " Otherwise the mesh is inside out, or the first mount is turned over."
         )
 
 
@@ -191,9 +191,8 @@ def _alignment(
     centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
     how = (
         (
-            f"Fitted to {int(fit.kept.sum())} of {len(fit.kept)} touches of marked points, which show {fit.rank}"
-            " of the six"
-            " combinations of shift and rotation."
+            f"Fitted to {int(fit.kept.sum())} of {len(fit.kept)} touches of marked points; they"
+            f" determine {fit.rank} of the six combinations of shift and rotation."
         ),
         *told,
     )

@@ -74,12 +74,13 @@ class CrossValidation:
             for e in (self.before, self.out_of_sample, self.in_sample)
         )
         words = (
-            f"On touches it has not seen, the fitted mount errs by {after}, the first mount by {before}; on its own"
-            f" touches the fit errs by {inside}; noise and placement alone make {1e3 * rms(self.bound):.2f}."
+            f"On held-out touches the fitted mount errs by {after}, the first mount by {before};"
+            f" on its own touches the fit errs by {inside}; noise and placement alone give"
+            f" {1e3 * rms(self.bound):.2f}."
         )
         if not self.kept.all():
             after, before = (f"{1e3 * rms(e[self.kept]):.2f}" for e in (self.out_of_sample, self.before))
-            words += f" Without the touches that were left out these are {after} and {before} mm rms."
+            words += f" Without the left-out touches these are {after} and {before} mm rms."
         return words
 
 
@@ -134,10 +135,10 @@ def advise(fit: MountFit, check: CrossValidation) -> tuple[Advice, tuple[str, ..
     # Ranks bear a touch of the wrong marker; the root mean square does not, and is taken without it.
     gain = rms(check.out_of_sample[fit.kept]) < rms(check.before[fit.kept])
     if fit.rank == 0:
-        return Advice.KEEP, ("The touches show nothing of the mount.",)
+        return Advice.KEEP, ("The touches reveal nothing about the mount.",)
     if n < _FEWEST:
         return Advice.KEEP, (
-            f"{n} touches cannot prove a gain: touch at least {_FEWEST} markers, better 15.",
+            f"{n} touches cannot prove an improvement: touch at least {_FEWEST} markers, better 15.",
         )
     if kept < (1 - _MOST_OUT) * n:
         return Advice.KEEP, (
@@ -149,9 +150,9 @@ def advise(fit: MountFit, check: CrossValidation) -> tuple[Advice, tuple[str, ..
         )
     if not gain or check.p_value >= _CHANCE:
         why = f"is not clearly better (p = {check.p_value:.2g})" if gain else "is no better"
-        return Advice.KEEP, (f"The fitted mount {why} on touches that it has not seen.", check.sentence)
+        return Advice.KEEP, (f"The fitted mount {why} on held-out touches.", check.sentence)
     return Advice.ADOPT, (
-        f"The fitted mount is better on touches that it has not seen (p = {check.p_value:.2g}).",
+        f"The fitted mount is better on held-out touches (p = {check.p_value:.2g}).",
         check.sentence,
     )
 

@@ -86,8 +86,9 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats,
     worst = int(np.argmax(distance))
     if distance[worst] > _OFF_MESH_M:
         raise AlignmentError(
-            f"{touches.names[worst]}: the marker is {1e3 * distance[worst]:.1f} mm from the mesh. Give the markers in"
-            " millimetres in the mesh's own frame, and the mesh that they were measured on."
+            f"{touches.names[worst]}: the marker is {1e3 * distance[worst]:.1f} mm from the mesh."
+            " Give the markers in millimetres in the mesh's own frame, and the mesh they were"
+            " measured on."
         )
     warnings = [
         f"{name}: the marker is {1e3 * d:.1f} mm from the mesh; the nearest point of the mesh is used."
@@ -98,8 +99,8 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats,
     if touches.normals_P is not None:
         agree = np.einsum("ij,ij->i", normals, touches.normals_P)
         warnings += [
-            f"{name}: the normal given is {np.degrees(np.arccos(np.clip(a, -1, 1))):.0f}° from the mesh's there."
-            " Check its sign and the marker."
+            f"{name}: the given normal is {np.degrees(np.arccos(np.clip(a, -1, 1))):.0f}° from the"
+            " mesh normal there. Check its sign and the marker."
             for name, a in zip(touches.names, agree, strict=True)
             if a < _NORMAL_AGREES
         ]
@@ -112,9 +113,8 @@ def _check_sizes(points: Floats, wrenches: Floats, names: tuple[str, ...]) -> No
     weak = int(np.argmin(force))
     if force[weak] < _SMALLEST_FORCE_N:
         raise AlignmentError(
-            f"{names[weak]}: the force is {force[weak]:.3g} N, under {_SMALLEST_FORCE_N:g} N: no touch. Remove"
-            " the row,"
-            " or press with 8 to 10 N."
+            f"{names[weak]}: the force is {force[weak]:.3g} N, below {_SMALLEST_FORCE_N:g} N, so"
+            " it is not a touch. Remove the row, or press with 8 to 10 N."
         )
     far = int(np.argmax(np.abs(points).max(axis=1)))
     if np.abs(points[far]).max() > _LARGEST_M:
@@ -126,6 +126,8 @@ def _unit(values: ArrayLike, names: tuple[str, ...]) -> Floats:
     length = np.linalg.norm(normals, axis=1)
     short = int(np.argmin(length))
     if length[short] < 1e-9:
-        raise AlignmentError(f"{names[short]}: the normal has no length: leave all normals out, or give it.")
+        raise AlignmentError(
+            f"{names[short]}: the normal has zero length: leave out all normals, or correct it."
+        )
     unit: Floats = normals / length[:, None]
     return unit

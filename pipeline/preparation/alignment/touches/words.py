@@ -38,10 +38,10 @@ def unseen_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
     things = unseen_motions(fit, belief)
     return (
         (
-            f"The touches cannot show {_listed(things)} better than the {1e3 * belief.shift:g} mm and"
-            f" {np.degrees(belief.rotation):g}° that the mount may be off: there it stays as it was. Touch"
-            " markers whose"
-            " normals point in other directions, or drag a little so that the forces differ in direction."
+            f"The touches cannot determine {_listed(things)} better than the"
+            f" {1e3 * belief.shift:g} mm and {np.degrees(belief.rotation):g}° that the mount may"
+            " be off, so it stays unchanged there. Touch markers whose normals point in other"
+            " directions, or drag a little so that the forces differ in direction."
         ),
     )
 
@@ -86,9 +86,8 @@ def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
     motion = _mixture(sigma * (fit.seen @ vectors[:, 0]), belief)
     return (
         (
-            f"Weakly determined: {motion} (1 sigma), little better than before. More touches, or touches on other"
-            " sides,"
-            " would help."
+            f"Weakly determined: {motion} (1 sigma), little better than before. More touches, or"
+            " touches on other sides, will help."
         ),
     )
 
@@ -102,11 +101,15 @@ def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_
             if pressed[row]
             else "its force pulls on the surface instead of pushing"
         )
-        words.append(f"{names[int(row)]} was left out: {why}. Was another marker touched, or slipped off?")
+        words.append(
+            f"{names[int(row)]} was left out: {why}. Check whether another marker was touched, or the"
+            " tip slipped."
+        )
     if fit.scatter > 1:
         words.append(
-            f"The touches scatter {np.sqrt(fit.scatter):.1f} times as much as noise and placement explain; every"
-            " uncertainty has been widened by that. The compensation, the noise given or the mesh is to blame."
+            f"The touches scatter {np.sqrt(fit.scatter):.1f} times as much as noise and placement"
+            " explain; all uncertainties have been widened accordingly. Check the compensation,"
+            " the specified noise and the mesh."
         )
     return tuple(words)
 
@@ -124,8 +127,8 @@ def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str
         unseen = " (and would not show in the residuals)" if absorbed[columns][worst] > _ABSORBED else ""
         parts.append(f"{what} along {'xyz'[worst]} by {moved[worst]:.2g} mm{unseen}")
     return (
-        f"What compensation leaves in every touch is taken for a mount: {parts[0]}, {parts[1]}. The mount cannot be"
-        " better than the calibration behind it."
+        f"A compensation error common to all touches looks like a mount error: {parts[0]},"
+        f" {parts[1]}. The mount cannot be better than its calibration."
     )
 
 
@@ -160,9 +163,9 @@ def implausible_start(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
         return ()
     return (
         (
-            f"The touches move the mount by {1e3 * moved:.1f} mm and {np.degrees(turn):.1f}°, further than it was"
-            " said to be"
-            " off. Check the first mount, the order of the markers, and the sign of the wrenches."
+            f"The touches move the mount by {1e3 * moved:.1f} mm and {np.degrees(turn):.1f}°, more"
+            " than its declared uncertainty. Check the first mount, the order of the markers, and"
+            " the sign of the wrenches."
         ),
     )
 

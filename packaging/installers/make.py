@@ -280,7 +280,8 @@ def make_deb(out: Path) -> list[Path]:
     rules.mkdir(parents=True)
     shutil.copy(HERE / "70-contactbench.rules", rules)
     control = {
-        "Depends": ", ".join(needed_packages(home)),
+        # The last two are read and not linked: where fonts are, with one of them, and what keys mean.
+        "Depends": ", ".join([*needed_packages(home), "fontconfig-config", "xkb-data"]),
         "Recommends": "desktop-file-utils, shared-mime-info, hicolor-icon-theme, libgl1-mesa-dri",
         "Suggests": f"{NAME}-{COMPONENT} (= {VERSION})",
         "Description": f"{PROJECT['description']}\n"

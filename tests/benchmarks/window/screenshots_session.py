@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
 _STEPS_A_SECOND = 250
 _FACETS, _MARKERS, _FORCE = 2_000, 12, 9.0
-_PATIENCE_S, _MOST, _MOST_TOUCHES = 120.0, 40, 400
+_PATIENCE_S, _MOST = 120.0, 40
 _HUNG_S = 60.0  # the known weight
 
 
@@ -85,7 +85,7 @@ def press(live: Live, point: np.ndarray, held: float = 0.7, after: float = 0.3) 
         go_on(live, held + after)
 
 
-def touch_all(live: Live, touches: LiveTouches, most: int = _MOST_TOUCHES) -> None:
+def touch_all(live: Live, touches: LiveTouches, most: int = _MOST) -> None:
     """Press the markers that are wanted, one after the other."""
     for _ in range(most):
         view = touches.view()

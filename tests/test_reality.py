@@ -51,7 +51,7 @@ def test_effects_are_taken_alone_and_away() -> None:
     ("text", "said"),
     [
         ("good", "there is no mix 'good': start with one of ideal, typical, harsh"),
-        ("typical,harsh", "'harsh' stands alone"),
+        ("typical,harsh", "'harsh' must stand alone"),
         ("cables=1", "there is no effect 'cables': choose from cable, drag"),
         ("cable=much", "cable 'much': give a number, N"),
         ("cable=-1", r"cable -1: .*greater than or equal to 0 \(N\)"),

@@ -230,7 +230,7 @@ def test_the_first_of_two_mistakes_says_that_there_is_a_second():
     found = diagnose(transposed(scaled(truth, 1, -1)), NOISE)
     assert "the centre of mass lies 70 mm on the other side of the sensor. Correct this" in found.sentence
     found = diagnose(transposed(truth), NOISE, prior=Prior(mass=2.0))
-    assert "But then the mass comes out as 0.72 kg where 2 kg was weighed: mend" in found.sentence
+    assert "But then the mass comes out as 0.72 kg where 2 kg was weighed. Correct this" in found.sentence
     assert "But then" not in diagnose(transposed(truth), NOISE).sentence
 
 

@@ -213,7 +213,7 @@ def test_the_tool_of_a_ur_is_typed_as_on_its_pendant():
     for wrong in ("1,2,3", "0,0,0,0,0,nan", "0,0,140,0,0,0"):
         with pytest.raises(AddressError, match="tool"):
             parse(f"ur+tcp://192.168.0.9?tool={wrong}")
-    with pytest.raises(AddressError, match="'tool' is unknown here"):
+    with pytest.raises(AddressError, match="unknown option 'tool'"):
         parse("sri+tcp://192.168.0.9?tool=0,0,0,0,0,0")
 
 

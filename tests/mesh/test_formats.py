@@ -140,12 +140,12 @@ def test_decimal_commas_are_read_and_told(write, form):
 def test_commas_that_may_be_something_else_are_refused(write, row):
     refuse(
         write("a.obj", OBJ + f"v {row}\n" + FACETS),
-        "line 5 .* has the number '1.*,.*', whose comma may stand for",
+        "line 5 .* has the number '1.*,.*', whose comma may be",
     )
 
 
 def test_commas_are_named_in_every_text(write, ply_text):
-    said = "has the number '50,000', whose comma may stand for a decimal point or set thousands apart"
+    said = "has the number '50,000', whose comma may be a decimal point or a thousands separator"
     refuse(write("a.obj", (OBJ + FACETS).replace("50 ", "50,000 ")), f"line 2 .* {said}")
     refuse(
         write("a.off", "OFF\n4 4 0\n" + "50,000 50,000 50,000\n" * 4 + "3 0 1 2\n" * 4), f"line 3 .* {said}"
@@ -280,7 +280,7 @@ def test_obj_with_comments_continuations_colours_and_weights(write):
         (FACETS, "line 1 .* refers to a vertex that does not exist .the file has 0"),
         (OBJ + FACETS + "f 1 2 9\n", "line 9 .* refers to a vertex that does not exist .the file has 4"),
         (OBJ + FACETS + "f -1 -2 -9\n", "line 9 .* refers to a vertex that does not exist"),
-        (OBJ + FACETS + "f 0 1 2\n", "line 9 .* without valid vertex numbers, counted from 1"),
+        (OBJ + FACETS + "f 0 1 2\n", r"line 9 .* without valid vertex numbers \(counted from 1\)"),
         (OBJ + FACETS + "f\n", "line 9 .* without valid vertex numbers"),
         (OBJ + FACETS + "f 1 2 x\n", "line 9 .* without valid vertex numbers"),
         (OBJ + FACETS + "f 1 2 3.0\n", "line 9 .* without valid vertex numbers"),
@@ -440,7 +440,7 @@ def test_ply_with_an_absurd_count(ball, encode, write, element, count):
         ("50 0 0\n", "50 0 0 0\n", "row 1 of the PLY element 'vertex'"),
         ("50 0 0\n", "50 0 zero\n", "row 1 of the PLY element 'vertex'"),
         ("50 0 0\n", "", "announces 4 rows of 'vertex', 4 rows of 'face', but 7 rows follow"),
-        ("50 0 0\n", "50 0 0\n50 0 0\n", "row 0 of the PLY element 'face' does not hold the numbers"),
+        ("50 0 0\n", "50 0 0\n50 0 0\n", "row 0 of the PLY element 'face' does not contain the numbers"),
         ("50 0 0\n", "50 0 nan\n", "vertex 2 is .* not finite"),
         ("3 0 1 3", "3 0 1 4", "faces: row 1 refers to vertex 4"),
         ("3 0 1 3", "3 0 1 -1", "faces: row 1 refers to vertex -1"),

@@ -211,7 +211,7 @@ def test_names_may_be_in_another_case(write):
             packed(model().replace('v1="1"', f'v1="{10**30}"')),
             "a <triangle> of the 3MF model has no number",
         ),
-        (packed(model(items='<item objectid="9"/>')), "places the object '9', which it does not hold"),
+        (packed(model(items='<item objectid="9"/>')), "places the object '9', which it does not contain"),
         (packed(model(items='<item objectid="1" transform="1 0 0"/>')), "not twelve finite numbers"),
         (
             packed(model(items='<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 inf"/>')),
@@ -219,7 +219,7 @@ def test_names_may_be_in_another_case(write):
         ),
         (
             packed(model(items='<item objectid="1" p:path="/3D/other.model"/>')),
-            "does not hold the model '3d/other.model' that it takes parts from",
+            "lacks the model '3d/other.model' that it takes parts from",
         ),
         (packed("<!DOCTYPE a [<!ENTITY b 'c'>]>" + model().partition("?>")[2]), "declares a document type"),
     ],

@@ -173,4 +173,4 @@ def test_by_default_few_facets_are_kept_and_an_excess_is_told_first(tmp_path):
     assert len(kept.content.probe.faces) == len(load_probe(file, units="mm").faces)
     spikes = prepare(file, units="mm", facets=4)
     assert spikes.sentences[0].endswith("on average.")
-    assert "more than the 4 asked for" in spikes.sentences[0]
+    assert "more than the requested 4" in spikes.sentences[0]

@@ -116,7 +116,7 @@ def test_topics_that_are_not_clear(tmp_path: Path) -> None:
         writer.wrench(WrenchSample(1.0, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0)), "/a")
         writer.wrench(WrenchSample(1.0, (9.0, 2.0, 3.0), (0.0, 0.0, 0.0)), "/b")
     found = read_recording(tmp_path / "r.mcap")
-    with pytest.raises(RecordingError, match=r"several topics of that kind: /a, /b\. Say which: --topic"):
+    with pytest.raises(RecordingError, match=r"several topics of that kind: /a, /b\. Choose one: --topic"):
         write_csv(tmp_path / "r.csv", found)
     with pytest.raises(RecordingError, match="no samples on /c; it has: /a, /b"):
         write_csv(tmp_path / "r.csv", found, "/c")
@@ -129,7 +129,7 @@ def test_nothing_to_write_leaves_what_is_there(tmp_path: Path) -> None:
         writer.wrench(replace(wrench_samples(1)[0], status=Status.INVALID))
     found = read_recording(tmp_path / "r.mcap")
     (tmp_path / "r.csv").write_text("mine", encoding="utf-8")
-    with pytest.raises(RecordingError, match="no reading of /wrench would be left"):
+    with pytest.raises(RecordingError, match="no reading of /wrench is usable"):
         write_csv(tmp_path / "r.csv", found)
     assert (tmp_path / "r.csv").read_text(encoding="utf-8") == "mine"
     with pytest.raises(RecordingError, match="cannot be written"):

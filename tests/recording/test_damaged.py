@@ -100,7 +100,7 @@ def test_a_damaged_chunk_is_left_out_and_the_rest_is_given(tmp_path: Path) -> No
     found, warnings, complete = samples(file)
     assert found == everything[: counts[0]] + everything[counts[1] :]
     assert complete
-    assert f"The data at byte {chunks[1][0]:,} is damaged and was left out" in warnings[0]
+    assert f"The data at byte {chunks[1][0]:,} are damaged and were left out" in warnings[0]
     assert "was changed after it was written" in warnings[-1]
 
 
@@ -253,7 +253,7 @@ def test_messages_that_are_none_are_left_out(body: object, channel: int, tmp_pat
 def test_records_that_lie_are_left_out(bad: bytes, tmp_path: Path) -> None:
     found, warnings, _ = samples(crafted(tmp_path, message(FORCE), bad, message(FORCE)))
     assert len(found) == 2
-    assert "damaged and was left out" in warnings[0]
+    assert "damaged and were left out" in warnings[0]
 
 
 def test_many_faults_are_not_all_told(tmp_path: Path) -> None:
@@ -267,7 +267,7 @@ def test_many_faults_are_not_all_told(tmp_path: Path) -> None:
     [
         (b"", "not an MCAP file"),
         (b"t,fx,fy,fz\n", "not an MCAP file"),
-        (MAGIC, "no recording of contactbench. The file is cut off"),
+        (MAGIC, "not a recording of contactbench. The file is cut off"),
         (MAGIC + wire_record(Opcode.DATA_END, bytes(4)) + MAGIC, "import-ros2"),
         (
             MAGIC

@@ -49,8 +49,8 @@ def test_the_delay_is_found_within_its_sigma(delay):
     [
         (0.0123, "ms later than the robot."),
         (0.0, "no delay is applied"),
-        (-0.02, "publishes its poses late: does it? The delay is not applied. To apply it all the same"),
-        (0.2, "on one clock, and check that this robot that holds the sensor? The delay is not applied."),
+        (-0.02, "publishes its poses late. The delay is not applied. To apply it anyway"),
+        (0.2, "use one clock, and that this robot holds the sensor. The delay is not applied."),
     ],
 )
 def test_a_delay_is_used_where_it_can_be_trusted(delay, words):

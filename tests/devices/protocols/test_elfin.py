@@ -79,7 +79,7 @@ def test_the_longer_answer_of_newer_software() -> None:
         (b"ReadActPos,Fail,20011,;", "error code 20011"),
         (b"ReadActPos,Fail,;", "error code none"),
         (b"errorcmd,ReadActPos,;", "does not know ReadActPos"),
-        (b"ReadRobotState,OK,0,;", "'ReadRobotState' was answered"),
+        (b"ReadRobotState,OK,0,;", "received 'ReadRobotState'"),
         (b"ReadActPos,OK,1,2,;", "2 values instead of 12"),
         (b"ReadActPos,OK,1,2,3,4,5,nan,1,2,3,4,5,6,;", "'nan' is not a finite number"),
         (b"ReadActPos,OK,1,2,3,4,5,inf,1,2,3,4,5,6,;", "'inf' is not a finite number"),

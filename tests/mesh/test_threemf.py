@@ -78,7 +78,7 @@ def test_the_stated_unit_is_used(write, unit, metres):
 
 def test_a_unit_that_is_given_counts_and_the_stated_one_is_told(write):
     path = write("a.3mf", packed(model(attributes='unit="inch"')))
-    with pytest.warns(MeshWarning, match="states inches, but millimetres were asked for and are used"):
+    with pytest.warns(MeshWarning, match="states inches, but you asked for millimetres, which are used"):
         assert load_probe(path, "mm").size == pytest.approx(0.05)
     assert load_probe(path, "in").size == pytest.approx(1.27)
 
@@ -175,7 +175,7 @@ def test_parts_in_another_unit_than_the_build(write):
     refuse(
         path, "the probe is 2 mm long, less than 5 mm: are the numbers inches. Give --units in instead of mm"
     )
-    with pytest.warns(MeshWarning, match="states millimetres, but inches were asked for"):
+    with pytest.warns(MeshWarning, match="states millimetres, but you asked for inches"):
         assert load_probe(path, "in").size == pytest.approx(0.0508)
 
 

@@ -159,7 +159,7 @@ def test_poses_and_messages_that_are_none(bag: Bag, tmp_path: Path) -> None:
         bag.add("/pose", POSE_STAMPED, number, body)
     done = import_ros2(bag.close(), tmp_path / "r.mcap")
     assert done.poses == 5
-    assert done.warnings == ("A message on '/pose' is left out (it is no pose).",)
+    assert done.warnings == ("A message on '/pose' was left out (it is no pose).",)
 
 
 def test_a_choice_that_is_not_clear_lists_the_topics(bag: Bag, tmp_path: Path) -> None:
@@ -288,7 +288,7 @@ def test_a_bad_transform_takes_away_its_own_frame_only(child: str, bag: Bag, tmp
             bag.add("/tf", TF, number, {"transforms": [bad]})
     done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
     assert done.poses == 5
-    told = ("A message on '/tf' is left out (the transform to flange is no pose).",)
+    told = ("A message on '/tf' was left out (the transform to flange is no pose).",)
     assert done.warnings == (told if child == "flange" else ())
 
 

@@ -4980,6 +4980,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <source>Nearer objects look larger, so no scale bar is shown</source>
         <translation>Nähere Teile wirken größer; deshalb wird kein Maßstab gezeigt</translation>
     </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>How the probe is viewed</source>
+        <translation>Wie die Sonde betrachtet wird</translation>
+    </message>
 </context>
 <context>
     <name>ViewerWork</name>

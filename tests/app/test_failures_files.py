@@ -133,7 +133,7 @@ def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
     full.fill()
     what(made, tmp_path)
     made.wait_said("no space left")
-    made.wait(lambda: made.said("free space") or made.said("no space left", "choose"))
+    made.wait(lambda: made.said("free disk space") or made.said("no space left", "choose"))
     made.idle()
     assert made.alive()
     assert made.window.bench.running == set()
@@ -198,7 +198,7 @@ def test_on_a_disk_that_really_is_small(made, tmp_path):
             made.window.bench.do(
                 "Noting", lambda session, number=number: session.note(f"{number} " + "n" * 1000)
             )
-        made.wait_said("no space left", "free space")
+        made.wait_said("no space left", "free disk space")
         made.idle()
         assert made.alive()
         (disk / "filling").unlink()
@@ -346,7 +346,7 @@ def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
     yes = made.window.start.question.answers()[0]
     with made.qtbot.waitSignal(made.window.shown, timeout=LONG):
         made.qtbot.mouseClick(yes, Qt.MouseButton.LeftButton)
-    made.wait_said("gravity-1.mcap", "adopted")
+    made.wait_said("gravity-1.mcap", "recovered")
     assert made.window.pages.step is Step.GRAVITY
     page = made.window.pages.current
     made.wait(lambda: page.primary.text() == "Continue gravity-1.mcap")

@@ -160,7 +160,7 @@ def test_a_device_that_is_gone_is_said_by_all_that_need_it(made, tmp_path):
         click(made, page.primary)
         made.wait(lambda: page.run.phase is Phase.CAPTURING)
     sentence = wait_red(made, Step.DEVICES, Step.GRAVITY)
-    assert "gone" in sentence or "silent" in sentence
+    assert "disconnected" in sentence or "silent" in sentence
     assert not page.panel.state.isVisible()
     with emulator("sri", "tcp", port=port, rate=200.0):
         made.wait(lambda: status(made, Step.DEVICES).state is StepState.DONE)

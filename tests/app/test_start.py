@@ -262,11 +262,12 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
     shutil.copytree(folder, copy)  # as a kill at this moment leaves it
     qtbot.waitUntil(lambda: WindowSettings().page_of(folder) == "verify", timeout=10_000)
     settings = json.loads(WindowSettings().file.read_text(encoding="utf-8"))
-    assert settings["recent"][0] | {"opened": ""} == {
+    assert settings["recent"][0] | {"opened": "", "camera": ""} == {
         "folder": str(folder),
         "opened": "",
         "page": "verify",
         "done": "started",
+        "camera": "",
     }
     with Session.open(copy) as session:
         assert session.state.count == window.bench.desk.state.count

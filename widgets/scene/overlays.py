@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QPainter, QPen
-from PySide6.QtWidgets import QFrame, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QMenu, QToolButton, QWidget
 
-from contactbench.widgets.controls import FoldRow
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene.fields import round_length
 
@@ -19,10 +18,11 @@ if TYPE_CHECKING:
 
 _LONGEST = 190.0  # of the scale bar, pixels
 _BUTTON_HEIGHT = 36
+_SPACE = 3  # around the buttons, pixels
 
 
 class ViewButtons(QFrame):
-    """Front, side, top, fit, and the switch to perspective."""
+    """Front, side, top, fit, and the switch to perspective; one button with a menu where they have no room."""
 
     chosen = Signal(str)
     perspective = Signal(bool)
@@ -30,9 +30,9 @@ class ViewButtons(QFrame):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self.setObjectName("viewButtons")
-        self._row = row = FoldRow(2)
-        row.setContentsMargins(3, 3, 3, 3)
-        self.setLayout(row)
+        self._row = row = QHBoxLayout(self)
+        row.setContentsMargins(_SPACE, _SPACE, _SPACE, _SPACE)
+        row.setSpacing(2)
         self.buttons: dict[str, QToolButton] = {}
         for name, text, tip in (
             ("front", self.tr("Front"), self.tr("View from the front: x right, z up")),
@@ -50,6 +50,21 @@ class ViewButtons(QFrame):
         depth.setCheckable(True)
         depth.toggled.connect(self.perspective)
         self.buttons["perspective"] = depth
+        self.menu = self._button(self.tr("View"), self.tr("How the probe is viewed"))
+        self.menu.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.menu.setMenu(self._menu())
+        self.menu.hide()
+
+    def _menu(self) -> QMenu:
+        menu = QMenu(self)
+        for button in self.buttons.values():
+            action = menu.addAction(button.text())
+            action.setToolTip(button.toolTip())
+            action.triggered.connect(button.click)
+            if button.isCheckable():
+                action.setCheckable(True)
+                button.toggled.connect(action.setChecked)
+        return menu
 
     def _button(self, text: str, tip: str) -> QToolButton:
         button = QToolButton(self)
@@ -58,15 +73,17 @@ class ViewButtons(QFrame):
         button.setAccessibleName(tip)
         button.setMinimumSize(46, _BUTTON_HEIGHT)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self._row.add(button)
+        self._row.addWidget(button)
         return button
 
-    def wanted(self, width: int) -> QSize:
-        """Return the size for a width, px: in one line where there is room."""
-        whole = self.sizeHint()
-        if whole.width() <= width:
-            return whole
-        return QSize(width, self._row.heightForWidth(width))
+    def fit(self, width: int) -> QSize:
+        """Choose the buttons, or only the one with the menu where they are wider than `width`, px; return the size."""
+        sizes = [each.sizeHint().expandedTo(each.minimumSize()) for each in self.buttons.values()]
+        room = 2 * (_SPACE + len(sizes)) + sum(size.width() for size in sizes)
+        self.menu.setVisible(room > width)
+        for button in self.buttons.values():
+            button.setVisible(room <= width)
+        return self.sizeHint()
 
     def dress(self, colours: Colours) -> None:
         """Take the theme's colours."""

@@ -259,7 +259,9 @@ def _scenes(seen: VisibleWidgets):
         buttons, bar = scene.buttons, scene.scale_bar
         if not scene.view.geometry().contains(buttons.geometry()):
             yield f"the view's buttons are cut: {buttons.geometry().getRect()} in {scene.view.geometry().getRect()}"
-        for each in buttons.buttons.values():
+        for each in (*buttons.buttons.values(), buttons.menu):
+            if not each.isVisibleTo(buttons):
+                continue
             if not buttons.rect().contains(each.geometry()) or each.width() < each.minimumSizeHint().width():
                 yield f"a button of the view is cut: {what(each)}"
         if bar.isVisibleTo(scene) and bar.geometry().intersects(buttons.geometry()):

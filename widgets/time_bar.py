@@ -6,8 +6,9 @@ import time
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QPushButton, QVBoxLayout, QWidget
 
+from contactbench.widgets.controls import ElidedLabel, FoldRow
 from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.range_slider import RangeSlider
@@ -59,7 +60,7 @@ class TimeBar(QWidget):
         self.last.setToolTip(
             self.tr("During playback: show all contacts from the start, or only the last seconds.")
         )
-        self.label = QLabel(self)
+        self.label = ElidedLabel()
         self._timer = QTimer(self)
         self._timer.setInterval(_TICK)
         self._before = 0.0
@@ -71,11 +72,10 @@ class TimeBar(QWidget):
         for each in (self.play, self.whole, self.speed, self.last):
             each.setMinimumHeight(36)
         self.play.setMinimumWidth(112)
-        row = QHBoxLayout()
+        row = FoldRow()
         for each in (self.play, self.whole, self.speed, self.last):
-            row.addWidget(each)
-        row.addStretch(1)
-        row.addWidget(self.label)
+            row.add(each)
+        row.add(self.label, stretch=1)
         column = QVBoxLayout(self)
         column.setContentsMargins(12, 6, 12, 8)
         column.addWidget(self.slider)

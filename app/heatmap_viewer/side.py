@@ -9,6 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.pipeline.errors import InputError
+from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
 
@@ -61,7 +62,7 @@ class Side(QWidget):
                 " Peak force: sensor noise."
             )
         )
-        self.place = QLabel(self)
+        self.place = ElidedLabel()
         self.place.setProperty("role", "muted")
         self._lay_out()
         self.source.activated.connect(self.chosen)
@@ -72,8 +73,7 @@ class Side(QWidget):
     def _lay_out(self) -> None:
         foot = QHBoxLayout()
         foot.addWidget(self.value)
-        foot.addWidget(self.place)
-        foot.addStretch(1)
+        foot.addWidget(self.place, 1)
         column = QVBoxLayout(self)
         column.setContentsMargins(6, 6, 6, 4)
         column.setSpacing(4)

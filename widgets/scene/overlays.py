@@ -76,14 +76,16 @@ class ViewButtons(QFrame):
         self._row.addWidget(button)
         return button
 
-    def fit(self, width: int) -> QSize:
-        """Choose the buttons, or only the one with the menu where they are wider than `width`, px; return the size."""
+    def fit(self, width: int, height: int) -> QSize:
+        """Choose the buttons, or only the one with the menu, or nothing, for a room, px; return the size."""
         sizes = [each.sizeHint().expandedTo(each.minimumSize()) for each in self.buttons.values()]
         room = 2 * (_SPACE + len(sizes)) + sum(size.width() for size in sizes)
         self.menu.setVisible(room > width)
         for button in self.buttons.values():
             button.setVisible(room <= width)
-        return self.sizeHint()
+        size = self.sizeHint()
+        self.setVisible(size.height() <= height)
+        return size
 
     def dress(self, colours: Colours) -> None:
         """Take the theme's colours."""

@@ -540,7 +540,7 @@ class Scene(QWidget):
                 top += size.height()
         if self.view.geometry() != room:
             self.view.setGeometry(room)
-        size, bar = self.buttons.fit(room.width() - 2 * _MARGIN), self.scale_bar
+        size, bar = self.buttons.fit(room.width() - 2 * _MARGIN, room.height() - _MARGIN), self.scale_bar
         self.buttons.setGeometry(
             QRect(_MARGIN, room.height() - size.height() - _MARGIN, size.width(), size.height())
         )

@@ -257,6 +257,8 @@ def _scenes(seen: VisibleWidgets):
     """What lies over a 3D view and is cut, or covers something else that does."""
     for scene in seen.of(Scene):
         buttons, bar = scene.buttons, scene.scale_bar
+        if not buttons.isVisibleTo(scene):
+            continue
         if not scene.view.geometry().contains(buttons.geometry()):
             yield f"the view's buttons are cut: {buttons.geometry().getRect()} in {scene.view.geometry().getRect()}"
         for each in (*buttons.buttons.values(), buttons.menu):

@@ -84,7 +84,7 @@ def test_a_script_that_fails_midway_leaves_nothing_that_looks_complete(tmp_path)
     script.write_text('{"at": 0.3, "do": "touch", "marker": 99}\n', encoding="utf-8")
     result = invoke("run", script, "--out", tmp_path / "a.mcap", "--truth", tmp_path / "a.csv")
     assert result.exit_code == 2
-    assert "line 1: touch: marker 99" in " ".join(result.stderr.split())
+    assert "line 1: touch: there is no marker 99" in " ".join(result.stderr.split())
     assert list(tmp_path.iterdir()) == [script]
 
 

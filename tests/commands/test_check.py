@@ -193,7 +193,7 @@ def test_the_point_of_a_marker(folder: Path, tmp_path: Path) -> None:
     assert press(folder, "--markers", tmp_path / "m.csv", "--marker", "B").exit_code == 0
     result = press(folder, "--markers", tmp_path / "m.csv", "--marker", "C")
     assert result.exit_code == 2
-    assert "no marker C: it has A, B" in said(result)
+    assert "no marker C; the file has A, B" in said(result)
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ def test_info_counts_what_is_unhealthy(tmp_path: Path) -> None:
     assert wrench["latency_p99"] > 0.1
     assert (flange["latency_median"], flange["late"]) == (None, 0)
     assert (
-        "3 unusable, 1 overrange, 1 raw, 1 slower than the rate, 2 with a guessed time, 2 late by more than 0.1 s;"
+        "3 unusable, 1 overrange, 1 raw, 1 slower than the rate, 2 with an estimated time, 2 late by more than 0.1 s;"
         " latency 2.0 ms (median), 150.0 ms (99th percentile)."
     ) in result.stderr
 

@@ -282,7 +282,7 @@ def test_steps_end_where_something_else_changes_the_probe(mesh: Path) -> None:
     before = state(mesh)
     result = invoke("undo", mesh)
     assert result.exit_code == 1
-    assert "There is nothing to undo: something else has changed the probe since." in said(result)
+    assert "There is nothing to undo: something else has changed the probe since then." in said(result)
     assert state(mesh) == before
     done("add", mesh, "Handle")
     assert done("undo", mesh)["undone"] == "add Handle"

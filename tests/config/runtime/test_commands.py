@@ -234,8 +234,8 @@ def test_a_check_that_failed_or_is_of_others_refuses_the_export(bench, option, w
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"schema": "contactbench.known_touch"}, "this is no contactbench.known_weight of version 1"),
-        ({"version": 2}, "this is no contactbench.known_weight of version 1"),
+        ({"schema": "contactbench.known_touch"}, "not a contactbench.known_weight of version 1"),
+        ({"version": 2}, "not a contactbench.known_weight of version 1"),
         ({"mass_kg": 0.0}, "mass_kg is 0.0"),
         ({"created": "today"}, "lacks a figure"),
         ({"created": "2026-01-01T13:00:00"}, "no time zone"),
@@ -379,7 +379,7 @@ def test_wrong_input_ends_with_2(bench, tmp_path):
     (bench / "b" / "planes.csv").write_text("x", encoding="utf-8")
     damaged = invoke("check", bench / "b", "--json")
     assert damaged.exit_code == 2
-    assert "planes.csv does not have the hash" in json.loads(damaged.stdout)["error"]
+    assert "planes.csv was changed: its hash does not match" in json.loads(damaged.stdout)["error"]
 
 
 def test_diff_names_fields_and_surfaces(tmp_path):
@@ -493,7 +493,7 @@ def test_a_verification_without_sources_counts_for_nothing(bench):
     file.write_text(json.dumps(content), encoding="utf-8")
     made = invoke("export", *files_of(bench), "--out", bench / "b")
     assert made.exit_code == 1
-    assert "does not say with which calibration" in " ".join(made.stderr.split())
+    assert "does not state its calibration" in " ".join(made.stderr.split())
 
 
 def test_the_model_error_is_the_verified_one_or_the_default(bench):
@@ -554,7 +554,7 @@ def test_what_nobody_said_is_said(bench):
     made = invoke("export", *files_of(bench), "--out", bench / "b")
     for said in (made.stderr, invoke("check", bench / "b").stderr):
         assert "NO SATURATION LIMITS" in said
-        assert "does not say its rate, mounting" in " ".join(said.split())
+        assert "does not state its rate, mounting" in " ".join(said.split())
     made = invoke("export", *files_of(bench), "--saturation", "9,9,9,1,1,1", "--out", bench / "b")
     assert "SATURATION" not in made.stderr
 
@@ -653,7 +653,7 @@ def test_a_report_of_another_verification_is_not_carried(bench):
         session.add_result("verification", "x.json", {"x.json": files["w.json"] + b" "}, known, {})
     refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
     assert refused.exit_code == 1
-    assert "report r.html is about another verification" in " ".join(refused.stderr.split())
+    assert "report r.html belongs to another verification" in " ".join(refused.stderr.split())
 
 
 def test_a_session_knows_with_which_mount_it_verified(bench):

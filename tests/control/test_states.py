@@ -197,7 +197,7 @@ def test_an_arm_that_stays_behind_again_and_again_goes_back():
 def test_no_tissue_makes_it_go_back():
     drive = Drive()
     assert drive(force=0.0, travelled=SETTINGS.approach_travel + 1e-6) is ControlState.RETRACT
-    assert "no tissue within 50 mm" in drive.reason
+    assert "no tissue found within 50 mm" in drive.reason
 
 
 def test_lost_tissue_is_looked_for_so_many_times():
@@ -275,7 +275,7 @@ def test_a_swing_makes_it_stand_still_then_measure_anew():
     assert drive(0.06) is ControlState.CONTACT, "what was known of the tissue is wrong"
     assert drive(1.0) is ControlState.TRACK
     assert drive(swinging=3.2) is ControlState.RETRACT
-    assert "swung 2 times" in drive.reason
+    assert "oscillated 2 times" in drive.reason
 
 
 def test_standing_still_after_a_swing_it_still_goes_back_from_what_pushes_or_is_stale():

@@ -237,7 +237,7 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     assert "contactbench" in result.stdout
     assert "linear: mean error" in result.stderr
     said = " ".join(result.stderr.split())
-    assert "There is no picture: it needs PyVista: pip install 'contactbench[gui]'." in said
+    assert "No picture was made: it needs PyVista: pip install 'contactbench[gui]'." in said
     assert f"The files are in {tmp_path}." in said
 
 

@@ -184,7 +184,7 @@ def test_a_bundle_that_is_changed_on_its_way_is_refused(
     result = check(folder, "convex", tool)
     assert not result.verified
     assert "FAILED, the bundle was refused" in result.sentence("convex")
-    assert "probe.ply does not have the hash" in result.sentence("convex")
+    assert "probe.ply was changed: its hash does not match" in result.sentence("convex")
 
 
 @pytest.mark.usefixtures("no_report")

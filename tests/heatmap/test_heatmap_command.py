@@ -170,7 +170,7 @@ def test_weighed_by_confidence(bench):
     old = without(bench / "contacts.csv", "confidence")
     assert facts(old, *shared)["total"] == N
     done = run("heatmap", "draw", old, *shared, "--by-confidence", code=2)
-    assert "without-confidence.csv: these contacts do not say how sure they are" in " ".join(
+    assert "without-confidence.csv: these contacts have no confidence" in " ".join(
         done.output.split()
     )
     rows = old.read_text(encoding="utf-8").splitlines()

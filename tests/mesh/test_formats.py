@@ -498,7 +498,7 @@ def test_ply_text_on_other_lines_than_usual(write, ply_text, layout):
     head, end, rows = ply_text(TETRAHEDRON, TRIANGLES).partition("end_header\n")
     probe = load_probe(write("a.ply", head + end + layout.join(rows.split())))
     assert corners(probe) == corners(load_probe(write("b.ply", head + end + rows)))
-    refuse(write("c.ply", head + end + layout.join(rows.split()[:-1])), "cut short|does not hold")
+    refuse(write("c.ply", head + end + layout.join(rows.split()[:-1])), "cut short|does not contain")
 
 
 def test_ply_rows_with_a_column_that_the_header_forgot(write, ply_text):

@@ -256,7 +256,7 @@ def _unseen(seen: Visibility) -> Iterator[str]:
 def _hollow(seen: Visibility) -> str:
     return (
         f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall,"
-        f" typically {_length(seen.wall_m or 0.0)} thick, with a nearly closed space behind it."
+        f" typically {_length(seen.wall_m or 0.0)} thick, with a space behind it that can hardly be seen from outside."
         " Contacts can be placed on the inner side of the wall, and facets are wasted on it."
     )
 

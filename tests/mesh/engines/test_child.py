@@ -245,7 +245,7 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
     with pytest.raises(engines.EngineError, match=r"meshlab (died|gave)") as raised:
         child.call(WireMessage("alpha wrap"), CallWatch())
     assert child.pid is None
-    assert ("Its last words: no licence" in str(raised.value)) == ("licence" in code)
+    assert ("Last output: no licence" in str(raised.value)) == ("licence" in code)
 
 
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -325,7 +325,7 @@ def test_what_sees_little_of_the_outside_is_told_with_its_share():
     found = look(*joined((vertices, faces), (vertices + [0, 0, 0.0207], faces)))
     share = found.visibility.sheltered_share
     assert share > 0.1
-    assert f"{100 * share:.0f} % of the area sees the outside only through narrow openings" in texts(
+    assert f"{100 * share:.0f} % of the area has a view of the outside only through narrow openings" in texts(
         found, "doubt"
     )
 

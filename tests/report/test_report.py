@@ -379,4 +379,4 @@ def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
         (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong), encoding="utf-8")
         result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
         assert result.exit_code == 2
-        assert "this is no contactbench.known_weight of version 1" in " ".join(result.stderr.split())
+        assert "not a contactbench.known_weight of version 1" in " ".join(result.stderr.split())

@@ -129,7 +129,7 @@ class TestLines:
 
     def test_a_file_that_is_there_is_not_touched(self, tmp_path: Path) -> None:
         (tmp_path / "a").write_text("old", encoding="utf-8")
-        with pytest.raises(OutputError, match="a: it is there already"):
+        with pytest.raises(OutputError, match="a: it already exists"):
             LineTarget.new(tmp_path / "a")
         with pytest.raises(OutputError, match="cannot be written"):
             LineTarget.new(tmp_path / "no" / "a")

@@ -180,7 +180,7 @@ def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) 
     assert "serial number is S2, but the bundle is for V-0001" in done.stderr
     assert "model is M9, but the bundle is for virtual" in done.stderr
     assert "the bundle is for 1000" in done.stderr
-    assert "for the poses have no positions: 1 kg at 1 m/s² is 1 N" in " ".join(done.stderr.split())
+    assert "because the poses have no positions: 1 kg at 1 m/s² adds 1 N" in " ".join(done.stderr.split())
     reasons = {json.loads(line)["reason"] for line in out.read_text(encoding="utf-8").splitlines()}
     assert "stale" not in reasons  # a pose that was typed never gets old
 

@@ -132,7 +132,7 @@ def test_links_bombs_doubles_and_strangers_are_refused(tmp_path, archive):
 def test_sizes_that_lie_and_changed_files_are_refused(tmp_path, archive):
     data = packed_with(archive, "raw/000000000000-x", b"x" * 500, method=zipfile.ZIP_DEFLATED)
     lying = data.replace((500).to_bytes(4, "little"), (5).to_bytes(4, "little"))
-    refused(tmp_path, lying, "sound zip|larger than the archive says|belongs to no record")
+    refused(tmp_path, lying, "intact zip|larger than the archive says|belongs to no record")
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as packed:
         for name, content in members(archive).items():

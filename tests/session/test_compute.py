@@ -109,7 +109,7 @@ def test_the_newest_poses_are_taken_or_the_named_ones(folder, recording, tmp_pat
     for kind, chosen, words in (
         ("calibration", {"poses": "none.csv"}, "no poses called none.csv"),
         ("calibration", {"mesh": "a.ply"}, "is computed from poses"),
-        ("photo", {}, "give one of captures"),
+        ("photo", {}, "choose one of captures"),
         ("probe", {}, "no mesh in this session"),
     ):
         with pytest.raises(SessionError, match=words):

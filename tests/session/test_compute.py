@@ -110,7 +110,7 @@ def test_the_newest_poses_are_taken_or_the_named_ones(folder, recording, tmp_pat
         ("calibration", {"poses": "none.csv"}, "no poses called none.csv"),
         ("calibration", {"mesh": "a.ply"}, "is computed from poses"),
         ("photo", {}, "choose one of captures"),
-        ("probe", {}, "no mesh in this session"),
+        ("probe", {}, "session has no mesh"),
     ):
         with pytest.raises(SessionError, match=words):
             newest_inputs(state, kind, chosen)

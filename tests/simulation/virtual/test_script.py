@@ -26,7 +26,7 @@ _HUGE = "1" + "0" * 400  # more than a double holds
         ('{"at": 1, "do": ["touch"]}', "choose one of turn_to"),
         ('{"at": 1, "do": "touch"}', "either marker"),
         ('{"at": 1, "do": "touch", "marker": 1.5}', "whole number"),
-        ('{"at": 1, "do": "touch", "marker": 1, "forse": 1}', "'forse' is unknown"),
+        ('{"at": 1, "do": "touch", "marker": 1, "forse": 1}', "unknown key 'forse'"),
         ('{"at": 1, "do": "touch", "marker": 1, "force": "9"}', "force '9': give a finite number"),
         ('{"at": 1, "do": "touch", "marker": 1, "force": 1e9}', "0 to 1000 N"),
         ('{"at": 1, "do": "touch", "marker": 1, "seconds": 0}', "positive number"),
@@ -45,7 +45,7 @@ _HUGE = "1" + "0" * 400  # more than a double holds
         (f'{{"at": 1, "do": "turn_to", "rpy": [{_HUGE}, 0, 0]}}', "...: give 3 finite"),
         ('{"at": 90000, "do": "end"}', "at most 86,400"),
         ('{"at": 1, "do": "warm", "kelvin": 1000}', "at most 100 K"),
-        ('{"at": 1, "do": "release", "seconds": 1}', "it can have nothing"),
+        ('{"at": 1, "do": "release", "seconds": 1}', "Possible: nothing"),
     ],
 )
 def test_a_wrong_line_is_named(line, message):

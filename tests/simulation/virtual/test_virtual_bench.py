@@ -132,7 +132,7 @@ def test_what_cannot_be_done_is_said_to_who_asked():
     wrong = bench.touch(18)
     touch, move = bench.touch(1), bench.turn_to(rpy=(0, 0, 0))
     bench.advance(0.01)
-    with pytest.raises(CommandError, match="there are 1 to 17"):
+    with pytest.raises(CommandError, match="choose 1 to 17"):
         wrong.result(0)
     assert touch.result(0).time == pytest.approx(1.61)
     with pytest.raises(InputError, match="release it first"):

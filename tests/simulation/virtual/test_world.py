@@ -69,7 +69,7 @@ def test_a_script_that_fails_is_shown(tmp_path):
     with stream:
         assert stream.done.wait(5)
         assert stream.health.state is StreamState.LOST
-        assert "line 1: touch: marker 99" in stream.health.findings[0]
+        assert "line 1: touch: there is no marker 99" in stream.health.findings[0]
 
 
 def test_readings_without_noise_are_no_fault():

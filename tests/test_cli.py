@@ -441,7 +441,7 @@ def test_wrong_files(bench):
     (bench / "wrenches.csv").unlink()
     refused(locate(bench), "wrenches.csv: there is no such file: check the path")
     result = run("locate", "--probe", bench / "ball.stl", bench / "w.csv", "--out", bench / "ball.stl")
-    refused(result, "ball.stl: the output would replace the input")
+    refused(result, "ball.stl: the output would overwrite the input")
 
 
 @pytest.mark.parametrize(
@@ -457,9 +457,9 @@ def test_wrong_files(bench):
         (["--patch", "5,0"], "error: Bed.curvature (200.0, 0.0)"),
         (
             ["--patch", "flat", "--method", "scan"],
-            "--patch works with --method contactbench only, not with scan",
+            "--patch works only with --method contactbench, not with scan",
         ),
-        (["--track", "--method", "scan"], "--track works with --method contactbench only, not with scan"),
+        (["--track", "--method", "scan"], "--track works only with --method contactbench, not with scan"),
         (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
         (["--torsion-arm", "-1"], "error: TouchModel.torsion_arm must be between 0 and 1000 m"),
         (["--model-torque", "-1"], "error: WrenchNoise.torque"),
@@ -489,7 +489,7 @@ def test_ctrl_c_leaves_the_old_output(bench):
         child.send_signal(signal.SIGINT)
         said = child.stderr.read()
         assert child.wait(60) == 130
-    assert said == "error: interrupted: the command was stopped before its end.\n"
+    assert said == "error: interrupted: the command was stopped before it finished.\n"
     assert (bench / "contacts.csv").read_text(encoding="utf-8") == "old"
     assert not list(bench.glob(".*"))
 

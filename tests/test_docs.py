@@ -146,7 +146,7 @@ def shell(tmp_path_factory):
                 cwd=folder,
                 env=environment,
                 capture_output=True,
-                text=True,
+                encoding="utf-8",  # whatever the locale is
             )
             assert done.returncode == 0, f"{named(page)}:\n{done.stderr[-3000:]}"
 
@@ -200,7 +200,7 @@ def site(tmp_path_factory):
     """Build the documentation as `packaging/run docs` does: strictly, a warning ends it."""
     folder = tmp_path_factory.mktemp("site")
     words = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--site-dir", str(folder)]
-    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stderr[-3000:]
     return folder
 

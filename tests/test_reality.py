@@ -56,7 +56,7 @@ def test_effects_are_taken_alone_and_away() -> None:
         ("cable=much", "cable 'much': give a number, N"),
         ("cable=-1", r"cable -1: .*greater than or equal to 0 \(N\)"),
         ("lens=nan", r"lens nan: .* \(mm\)"),
-        ("cable=1,cable=2", "cable is there twice"),
+        ("cable=1,cable=2", "cable appears twice"),
         ("", "there is no mix ''"),
     ],
 )

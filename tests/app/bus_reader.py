@@ -7,12 +7,14 @@ Reads a window through the accessibility bus, as a screen reader does; run by th
 
 import json
 import sys
-import time
+from pathlib import Path
 
 import pyatspi
 from gi.repository import Atspi
 
-_PATIENCE_S = 60.0
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from waiting import until  # the system's Python does not know where our tests are
+
 _WHOLE = (  # what lies in them is no part of the page
     pyatspi.ROLE_TABLE, pyatspi.ROLE_LIST, pyatspi.ROLE_TREE_TABLE, pyatspi.ROLE_COMBO_BOX, pyatspi.ROLE_SPIN_BUTTON,
     pyatspi.ROLE_PUSH_BUTTON, pyatspi.ROLE_LABEL, pyatspi.ROLE_CHECK_BOX, pyatspi.ROLE_TOGGLE_BUTTON,
@@ -23,13 +25,11 @@ Atspi.set_timeout(60_000, 60_000)  # ms: a window that has other things to do an
 
 def application(pid):
     """Return the application of a process, as soon as it is on the bus."""
-    end = time.monotonic() + _PATIENCE_S
-    while time.monotonic() < end:
-        for each in pyatspi.Registry.getDesktop(0):
-            if each is not None and each.get_process_id() == pid:
-                return each
-        time.sleep(0.1)
-    raise SystemExit(f"process {pid} is not on the accessibility bus")
+    return until(
+        lambda: next(
+            (each for each in pyatspi.Registry.getDesktop(0) if each and each.get_process_id() == pid), None
+        )
+    )
 
 
 def walk(node):

@@ -170,9 +170,7 @@ def test_weighed_by_confidence(bench):
     old = without(bench / "contacts.csv", "confidence")
     assert facts(old, *shared)["total"] == N
     done = run("heatmap", "draw", old, *shared, "--by-confidence", code=2)
-    assert "without-confidence.csv: these contacts have no confidence" in " ".join(
-        done.output.split()
-    )
+    assert "without-confidence.csv: these contacts have no confidence" in " ".join(done.output.split())
     rows = old.read_text(encoding="utf-8").splitlines()
     file = bench / "half.csv"
     sure = [1.0 if number < N // 2 else 0.5 for number in range(N)]

@@ -175,7 +175,9 @@ def test_three_sensors_have_a_topic_each(tmp_path: Path) -> None:
         for number, device in enumerate(devices):
             for _ in range(number + 1):
                 writer.wrench(sample, device.topic)
-        with pytest.raises(RecordingError, match="is not a topic for wrench samples; there are: /s0/wrench, /s1"):
+        with pytest.raises(
+            RecordingError, match="is not a topic for wrench samples; there are: /s0/wrench, /s1"
+        ):
             writer.wrench(sample, "/wrench")
     found = read_recording(tmp_path / "r.mcap")
     assert {topic: len(track.times) for topic, track in found.wrenches.items()} == {

@@ -126,7 +126,7 @@ def test_no_marker_is_put_where_nothing_can_touch():
     marked = probe.with_region(low, (1,))
     made = spread_markers(marked, 17)
     assert made.points[:, 2].min() > 0.45 * probe.bounds[1, 2]
-    with pytest.raises(MarkerError, match="no region 1 to touch"):
+    with pytest.raises(MarkerError, match="no touchable region 1"):
         spread_markers(marked, 3, region=1)
     with pytest.raises(MarkerError, match="untouchable"):
         spread_markers(probe.with_region(np.ones_like(low), (1,)), 3)
@@ -151,7 +151,7 @@ def test_too_few_or_too_many_are_refused(count):
 
 def test_unknown_regions_and_useless_pitches_are_refused():
     probe = mesh(2_000)
-    with pytest.raises(MarkerError, match="no region 3"):
+    with pytest.raises(MarkerError, match="no touchable region 3"):
         spread_markers(probe, 3, region=3)
     with pytest.raises(MarkerError, match="no region 0"):
         spread_markers(probe, 3, region=0)

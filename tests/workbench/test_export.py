@@ -154,7 +154,7 @@ def test_one_check_is_enough_and_one_that_failed_is_said(verified):
         weight, touch = done("known_weight", "failed")
         assert (weight.state.value, weight.sentence, weight.step) == (
             "failed",
-            "The check failed.",
+            "It failed.",
             Step.GRAVITY,
         )
         assert touch.state.value == "done"
@@ -199,7 +199,7 @@ def test_the_session_knows_what_was_exported_and_what_differs_since(verified, tm
         assert settings[RESULTS].value == dict(results_of(session.state))
         view = survey(session)
         assert view.preview.sha256 == found.sha256
-        assert "same" in view.preview.changes[0]
+        assert "Identical" in view.preview.changes[0]
         session.set_parameter("config.max_force", 12.0)
         changes = survey(session).preview.changes
         assert changes == ("limits.max_force_N: 30 → 12 (the limits of the robot).",)

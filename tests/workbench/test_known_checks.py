@@ -126,7 +126,7 @@ def test_a_report_is_made_anew(tmp_path):
         assert not any(desk.stale.values())
         page = (desk.folder / made.file.path).read_text("utf-8")
         assert "Neither was checked" not in page
-        assert "for a weight of 1 kg" in page
+        assert "for a weight of 1\u00a0kg" in page
     finally:
         live.close()
         desk.close()

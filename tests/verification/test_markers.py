@@ -153,7 +153,7 @@ def test_unknown_regions_and_useless_pitches_are_refused():
     probe = mesh(2_000)
     with pytest.raises(MarkerError, match="no touchable region 3"):
         spread_markers(probe, 3, region=3)
-    with pytest.raises(MarkerError, match="no region 0"):
+    with pytest.raises(MarkerError, match="no touchable region 0"):
         spread_markers(probe, 3, region=0)
     for pitch in (0.0, float("nan"), 0.0006):
         with pytest.raises(MarkerError, match="grid"):

@@ -128,7 +128,7 @@ def asked(made, hand):
 
 def test_quitting_while_it_records_can_be_taken_back_or_keeps_what_was_recorded(made, hand, tmp_path):
     question = quit_while_recording(made, hand)
-    question.read("being recorded")
+    question.read("Recording a calibration")
     question.press("Cancel")
     hand.until(lambda: made.window.departure.question is None, "the question to go")
     hand.press("Move virtual tool there", LONG)

@@ -215,7 +215,7 @@ def test_a_missing_file_is_red_everywhere_and_well_again_when_it_is_back(made, h
     for step in (Step.PROBE, Step.VERIFY, Step.EXPORT):
         go_to(hand, step)
         hand.read(file.name, LONG)
-        assert "Passed" not in hand.words()
+        hand.until(lambda: "Passed" not in hand.words(), "the verdict to go", LONG)
     assert not hand.enabled("Export file")
     file.write_bytes(content)
     hand.until(lambda: hand.enabled("Export file"), "the export", LONG)

@@ -127,9 +127,8 @@ def payload_of(
     centre = (load * arm + body_mass * b) / total
     # First-order propagation of the covariance of weight vector and centre of mass (JCGM 100, 5.2.2).
     by_weight = model.gravity_W / np.linalg.norm(model.gravity_W) / STANDARD_GRAVITY
-    J = np.zeros((4, 12))
-    J[0, GRAVITY] = by_weight
-    J[1:, GRAVITY] = np.outer((arm - centre) / total, by_weight)
-    J[1:, CENTRE_OF_MASS] = load / total * R
+    J = np.zeros((3, 12))
+    J[:, GRAVITY] = np.outer((arm - centre) / total, by_weight)
+    J[:, CENTRE_OF_MASS] = load / total * R
     sigma = np.sqrt(np.maximum(np.diag(J @ model.covariance @ J.T), 0.0))
-    return Payload(total, float(sigma[0]), centre, sigma[1:])
+    return Payload(total, model.mass_sigma, centre, sigma)

@@ -13,10 +13,10 @@ from contactbench.app.page import Page
 from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
-from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
+from contactbench.pipeline.workbench.live_devices import Devices, due_problem, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.controls import PanelScroll, column, plain_label, row, sentence_label
+from contactbench.widgets.controls import PanelScroll, column, form, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.phrases import said
 
@@ -52,6 +52,11 @@ class DevicesPage(Page):
         self.serial = QLineEdit()
         self.serial.setPlaceholderText(self.tr("see the sensor's label"))
         self.serial.setAccessibleName(self.tr("Sensor serial number"))
+        self.certificate, self.due = QLineEdit(maxLength=200), QLineEdit(maxLength=10)
+        self.certificate.setPlaceholderText(self.tr("number, for the report"))
+        self.certificate.setAccessibleName(self.tr("Number of the sensor's calibration certificate"))
+        self.due.setPlaceholderText(self.tr("YYYY-MM-DD"))
+        self.due.setAccessibleName(self.tr("Date until which the certificate is valid, YYYY-MM-DD"))
         self.mount = [angle_field(axis) for axis in "xyz"]
         for spin in self.mount:
             spin.setAccessibleName(self.tr("Mounting angle about {axis}").format(axis=spin.prefix()))
@@ -62,23 +67,30 @@ class DevicesPage(Page):
             )
         self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
-        mounting = QGroupBox(self.tr("Mounting"))
-        label = plain_label(self.tr("Serial number"))
-        label.setBuddy(self.serial)
+        mounting, papers = QGroupBox(self.tr("Mounting")), QGroupBox(self.tr("Identification"))
         column(
             mounting, plain_label(self.tr("Sensor on the flange")), row(*((each, 1) for each in self.mount)),
-            label, self.serial, margins=(9, 9, 9, 9),
+            margins=(9, 9, 9, 9),
         )  # fmt: skip
+        lines = form(papers)
+        lines.setContentsMargins(9, 9, 9, 9)
+        for words, field in (
+            (self.tr("Serial number"), self.serial),
+            (self.tr("Certificate"), self.certificate),
+            (self.tr("Valid until"), self.due),
+        ):
+            lines.addRow(words, field)
         measured, inside = QGroupBox(self.tr("Measured")), QWidget()
         column(measured, self.channels, margins=(2, 2, 2, 2))
         column(
             inside, plain_label(self.tr("Devices"), "title"), self._status, self.trial, self.sensor, self.poses,
-            mounting, measured, margins=(6, 8, 6, 8), space=6,
+            mounting, papers, measured, margins=(6, 8, 6, 8), space=6,
         ).addStretch(1)  # fmt: skip
         self.fill(PanelScroll(inside))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
-        self.serial.textChanged.connect(self._edited)
+        for field in (self.serial, self.certificate, self.due):
+            field.textChanged.connect(self._edited)
         for spin in self.mount:
             spin.valueChanged.connect(self._edited)
 
@@ -88,7 +100,8 @@ class DevicesPage(Page):
         """Return what is chosen on the page."""
         sensor = self.sensor.address_now()
         x, y, z = (spin.value() for spin in self.mount)
-        return Devices(sensor, self.poses.address_now(sensor), (x, y, z), self.serial.text().strip())
+        serial, certificate, due = (each.text().strip() for each in (self.serial, self.certificate, self.due))
+        return Devices(sensor, self.poses.address_now(sensor), (x, y, z), serial, certificate, due)
 
     def _show_devices(self, devices: Devices) -> None:
         self.sensor.choose(devices.sensor)
@@ -96,6 +109,8 @@ class DevicesPage(Page):
         for spin, angle in zip(self.mount, devices.mount, strict=True):
             spin.setValue(angle)
         self.serial.setText(devices.serial)
+        self.certificate.setText(devices.certificate)
+        self.due.setText(devices.due)
         self._edited()
 
     def _edited(self) -> None:
@@ -109,7 +124,7 @@ class DevicesPage(Page):
 
     def _problem(self) -> str:
         sensor = self.sensor.address_now()
-        return problem_of(sensor) or self.poses.problem_of(sensor)
+        return problem_of(sensor) or self.poses.problem_of(sensor) or due_problem(self.due.text().strip())
 
     def _allow(self) -> None:
         recording = {Step.GRAVITY, Step.VERIFY} & self.bench.running

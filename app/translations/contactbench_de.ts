@@ -664,8 +664,28 @@
         <translation>Geräte</translation>
     </message>
     <message>
+        <source>number, for the report</source>
+        <translation>Nummer, für den Bericht</translation>
+    </message>
+    <message>
+        <source>Number of the sensor&apos;s calibration certificate</source>
+        <translation>Nummer des Kalibrierscheins des Sensors</translation>
+    </message>
+    <message>
+        <source>YYYY-MM-DD</source>
+        <translation>JJJJ-MM-TT</translation>
+    </message>
+    <message>
+        <source>Date until which the certificate is valid, YYYY-MM-DD</source>
+        <translation>Datum, bis zu dem der Kalibrierschein gilt, JJJJ-MM-TT</translation>
+    </message>
+    <message>
         <source>Mounting</source>
         <translation>Montage</translation>
+    </message>
+    <message>
+        <source>Identification</source>
+        <translation>Kennzeichnung</translation>
     </message>
     <message>
         <source>Sensor on the flange</source>
@@ -674,6 +694,14 @@
     <message>
         <source>Serial number</source>
         <translation>Seriennummer</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>Kalibrierschein</translation>
+    </message>
+    <message>
+        <source>Valid until</source>
+        <translation>Gültig bis</translation>
     </message>
     <message>
         <source>Measured</source>

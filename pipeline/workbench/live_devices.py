@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
-from contactbench.pipeline.settings import mount_rotation
-from contactbench.pipeline.workbench.standings import MOUNT, POSES, SENSOR, SERIAL
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.settings import ReportSettings, mount_rotation
+from contactbench.pipeline.workbench.standings import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,6 +31,8 @@ class Devices:
     # (float, float, float); Angles of R_ES about the fixed axes x, y, z, degrees
     mount: tuple[float, float, float] = (0.0, 0.0, 0.0)
     serial: str = ""  # Serial number of the sensor; empty: nobody said
+    certificate: str = ""  # Number of the sensor's calibration certificate; empty: nobody said
+    due: str = ""  # Until when that is valid, ISO 8601; empty: nobody said
 
     @classmethod
     def of(cls, state: State) -> Devices:
@@ -38,19 +41,31 @@ class Devices:
         def value(key: str) -> Any:
             return None if key not in state.settings else state.settings[key].value
 
-        sensor, poses, serial = value(SENSOR), value(POSES), value(SERIAL)
+        def text(key: str) -> str:
+            found = value(key)
+            return found if isinstance(found, str) else ""
+
         return cls(
-            sensor if isinstance(sensor, str) else "",
-            poses if isinstance(poses, str) and poses else None,
+            text(SENSOR),
+            text(POSES) or None,
             _angles(value(MOUNT)),
-            serial if isinstance(serial, str) else "",
+            text(SERIAL),
+            text(CERTIFICATE),
+            text(DUE),
         )
 
     @property
     def settings(self) -> dict[str, Any]:
         """The session's settings that say the same."""
         mount = list(self.mount) if any(self.mount) else None
-        return {SENSOR: self.sensor, POSES: self.poses, SERIAL: self.serial or None, MOUNT: mount}
+        return {
+            SENSOR: self.sensor,
+            POSES: self.poses,
+            SERIAL: self.serial or None,
+            MOUNT: mount,
+            CERTIFICATE: self.certificate or None,
+            DUE: self.due or None,
+        }
 
     @property
     def R_ES(self) -> NDArray[np.float64] | None:
@@ -87,6 +102,15 @@ def poses_address(file: Path) -> str:
 def still_address(roll: float, pitch: float, yaw: float) -> str:
     """Return the address of a flange that stands still, turned about the fixed axes x, y, z; degrees."""
     return f"still://?rpy={roll:g},{pitch:g},{yaw:g}"
+
+
+def due_problem(due: str) -> str:
+    """Say why a text is no date until which a certificate is valid; empty: it is one, or nobody said."""
+    try:
+        ReportSettings.checked({"due": due})
+    except InputError:
+        return f"The certificate's date {due!r} is not a date: write it as 2027-03-31, or leave it empty."
+    return ""
 
 
 def problem_of(address: str, *, poses: bool = False) -> str:

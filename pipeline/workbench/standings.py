@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     Stale = Mapping[tuple[str, str], tuple[str, ...]]
 
 SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.serial", "devices.mount"
+CERTIFICATE, DUE = "report.certificate", "report.due"
 RESULTS = "export.results"
 _MADE_OF = ("calibration", "probe", "verification", *CHECK_KINDS, "report")  # of these, a bundle
 PROBE_DRAFT = "draft.probe"  # as `probe_draft` keeps it; here without what that needs

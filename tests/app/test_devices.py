@@ -232,6 +232,22 @@ def test_undone_before_it_is_over(bench):
     assert settings(bench)["calibration.inverse"] is True
 
 
+def test_the_sensors_certificate_goes_into_the_session(page, bench, qtbot):
+    page.due.setText("31 March")
+    assert not page.use_button.isEnabled()
+    assert "2027-03-31" in page.bar.words
+    page.serial.setText("SN 7")
+    page.certificate.setText("DKD-7")
+    page.due.setText("2031-01-31")
+    click(qtbot, page.use_button)
+    tick_until(qtbot, page, lambda: "Connected" in page.trial.words)
+    assert settings(bench)["report.due"] == "2031-01-31"
+    assert (settings(bench)["report.certificate"], settings(bench)["devices.serial"]) == ("DKD-7", "SN 7")
+    bench.undo.undo()
+    qtbot.waitUntil(lambda: bench.live.pair is None, timeout=PATIENCE_MS)
+    assert not page.certificate.text()
+
+
 def test_one_parameter(bench):
     bench.undo.push(SetParameters(bench, {"devices.serial": "SN 1"}, "set the serial number"))
     bench.undo.push(SetParameters(bench, {"devices.serial": "SN 2"}, "set the serial number"))

@@ -40,7 +40,7 @@ def test_right_addresses_have_no_problem():
 
 
 def test_devices_are_what_the_session_says(tmp_path):
-    chosen = Devices("sri+tcp://1.2.3.4", "ur+tcp://1.2.3.5", (0.0, 0.0, 90.0), "SN 1")
+    chosen = Devices("sri+tcp://1.2.3.4", "ur+tcp://1.2.3.5", (0.0, 0.0, 90.0), "SN 1", "DKD-7", "2031-01-31")
     with Session.create(tmp_path / "session") as session:
         assert Devices.of(session.state) == Devices()
         for key, value in chosen.settings.items():
@@ -50,3 +50,12 @@ def test_devices_are_what_the_session_says(tmp_path):
         assert Devices.of(session.state).mount == (0, 0, 0)
     assert np.allclose(chosen.R_ES @ [1, 0, 0], [0, 1, 0])
     assert Devices().R_ES is None
+
+
+@pytest.mark.parametrize(
+    ("due", "right"), [("", True), ("2027-03-31", True), ("2027-02-30", False), ("soon", False)]
+)
+def test_a_certificate_is_valid_until_a_date(due, right):
+    problem = devices.due_problem(due)
+    assert (not problem) is right
+    assert right or (repr(due) in problem and "2027-03-31" in problem)

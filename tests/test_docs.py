@@ -28,6 +28,7 @@ BLOCK = re.compile(
     r"```sh\n(?P<text>.*?)^ *```",
     re.MULTILINE | re.DOTALL,
 )
+SNIPPET = re.compile(r"^```python\n(?P<text>.*?)^```", re.MULTILINE | re.DOTALL)
 HERE = re.compile(r"<<'END'\n.*?^END\n", re.MULTILINE | re.DOTALL)
 # Pages that are made by `packaging/pages.py` when the documentation is built.
 MADE = re.compile(r"reference/(commands/.*|modules)\.md$")
@@ -190,6 +191,17 @@ def test_every_command_of_a_page_runs_on_the_sample_data(page, shell, followed, 
     """A page begins where the README ends; what the README has too, word for word, is done."""
     shutil.copytree(followed, tmp_path, dirs_exist_ok=True)
     shell(page, tmp_path, {line for block in blocks(README) for line in block.text.splitlines(keepends=True)})
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if SNIPPET.search(page.read_text("utf-8"))], ids=named
+)
+def test_the_python_of_a_page_runs_on_the_sample_data(page, followed, monkeypatch, capsys):
+    monkeypatch.chdir(followed)
+    names: dict[str, object] = {}
+    for number, found in enumerate(SNIPPET.finditer(page.read_text("utf-8")), 1):
+        exec(compile(found["text"], f"{page.name}, block {number}", "exec"), names)  # noqa: S102 - the project's own pages
+    assert capsys.readouterr().out
 
 
 # ---- what is built -----------------------------------------------------------------------------

@@ -235,7 +235,12 @@ def test_the_reference_has_every_option_and_every_public_name(site):
     probe = (site / "reference" / "commands" / "probe.html").read_text("utf-8")
     assert "--max-contact-error" in probe
     modules = (site / "reference" / "modules.html").read_text("utf-8")
-    for name in ("kernel.Solver.locate_batch", "calibration.calibrate.calibrate", "kernel.Contact.sigma_max"):
+    for name in (
+        "kernel.Solver.locate_batch",
+        "kernel.Solver.locate",
+        "calibration.calibrate.calibrate",
+        "kernel.Contact.sigma_max",
+    ):
         assert f'id="contactbench.pipeline.{name}"' in modules, name
 
 

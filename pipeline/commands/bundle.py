@@ -166,6 +166,7 @@ def check(bundle: BundleArgument) -> None:
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.self_test import replay
+    from contactbench.pipeline.runtime.run import known
 
     found = RuntimeConfig.load(bundle)
     model, replayed = found.model, replay(found, str(bundle))
@@ -173,10 +174,12 @@ def check(bundle: BundleArgument) -> None:
         f"{bundle}: intact, version {model.version}, {_standing(found)}.",
         "green" if model.verified else "yellow",
     )
+    by = f" by {model.provenance.operator}" if known(model.provenance.operator) else ""
+    sensor = " ".join(name for name in (model.sensor.model, model.sensor.serial) if known(name))
     say(
-        f"For the {model.sensor.model} {model.sensor.serial} at {model.sensor.rate_Hz:g} Hz with"
+        f"For {'the ' + sensor if sensor else 'a sensor that nobody named'} at {model.sensor.rate_Hz:g} Hz with"
         f" the probe {model.probe.name} ({model.probe.facets:,} facets); exported"
-        f" {model.provenance.created} by {model.provenance.operator}."
+        f" {model.provenance.created}{by}."
     )
     _say_zero(found)
     if replayed is None:

@@ -40,7 +40,8 @@ class ContactSolver(kernel.Solver):
     Notes
     -----
     ``locate(wrench)`` and ``locate(wrench, previous)`` are pure: the same arguments give the same bits.
-    ``locate_batch(wrenches)`` takes (n, 6) and releases the interpreter's lock.
+    ``locate_batch(wrenches, threads=1)`` takes (n, 6) and releases the interpreter's lock; ``threads=0`` uses every
+    core, for the same bits.
     ``track(wrench)`` follows one stream and equals ``locate`` with the last accepted contact, except where a second
     touch joins it; ``reset()`` starts another stream; calls from several threads wait for each other.
     Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they are

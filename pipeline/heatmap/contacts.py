@@ -237,7 +237,8 @@ def locate_recording(
     total = with_calibration(own or WrenchNoise(), model, R_WS)
     solver = ContactSolver(probe, total, gates)
     found = [
-        solver.locate_batch(wrenches[row : row + _BLOCK_ROWS]) for row in range(0, len(times), _BLOCK_ROWS)
+        solver.locate_batch(wrenches[row : row + _BLOCK_ROWS], threads=0)
+        for row in range(0, len(times), _BLOCK_ROWS)
     ]
     columns = ((each.points, each.reasons, each.sigma_max, each.confidences) for each in found)
     points, reasons, sigmas, confidences = (np.concatenate(column) for column in zip(*columns, strict=True))

@@ -342,3 +342,33 @@ def test_wrong_answers_are_flagged_on_the_t_shape():
     assert np.mean(wrong(ours) & (ours.reasons <= Reason.VERTEX)) <= 1e-4
     assert np.mean(ours.reasons == Reason.AMBIGUOUS) < 0.08
     assert np.mean(wrong(paper)) > 0.005
+
+
+@pytest.mark.parametrize("threads", [2, 5, 0])
+def test_a_batch_on_several_threads_has_the_same_bits_in_the_same_order(threads):
+    """More rows than a thread takes at a time, so that every thread works; reasons of every kind among them."""
+    probe = bundled("linear", 500)
+    wrenches = random_wrenches(probe, 3000, np.random.default_rng(3), pitch=0.01, angle=60)
+    wrenches[::7] = 0.0
+    solver = ContactSolver(probe)
+    alone = solver.locate_batch(wrenches)
+    previous = np.where(np.arange(3000)[:, None] % 3 == 0, np.nan, alone.points[::-1])
+    for one, several in (
+        (alone, solver.locate_batch(wrenches, threads)),
+        (
+            solver.locate_batch_after(wrenches, previous),
+            solver.locate_batch_after(wrenches, previous, threads),
+        ),
+    ):
+        for name in (
+            "points",
+            "reasons",
+            "faces",
+            "confidences",
+            "misfits",
+            "candidates",
+            "covariances",
+            "sigma_max",
+        ):
+            assert getattr(one, name).tobytes() == getattr(several, name).tobytes(), name
+    assert len(set(alone.reasons.tolist())) > 2

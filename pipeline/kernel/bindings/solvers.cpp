@@ -2,14 +2,45 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
+#include <system_error>
+#include <thread>
 
 #include "bindings.hpp"
 
 namespace contactbench::bindings {
 
 namespace {
+
+// ---- rows on several cores -------------------------------------------------------------------
+
+// Rows that a thread takes at a time: some milliseconds at most, so that all end together, and far more than what
+// taking them costs.
+constexpr std::size_t stretch = 256;
+
+// Calls `work(row)` for every row, on as many threads as are asked for (0: one a core). Rows must not know of each other;
+// `work` must not throw. The result does not depend on who did which row.
+template <class Work>
+void each_row(std::size_t rows, unsigned threads, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    const auto take = [&] {
+        for (std::size_t from; (from = next.fetch_add(stretch)) < rows;)
+            for (std::size_t i = from, to = std::min(from + stretch, rows); i < to; ++i) work(i);
+    };
+    const unsigned wanted = threads ? threads : std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t most = std::min<std::size_t>(wanted, (rows + stretch - 1) / stretch);
+    std::vector<std::thread> others;
+    try {
+        while (others.size() + 1 < most) others.emplace_back(take);
+    } catch (const std::system_error&) {
+        // No more threads are to be had: those that are here do it all.
+    }
+    take();
+    for (std::thread& each : others) each.join();
+}
 
 // ---- answers, many at once -------------------------------------------------------------------
 
@@ -51,6 +82,7 @@ struct Batch {
     std::shared_ptr<const Solver> context;
     std::shared_ptr<Rows> rows;
     bool complete = false;  // of the solver itself: a row can be located again, with its candidates
+    unsigned threads = 1;
 
     std::size_t size() const { return rows->torques.size(); }
 };
@@ -96,12 +128,12 @@ Contact row_contact(const Batch& b, std::size_t i) {
 template <class Use>
 void visit_covariances(const Batch& b, Use&& use) {
     nb::gil_scoped_release release;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        if (!has_point(Reason(b.rows->reasons[i]))) continue;
+    each_row(b.size(), b.threads, [&](std::size_t i) {
+        if (!has_point(Reason(b.rows->reasons[i]))) return;
         const Vec3 normal = Rows::get(b.rows->normals, i);
         const Wrench w{Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)};
         use(i, b.context->covariance(w, Rows::get(b.rows->points, i), normal, b.rows->faces[i]), normal);
-    }
+    });
 }
 
 nb::object batch_covariances(const Batch& b) {
@@ -173,18 +205,32 @@ struct Iterative {
     }
 };
 
+// Rows that know nothing of each other, on several threads.
 template <class Method, class Solve>
-Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, Solve&& solve,
-                 std::mutex* busy = nullptr) {
+Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, unsigned threads, Solve&& solve) {
+    Batch b{context, std::make_shared<Rows>(wrenches.shape(0)), std::is_same_v<Method, Main>, threads};
+    const double* data = wrenches.data();
+    nb::gil_scoped_release release;
+    each_row(b.size(), threads, [&](std::size_t i) {
+        const Wrench w = to_wrench(data + 6 * i);
+        b.rows->set(i, w, solve(i, w, *b.rows));
+    });
+    return b;
+}
+
+// Rows of one stream, in their order.
+template <class Solve>
+Batch track_rows(Main& s, const Rows6& wrenches, Solve&& solve) {
     const std::size_t n = wrenches.shape(0);
-    Batch b{context, std::make_shared<Rows>(n), std::is_same_v<Method, Main>};
+    Batch b{s.context, std::make_shared<Rows>(n), true};
     const double* data = wrenches.data();
     nb::gil_scoped_release release;
     // Taken without the interpreter's lock and given back before it is asked for again: no deadlock.
-    const auto lock = busy ? std::unique_lock(*busy) : std::unique_lock<std::mutex>();
+    const std::lock_guard lock(s.busy);
     for (std::size_t i = 0; i < n; ++i) {
         const Wrench w = to_wrench(data + 6 * i);
-        b.rows->set(i, w, solve(i, w, *b.rows));
+        if (const Vec3* p = s.live.previous()) Rows::put(b.rows->previous, i, *p);
+        b.rows->set(i, w, solve(i, w));
     }
     return b;
 }
@@ -221,10 +267,12 @@ void bind_method(nb::class_<Method>& c) {
         const Wrench wrench = to_wrench(w);
         return Contact{m.context, wrench, m.solve(wrench)};
     }, nb::arg("wrench"));
-    c.def("locate_batch", [](const Method& m, nb::handle rows) {
-        return solve_rows<Method>(m.context, to_rows(rows),
+    c.def("locate_batch", [](const Method& m, nb::handle rows, unsigned threads) {
+        return solve_rows<Method>(m.context, to_rows(rows), threads,
                                   [&](std::size_t, const Wrench& w, Rows&) { return m.solve(w); });
-    }, nb::arg("wrenches").none(), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
+    }, nb::arg("wrenches").none(), nb::arg("threads") = 1,
+       "Locate each row of (n, 6) on its own, without the interpreter's lock, on so many threads; 0: one a core. The"
+       " answers are the same to the bit.");
     c.def("time_each", [](const Method& m, nb::handle rows) {
         return time_rows(to_rows(rows), [&](const Wrench& w) { return m.solve(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each compiled solve (n,).");
@@ -257,7 +305,7 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
     const std::vector<std::int32_t> checked(faces.data(), faces.data() + n);
     for (const std::int32_t face : checked)
         if (face >= std::int32_t(model.normals.size())) throw nb::index_error("face number out of range");
-    return solve_rows<void>(m.context, rows, [&](std::size_t i, const Wrench& w, Rows&) {
+    return solve_rows<void>(m.context, rows, 1, [&](std::size_t i, const Wrench& w, Rows&) {
         return only_answer(*m.context, w, [&](Candidate& c) {
             const std::int32_t face = checked[i];
             if (face < 0) return false;
@@ -359,16 +407,16 @@ void bind_main(nb::module_& m) {
         return Contact{s.context, wrench, s.context->locate(wrench, &p)};
     }, nb::arg("wrench"), nb::arg("previous").none(),
        "The same, with the last accepted contact point (3,), S, m, or None.");
-    solver.def("locate_batch_after", [](const Main& s, nb::handle wrenches, Rows3 previous) {
+    solver.def("locate_batch_after", [](const Main& s, nb::handle wrenches, Rows3 previous, unsigned threads) {
         const Rows6 rows = to_rows(wrenches);
         if (previous.shape(0) != rows.shape(0)) throw nb::value_error("previous must have one row per wrench");
         const double* p = previous.data();
-        return solve_rows<Main>(s.context, rows, [&](std::size_t i, const Wrench& w, Rows& out) {
+        return solve_rows<Main>(s.context, rows, threads, [&](std::size_t i, const Wrench& w, Rows& out) {
             const Vec3 point{p[3 * i], p[3 * i + 1], p[3 * i + 2]};
             Rows::put(out.previous, i, point);
             return s.context->locate(w, finite(point) ? &point : nullptr);
         });
-    }, nb::arg("wrenches"), nb::arg("previous"),
+    }, nb::arg("wrenches"), nb::arg("previous"), nb::arg("threads") = 1,
        "Locate each row given the contact (n, 3) accepted before it, S, m; NaN for none.");
     solver.def("track", [](Main& s, Vector6 w) {
         const Wrench wrench = to_wrench(w.data());
@@ -386,20 +434,14 @@ void bind_main(nb::module_& m) {
         return Contact{s.context, wrench, s.live.track(wrench, age)};
     }, nb::arg("wrench"), nb::arg("age"), "The same, with the sample's age in seconds.");
     solver.def("track_batch", [](Main& s, nb::handle rows) {
-        return solve_rows<Main>(s.context, to_rows(rows), [&](std::size_t i, const Wrench& w, Rows& out) {
-            if (const Vec3* p = s.live.previous()) Rows::put(out.previous, i, *p);
-            return s.live.track(w);
-        }, &s.busy);
+        return track_rows(s, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); });
     }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
     solver.def("track_batch", [](Main& s, nb::handle wrenches, nb::ndarray<const double, nb::shape<-1>, nb::c_contig,
                                                                 nb::device::cpu> ages) {
         const Rows6 rows = to_rows(wrenches);
         if (ages.shape(0) != rows.shape(0)) throw nb::value_error("ages must have one entry per wrench");
         const double* age = ages.data();
-        return solve_rows<Main>(s.context, rows, [&](std::size_t i, const Wrench& w, Rows& out) {
-            if (const Vec3* p = s.live.previous()) Rows::put(out.previous, i, *p);
-            return s.live.track(w, age[i]);
-        }, &s.busy);
+        return track_rows(s, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); });
     }, nb::arg("wrenches"), nb::arg("ages"), "The same, with each sample's age in seconds (n,).");
     solver.def("reset", [](Main& s) {
         const std::lock_guard lock(s.busy);

@@ -139,8 +139,8 @@ class ContactReference:
         return tuple(self._compare_part(located, solver) for located in self._located)
 
     def _compare_part(self, full: _Located, solver: ContactSolver) -> PartErrors:
-        noisy = solver.locate_batch(full.drawn.noisy)
-        noise_free = solver.locate_batch(full.drawn.truth.wrenches)
+        noisy = solver.locate_batch(full.drawn.noisy, threads=0)
+        noise_free = solver.locate_batch(full.drawn.truth.wrenches, threads=0)
         jump = self.expected.gates.ambiguity_distance
         return PartErrors(
             full.drawn.part,
@@ -167,14 +167,14 @@ class ContactReference:
 
 
 def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
-    noisy = solver.locate_batch(drawn.noisy)
+    noisy = solver.locate_batch(drawn.noisy, threads=0)
     found = _settled(noisy)
     model = MarkerModel(
         noisy.points[found], noisy.normals[found], drawn.noisy[found], solver.noise.covariance, 0.0
     )
     smallest = model.sigmas(np.eye(4))
     bound = sqrt(float(np.trace(smallest, axis1=1, axis2=2).mean())) if len(smallest) else 0.0
-    return _Located(drawn, noisy, solver.locate_batch(drawn.truth.wrenches), bound)
+    return _Located(drawn, noisy, solver.locate_batch(drawn.truth.wrenches, threads=0), bound)
 
 
 def _settled(batch: Batch) -> npt.NDArray[np.bool_]:

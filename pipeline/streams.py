@@ -100,7 +100,7 @@ def _player_or_world(where: DeviceAddress, kind: type) -> Player | World:
     return Player(where, None) if kind is WrenchSample else Player(None, where)
 
 
-_TRACKS: Mapping[Protocol, Callable[[DeviceAddress], Track]] = {
+_TRACKS: Mapping[str, Callable[[DeviceAddress], Track]] = {
     Protocol.STILL: still_track,
     Protocol.POSES: file_track,
 }

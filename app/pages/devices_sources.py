@@ -120,8 +120,8 @@ class SensorSource(DeviceChoice):
         self.setTitle(self.tr("Force/torque sensor"))
         self.kind.setAccessibleName(self.title())
         self.protocol, self.probe = QComboBox(), QComboBox()
-        for protocol, name in zip(devices.SERIAL_PROTOCOLS, ("SRI", "Bota", "Robotiq FT 300"), strict=True):
-            self.protocol.addItem(self.tr("Sensor made by {maker}").format(maker=name), protocol)
+        for scheme, title in devices.serial_sensors().items():
+            self.protocol.addItem(self.tr("Sensor made by {maker}").format(maker=title), scheme)
         for name in PROBE_NAMES:
             self.probe.addItem(self.tr("with the {name} probe").format(name=name), name)
         self.probe.setCurrentIndex(self.probe.findData("t-shape"))

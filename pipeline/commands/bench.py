@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from contactbench.pipeline.devices.emulate import Emulator
-    from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
@@ -254,7 +253,9 @@ _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") 
 
 @bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
 def emulate(
-    device: Annotated[str, typer.Argument(metavar="DEVICE", help="Device to emulate.")],
+    device: Annotated[
+        str, typer.Argument(metavar="DEVICE", help="Device to emulate, such as sri or sri+tcp.")
+    ],
     pty: Annotated[bool, typer.Option("--pty", help="Use a pseudo-terminal.")] = False,
     port: Annotated[
         int | None, typer.Option(help="Use this port of the loopback interface; 0 for any free one.")
@@ -262,18 +263,17 @@ def emulate(
     rate: Annotated[float | None, typer.Option(help="Frames per second, until a command changes it.")] = None,
     fault: Annotated[list[str] | None, typer.Option(metavar="FAULT", help="May be repeated.")] = None,
     seconds: Annotated[float | None, typer.Option(help="How long to run.")] = None,
-    profile: Annotated[str, typer.Option(help="Profile of rdt: ati or onrobot.")] = "ati",
     still: Annotated[
         bool, typer.Option("--still", help="Send a constant signal instead of one that swings.")
     ] = False,
     quirk: Annotated[list[str] | None, typer.Option(metavar="QUIRK", help="May be repeated.")] = None,
-    tool: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y,Z,RX,RY,RZ", help="Tool of ur in the flange frame, m and rad."),
+    option: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="Option as in an address: profile=onrobot. May be repeated."),
     ] = None,
     seed: Annotated[int, typer.Option(help="Seed of the randomness in the faults.")] = 0,
 ) -> None:
-    """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur.
+    """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur, or that of a plug-in.
 
     Prints the address to connect to, and runs until Ctrl-C. Faults are NAME@START+DURATION in seconds
     after the first frame, some with xSIZE: split, merged, garbage, bad-checksum, header, stall,
@@ -286,22 +286,25 @@ def emulate(
         raise typer.BadParameter("--pty and --port contradict each other: give only one.")
     if seconds is not None and not 0 < seconds < 1e9:
         raise typer.BadParameter(f"--seconds {seconds}: give a positive number.")
-    from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, swinging
+    from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, socket_of, swinging
 
     script = Script([FaultEvent.parse(text) for text in fault or ()])
-    carrier = "serial" if pty else ("tcp" if port is not None and device != "rdt" else None)
+    device, _, carrier = device.partition("+")
+    if pty:
+        carrier = "serial"
+    elif port is not None and not carrier:
+        carrier = socket_of(device)
     with _ended() as ended:  # before there is anything to clear away, until it is
         made = emulator(
             device,
-            carrier,
+            carrier or None,
             port=port or 0,
             rate=rate,
             script=script,
             seed=seed,
-            profile=profile,
             signal=None if still else swinging(device),
             quirks=quirk or (),
-            tool=_six(tool),
+            options=_options(option or []),
             log=0,
         )
         with made:
@@ -348,11 +351,9 @@ def _emulate(device: Emulator, ended: _Ended, seconds: float | None) -> None:
         )
 
 
-def _six(text: str | None) -> Six | None:
-    if text is None:
-        return None
-    try:
-        x, y, z, rx, ry, rz = map(float, text.split(","))
-    except ValueError as error:
-        raise typer.BadParameter(f"--tool {text}: give six numbers separated by commas.") from error
-    return x, y, z, rx, ry, rz
+def _options(given: list[str]) -> dict[str, str]:
+    pairs = [text.partition("=") for text in given]
+    for name, equals, _ in pairs:
+        if not (name and equals):
+            raise typer.BadParameter(f"--option {name}: write it as NAME=VALUE.")
+    return {name: value for name, _, value in pairs}

@@ -126,6 +126,37 @@ def ports() -> None:
     answer({"ports": rows})
 
 
+@record_app.command(example="record devices")
+def devices() -> None:
+    """List the sensors and robots that can be opened, with the options of their addresses.
+
+    An installed package can add devices of its own; a package that cannot be used is named.
+    """
+    from contactbench.pipeline.devices.protocols.registry import drivers, left_out
+
+    found = drivers()
+    for scheme, driver in found.items():
+        say(f"{' '.join(f'{scheme}+{way.carrier}' for way in driver.ways)}: {driver.title}")
+        for name, option in driver.options.items():
+            say(f"    {name}: {option.help}")
+    for each in left_out():
+        say(f"{each.why[:1].upper()}{each.why[1:]}.", "yellow")
+    answer(
+        {
+            "devices": [
+                {
+                    "scheme": scheme,
+                    "title": driver.title,
+                    "carriers": [way.carrier for way in driver.ways],
+                    "options": {name: option.help for name, option in driver.options.items()},
+                }
+                for scheme, driver in found.items()
+            ],
+            "left_out": [{"scheme": each.scheme, "why": each.why} for each in left_out()],
+        }
+    )
+
+
 def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Changes | None = None) -> None:
     """Wait until the time or the source is over, a stream has failed, or one of the events is set."""
     deadline = math.inf if seconds is None else time.monotonic() + seconds

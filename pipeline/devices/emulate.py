@@ -27,19 +27,17 @@ from contactbench.pipeline.devices.faults import (
     sine,
 )
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.rdt import RdtModel
-from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
-from contactbench.pipeline.devices.protocols.ur_pose import UrModel
-from contactbench.pipeline.devices.url import Carrier, Protocol, carriers_of
+from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
+from contactbench.pipeline.devices.url import Carrier, options_query, read_options
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from types import TracebackType
 
+    from contactbench.pipeline.devices.driver import Driver
     from contactbench.pipeline.devices.faults import Emission
 
 __all__ = [
-    "EMULATED",
     "JOINTS",
     "SYNTHETIC",
     "Emulator",
@@ -54,10 +52,12 @@ __all__ = [
     "Signal",
     "Six",
     "constant",
+    "emulated",
     "emulator",
     "possible_faults",
     "recorded",
     "sine",
+    "socket_of",
     "swinging",
 ]
 
@@ -324,13 +324,16 @@ class Emulator:
         self._number, self._due = 0, None
 
 
-# ---- by the name of a protocol -------------------------------------------------------------------
+# ---- by the scheme of a driver ---------------------------------------------------------------------
 
-EMULATED = tuple(PROTOCOLS)
+
+def emulated() -> tuple[str, ...]:
+    """Return the schemes of the devices that can be emulated."""
+    return tuple(scheme for scheme, known in drivers().items() if known.emulated is not None)
 
 
 def emulator(
-    protocol: Protocol | str,
+    scheme: str,
     carrier: Carrier | str | None = None,
     *,
     port: int = 0,
@@ -338,35 +341,33 @@ def emulator(
     signal: Signal | None = None,
     script: Script | None = None,
     seed: int = 0,
-    profile: str = "ati",
+    options: Mapping[str, str] | None = None,
     quirks: Iterable[Quirk | str] = (),
-    tool: Six | None = None,
     log: int = LOG,
 ) -> Emulator:
     """Make an emulated device, not yet started.
 
     Parameters
     ----------
-    protocol : Protocol
+    scheme : str
+        Of its driver.
     carrier : Carrier or None
-        The protocol's first one if none is given.
+        The device's usual one if none is given.
     port : int
         Of TCP and UDP, on the loopback interface; 0: any free one.
     rate : float or None
         Frames per second until a command changes it.
     signal, script, seed, log
         As for `Emulator`; without a signal a constant one.
-    profile : str
-        Of RDT.
+    options : mapping
+        As in an address of it, such as ``{"profile": "onrobot"}``.
     quirks : iterable of Quirk
         What this one does and others of its kind do not.
-    tool : six floats or None
-        Of UR: the active tool frame in the flange frame, m and a rotation vector in rad; None: the flange.
 
     Raises
     ------
     EmulatorError
-        There is no such device, carrier, port, quirk or fault.
+        There is no such device, carrier, port, option, quirk or fault.
 
     Examples
     --------
@@ -374,50 +375,63 @@ def emulator(
     ...     device.url.startswith("sri+tcp://127.0.0.1:")
     True
     """
-    emulated = _emulated(protocol)
-    kind = Protocol(protocol)
-    carriers = carriers_of(kind)
+    known = _driver(scheme)
+    carriers = tuple(way.carrier for way in known.ways)
     if carrier is not None and carrier not in list(carriers):
-        raise EmulatorError(f"{kind} over {carrier} is not supported: use {', '.join(carriers)}.")
-    if tool is not None and kind is not Protocol.UR:
-        raise EmulatorError(f"tool {tool}: {kind} has no tool option: leave it out.")
-    model = emulated(rate, quirks)
-    query = ""
-    if isinstance(model, RdtModel):
-        # It has no page to ask for its counts, as an ATI sensor has.
-        counts = "&cpf=1000000&cpt=1000000" if profile == "ati" else ""
-        model.speak(profile)
-        query = f"?profile={profile}{counts}"
-    if isinstance(model, UrModel) and tool is not None:
-        model.set_tool(tool)
+        raise EmulatorError(f"{scheme} over {carrier} is not supported: use {', '.join(carriers)}.")
+    try:
+        given = {name: read_options(known, name, text) for name, text in (options or {}).items()}
+    except ValueError as error:
+        raise EmulatorError(f"{scheme}: {error}.") from error
+    model, needed = known.emulate(rate, quirks, given)
     if script is not None:
         script.check(model.faults, model.name)
     over = Carrier(carrier or carriers[0])
-    signal = signal or constant(model.rest)
-    line = _line(over, kind, port)
     return Emulator(
-        model, line, f"{kind}+{over}", signal=signal, script=script, seed=seed, query=query, log=log
+        model,
+        _line(over, scheme, port),
+        f"{scheme}+{over}",
+        signal=signal or constant(model.rest),
+        script=script,
+        seed=seed,
+        query=options_query(known, needed),
+        log=log,
     )
 
 
-def swinging(protocol: Protocol | str) -> Signal:
+def socket_of(scheme: str) -> Carrier:
+    """Return what carries a device's bytes over a network: TCP where both can, or neither."""
+    return next((way.carrier for way in _driver(scheme).ways if way.port is not None), Carrier.TCP)
+
+
+def swinging(scheme: str) -> Signal:
     """Return a signal to look at: a slow sine of each channel about the constant one."""
-    model = _emulated(protocol)
+    model = _model(scheme)
     return sine(model.swing, model.swing_hz, model.rest)
 
 
-def possible_faults(protocol: Protocol | str) -> frozenset[Fault]:
-    """Return the faults that the emulated device of a protocol can have."""
-    return _emulated(protocol).faults
+def possible_faults(scheme: str) -> frozenset[Fault]:
+    """Return the faults that the emulated device of a scheme can have."""
+    return _model(scheme).faults
 
 
-def _emulated(protocol: Protocol | str) -> type[Model]:
-    if protocol not in list(EMULATED):
-        raise EmulatorError(f"unknown device {str(protocol)!r}. Known: {', '.join(EMULATED)}.")
-    return PROTOCOLS[Protocol(protocol)].emulated
+def _driver(scheme: str) -> Driver:
+    try:
+        known = driver_of(scheme)
+    except ValueError as error:
+        raise EmulatorError(f"device {scheme!r}: {error}.") from error
+    if known is None or known.emulated is None:
+        raise EmulatorError(f"unknown device {scheme!r}. Known: {', '.join(emulated())}.")
+    return known
 
 
-def _line(carrier: Carrier, protocol: Protocol, port: int) -> DeviceLine:
+def _model(scheme: str) -> type[Model]:
+    model = _driver(scheme).emulated
+    assert model is not None  # noqa: S101 - `_driver` has looked
+    return model
+
+
+def _line(carrier: Carrier, scheme: str, port: int) -> DeviceLine:
     if carrier is Carrier.SERIAL:
-        return PtyLine(protocol.value)
+        return PtyLine(scheme)
     return UdpServerLine(port) if carrier is Carrier.UDP else TcpServerLine(port)

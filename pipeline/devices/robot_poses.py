@@ -12,23 +12,21 @@ from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
 from contactbench.pipeline.devices.protocols.elfin import REQUEST, ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
+from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
+    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder
-    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.robot import Robot
-
-    OnSamples = Callable[[Sequence[FlangeSample]], None]
-    OnChange = Callable[[Health], None] | None
 
 _USUAL_RATE_HZ = 50.0
 # Without an answer for so long, a line is opened again: questions that wait add up in a slow controller.
@@ -56,7 +54,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
     def __init__(
         self,
         address: DeviceAddress,
-        on_samples: OnSamples,
+        on_samples: OnFlanges,
         on_change: OnChange = None,
         *,
         tool: Sequence[float] | None = None,
@@ -130,7 +128,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
     def __init__(
         self,
         address: DeviceAddress,
-        on_samples: OnSamples,
+        on_samples: OnFlanges,
         on_change: OnChange = None,
         *,
         robot: Robot | None = None,
@@ -224,8 +222,8 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
 
 
 def poses_from(
-    address: DeviceAddress | str, on_samples: OnSamples, on_change: OnChange = None
-) -> UrPoses | ElfinPoses:
+    address: DeviceAddress | str, on_samples: OnFlanges, on_change: OnChange = None
+) -> ReconnectingStream[FlangeSample]:
     """
     Return the stream of the robot at an address, not yet started.
 
@@ -235,8 +233,7 @@ def poses_from(
         It is no robot.
     """
     where = DeviceAddress.parse(address) if isinstance(address, str) else address
-    if where.protocol is Protocol.UR:
-        return UrPoses(where, on_samples, on_change, tool=where.tool)
-    if where.protocol is Protocol.ELFIN:
-        return ElfinPoses(where, on_samples, on_change)
-    raise AddressError(f"address {str(where)!r}: not a robot. Give the address of a robot.")
+    known = driver_of(where.protocol)
+    if known is None:
+        raise AddressError(f"address {str(where)!r}: not a robot. Give the address of a robot.")
+    return known.poses(where, on_samples, on_change)

@@ -8,106 +8,53 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
 
+from contactbench.pipeline.devices.driver import AddressError, Carrier
+from contactbench.pipeline.devices.options import (
+    name,
+    number,
+    numbers,
+    read_baud,
+    read_rate,
+    whole,
+    write_option,
+)
+from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from urllib.parse import SplitResult
 
+    from contactbench.pipeline.devices.driver import Driver
     from contactbench.pipeline.reality import Reality
 
-
-class AddressError(InputError):
-    """An address that names no device; the message names the part and the remedy."""
+__all__ = [
+    "STEPWISE",
+    "AddressError",
+    "BenchOptions",
+    "Carrier",
+    "DeviceAddress",
+    "Protocol",
+    "options_query",
+    "read_options",
+]
 
 
 class Protocol(StrEnum):
-    """What a device speaks, or what stands in for one."""
+    """What stands in for a device; devices themselves go by the schemes of their drivers."""
 
-    SRI = "sri"
-    BOTA = "bota"
-    ROBOTIQ = "robotiq"
-    RDT = "rdt"
-    ELFIN = "elfin"
-    UR = "ur"
     REPLAY = "replay"
     STILL = "still"
     POSES = "poses"
     VIRTUAL = "virtual"
 
 
-class Carrier(StrEnum):
-    """What carries the bytes."""
-
-    SERIAL = "serial"
-    TCP = "tcp"
-    UDP = "udp"
-    FILE = "file"
-    TYPED = "typed"
-    SIMULATED = "simulated"
-
-
 _SOCKETS = (Carrier.TCP, Carrier.UDP)
-_BARE = (Carrier.FILE, Carrier.TYPED, Carrier.SIMULATED)  # their scheme names no carrier
-# Counts per N and per N·m. An ATI box may have others: its own configuration page says.
-PROFILES = {"ati": (1e6, 1e6), "onrobot": (1e4, 1e5)}
 STEPWISE = 0.0
 _BITS_PER_BYTE = 10  # 8N1
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
-_MOST_DEGREES, _MOST_TOOL = 3600.0, 10.0  # m or rad
+_MOST_DEGREES = 3600.0
 _FASTEST_HZ = 1000.0  # of what has no hardware
-
-
-# ---- options: how each is read. A reader raises ValueError that says what to give instead -------
-
-
-def _number(unit: str) -> Callable[[str], float]:
-    def read(text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not 1e-3 <= value <= 1e9:
-            raise ValueError(f"give a positive number of {unit}")
-        return value
-
-    return read
-
-
-def _numbers(fewest: int, most: int, largest: float) -> Callable[[str], tuple[float, ...]]:
-    def read(text: str) -> tuple[float, ...]:
-        try:
-            values = tuple(map(float, text.split(",")[: most + 1]))
-        except ValueError:
-            values = ()
-        if not fewest <= len(values) <= most or not all(abs(value) <= largest for value in values):
-            many = str(fewest) if fewest == most else f"{fewest} to {most}"
-            raise ValueError(f"give {many} numbers separated by commas, none beyond {largest:g}")
-        return values
-
-    return read
-
-
-def _whole(fewest: int, most: int, remedy: str) -> Callable[[str], int]:
-    def read(text: str) -> int:
-        # isdigit alone lets superscripts through.
-        if not (text.isascii() and text.isdigit() and len(text) <= 15 and fewest <= int(text) <= most):
-            raise ValueError(remedy)
-        return int(text)
-
-    return read
-
-
-def _name(text: str) -> str:
-    if not text.strip() or not text.isprintable():
-        raise ValueError("give its name, or leave the option out")
-    return text
-
-
-def _profile(text: str) -> str:
-    if text not in PROFILES:
-        raise ValueError(f"choose one of {', '.join(PROFILES)}")
-    return text
 
 
 def _reality(text: str) -> Reality:
@@ -126,71 +73,85 @@ def _step(text: str) -> float:
 
 
 def _pace(text: str) -> float:
-    return STEPWISE if text == "step" else _number("multiple of the recorded pace, or step")(text)
+    return STEPWISE if text == "step" else number("multiple of the recorded pace, or step")(text)
 
 
 # Option -> the field that it is, and its reader; in the order in which they are written.
 _OPTIONS: dict[str, tuple[str, Callable[[str], Any]]] = {
-    "baud": ("baud", _whole(50, 12_000_000, "give a whole number of bit/s such as 115200")),
-    "profile": ("profile", _profile),
-    "rate": ("rate", _number("Hz")),
-    "cpf": ("counts_per_newton", _number("counts per N")),
-    "cpt": ("counts_per_newton_metre", _number("counts per N·m")),
+    "baud": ("baud", read_baud),
+    "rate": ("rate", read_rate),
     "speed": ("speed", _pace),
-    "topic": ("topic", _name),
-    "rpy": ("rpy_degrees", _numbers(3, 3, _MOST_DEGREES)),
-    "quaternion": ("quaternion", _numbers(4, 4, 1 + _UNIT)),
-    "joints": ("joints_degrees", _numbers(1, 64, _MOST_DEGREES)),
-    "robot": ("robot", _name),
-    "tool": ("tool", _numbers(6, 6, _MOST_TOOL)),
+    "topic": ("topic", name),
+    "rpy": ("rpy_degrees", numbers(3, 3, _MOST_DEGREES)),
+    "quaternion": ("quaternion", numbers(4, 4, 1 + _UNIT)),
+    "joints": ("joints_degrees", numbers(1, 64, _MOST_DEGREES)),
+    "robot": ("robot", name),
 }
 _BENCH: dict[str, Callable[[str], Any]] = {
-    "probe": _name,
-    "mesh": _name,
-    "sensor": _name,
-    "seed": _whole(0, 10**15, "give a whole number of 0 or more"),
-    "pose_rate": _number("Hz"),
-    "script": _name,
+    "probe": name,
+    "mesh": name,
+    "sensor": name,
+    "seed": whole(0, 10**15, "give a whole number of 0 or more"),
+    "pose_rate": number("Hz"),
+    "script": name,
     "reality": _reality,
 }
-_SPEEDS: dict[Protocol, Callable[[str], float]] = {
+_SPEEDS: dict[str, Callable[[str], float]] = {
     Protocol.VIRTUAL: _step,
-    Protocol.POSES: _number("multiple of the pace of the file"),
+    Protocol.POSES: number("multiple of the pace of the file"),
 }
 
 
 @dataclass(frozen=True)
 class _Kind:
-    """What one scheme gives and allows."""
+    """What one scheme allows."""
 
+    protocol: str
+    carrier: Carrier
+    defaults: Mapping[str, Any]  # of its options; None: none
+    driver: Driver | None = None  # None: no device
     wrenches: bool = False
     poses: bool = False
-    port: int | None = None
-    frame: int = 0
-    options: Mapping[str, Any] = field(default_factory=dict)  # with their defaults; None: none
+
+    @property
+    def scheme(self) -> str:
+        """How its addresses begin."""
+        return self.protocol if self.driver is None else f"{self.protocol}+{self.carrier}"
 
 
-_KINDS = {
-    (Protocol.SRI, Carrier.SERIAL): _Kind(wrenches=True, frame=31, options={"baud": 115_200, "rate": 200.0}),
-    (Protocol.SRI, Carrier.TCP): _Kind(wrenches=True, port=4008, options={"rate": 200.0}),
-    (Protocol.BOTA, Carrier.SERIAL): _Kind(wrenches=True, frame=37, options={"baud": 460_800, "rate": 200.0}),
-    (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(
-        wrenches=True, frame=16, options={"baud": 19_200, "rate": 100.0}
-    ),
-    (Protocol.RDT, Carrier.UDP): _Kind(
-        wrenches=True, port=49_152, options={"profile": "ati", "rate": None, "cpf": None, "cpt": None}
-    ),
-    (Protocol.ELFIN, Carrier.TCP): _Kind(poses=True, port=10_003, options={"rate": 50.0}),
-    (Protocol.UR, Carrier.TCP): _Kind(poses=True, port=30_004, options={"rate": 125.0, "tool": None}),
-    (Protocol.REPLAY, Carrier.FILE): _Kind(wrenches=True, poses=True, options={"speed": 1.0, "topic": None}),
-    (Protocol.POSES, Carrier.FILE): _Kind(poses=True, options={"speed": 1.0, "robot": None}),
-    (Protocol.STILL, Carrier.TYPED): _Kind(
-        poses=True, options={"rate": 10.0, "rpy": None, "quaternion": None, "joints": None, "robot": None}
-    ),
-    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(
-        wrenches=True, poses=True, options={"rate": 200.0, "speed": None, **dict.fromkeys(_BENCH)}
-    ),
+_SOURCES = {
+    kind.protocol: kind
+    for kind in (
+        _Kind(Protocol.REPLAY, Carrier.FILE, {"speed": 1.0, "topic": None}, wrenches=True, poses=True),
+        _Kind(Protocol.POSES, Carrier.FILE, {"speed": 1.0, "robot": None}, poses=True),
+        _Kind(
+            Protocol.STILL,
+            Carrier.TYPED,
+            {"rate": 10.0, "rpy": None, "quaternion": None, "joints": None, "robot": None},
+            poses=True,
+        ),
+        _Kind(
+            Protocol.VIRTUAL,
+            Carrier.SIMULATED,
+            {"rate": 200.0, "speed": None, **dict.fromkeys(_BENCH)},
+            wrenches=True,
+            poses=True,
+        ),
+    )
 }
+
+
+def _kinds_of(driver: Driver) -> tuple[_Kind, ...]:
+    own = {key: option.default for key, option in driver.options.items()}
+    return tuple(
+        _Kind(
+            driver.scheme,
+            way.carrier,
+            {**({"baud": way.baud} if way.carrier is Carrier.SERIAL else {}), "rate": driver.rate, **own},
+            driver,
+        )
+        for way in driver.ways
+    )
 
 
 @dataclass(frozen=True)
@@ -210,17 +171,13 @@ class BenchOptions:
 class DeviceAddress:
     """One device."""
 
-    protocol: Protocol
+    protocol: str  # scheme of its driver, or a Protocol
     carrier: Carrier
     host: str = ""  # name or IP address; empty where there is no socket
     port: int | None = None  # TCP or UDP port; None where there is no socket
     path: str = ""  # serial device, recording or file of poses; empty for sockets and typed poses
     baud: int | None = None  # of a serial line, bit/s
     rate: float | None = None  # samples per second to ask the device for; None: what the device is set to
-    profile: str | None = None  # of RDT: "ati" or "onrobot"
-    # counts_per_newton, counts_per_newton_metre: of RDT: the profile's, unless the address gives others
-    counts_per_newton: float | None = None
-    counts_per_newton_metre: float | None = None
     # of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one.
     # Of a file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for
     # real time.
@@ -233,9 +190,7 @@ class DeviceAddress:
     joints_degrees: tuple[float, ...] | None = None  # of a typed pose: joint angles of `robot`
     # whose joints an address or a file of poses gives, as in contactbench.pipeline.robot
     robot: str | None = None
-    # of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in
-    # rad
-    tool: tuple[float, ...] | None = None
+    options: Mapping[str, Any] = field(default_factory=dict, hash=False)  # of its driver, all of them
     bench: BenchOptions | None = None  # what a virtual bench is made of
 
     @classmethod
@@ -260,25 +215,24 @@ class DeviceAddress:
     @classmethod
     def _parsed(cls, text: str) -> DeviceAddress:
         parts = _split(text)
-        protocol, carrier = _scheme(parts.scheme)
-        kind = _KINDS[protocol, carrier]
-        given = _given(parts.query, protocol, tuple(kind.options))
-        host, port, path = _place(parts, carrier, kind)
-        values = {name: value for name, value in {**kind.options, **given}.items() if name in _OPTIONS}
-        if values.get("profile") == "onrobot":  # an ATI sensor has counts of its own, and tells them
-            usual = zip(("cpf", "cpt"), PROFILES["onrobot"], strict=True)
-            values |= {name: scale if values[name] is None else values[name] for name, scale in usual}
+        kind = _kind(parts.scheme)
+        given = _given(parts.query, kind)
+        host, port, path = _place(parts, kind)
+        values = {**kind.defaults, **given}
+        own: dict[str, Any] = {}
+        if kind.driver is not None:
+            own = kind.driver.complete({key: values[key] for key in kind.driver.options})
         bench = None
-        if protocol is Protocol.VIRTUAL:
-            bench = BenchOptions(**{name: value for name, value in given.items() if name in _BENCH})
+        if kind.protocol == Protocol.VIRTUAL:
+            bench = BenchOptions(**{key: value for key, value in given.items() if key in _BENCH})
         address = cls(
-            protocol, carrier, host, port, path, bench=bench,
-            **{_OPTIONS[name][0]: value for name, value in values.items()},
+            kind.protocol, kind.carrier, host, port, path, options=own, bench=bench,
+            **{_OPTIONS[key][0]: value for key, value in values.items() if key in _OPTIONS and key not in own},
         )  # fmt: skip
         _check_ceiling(address, kind)
-        if protocol is Protocol.STILL:
+        if kind.protocol == Protocol.STILL:
             _check_typed(address)
-        if protocol is Protocol.VIRTUAL:
+        if kind.protocol == Protocol.VIRTUAL:
             _check_bench(given)
         return address
 
@@ -291,37 +245,65 @@ class DeviceAddress:
             where = self.host
         else:
             where = quote(self.path if self.path.startswith("/") else f"/{self.path}")
-        values = {name: getattr(self, own) for name, (own, _) in _OPTIONS.items()}
+        values = {key: getattr(self, own) for key, (own, _) in _OPTIONS.items()}
         if self.speed == STEPWISE:
             values["speed"] = "step"
         if self.bench is not None:
-            values |= {name: getattr(self.bench, name) for name in _BENCH}
+            values |= {key: getattr(self.bench, key) for key in _BENCH}
             if self.bench.mesh is not None:
                 values["probe"] = None
-        given = {name: _short(value) for name, value in values.items() if value is not None}
+        given = {key: write_option(value) for key, value in values.items() if value is not None}
+        driver = self._driver
+        if driver is not None:
+            given |= _written(driver, self.options)
         query = urlencode(given, safe=",/")
-        return f"{_scheme_name(self.protocol, self.carrier)}://{where}" + (f"?{query}" if query else "")
+        scheme = self.protocol if driver is None else f"{self.protocol}+{self.carrier}"
+        return f"{scheme}://{where}" + (f"?{query}" if query else "")
 
     @property
     def gives_wrenches(self) -> bool:
         """Whether it can be opened as a force/torque sensor."""
-        return _KINDS[self.protocol, self.carrier].wrenches
+        driver = self._driver
+        return _SOURCES[self.protocol].wrenches if driver is None else driver.gives_wrenches(self)
 
     @property
     def gives_poses(self) -> bool:
         """Whether it can be opened as a source of poses."""
-        return _KINDS[self.protocol, self.carrier].poses
+        driver = self._driver
+        return _SOURCES[self.protocol].poses if driver is None else driver.gives_poses(self)
+
+    @property
+    def _driver(self) -> Driver | None:
+        return None if self.protocol in _SOURCES else driver_of(self.protocol)
 
 
-def carriers_of(protocol: Protocol) -> tuple[Carrier, ...]:
-    """Return what can carry a protocol, the usual one first."""
-    return tuple(carrier for known, carrier in _KINDS if known is protocol)
+def read_options(driver: Driver, key: str, text: str) -> Any:
+    """
+    Read one of a driver's own options.
+
+    Raises
+    ------
+    ValueError
+        There is no such option, or it cannot be that.
+    """
+    if key not in driver.options:
+        known = ", ".join(driver.options) or "none"
+        raise ValueError(f"unknown option {key!r}. Possible: {known}")
+    return _read(key, text, driver.options[key].read)
 
 
-def _short(value: object) -> str:
-    if isinstance(value, tuple):
-        return ",".join(map(_short, value))
-    return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
+def options_query(driver: Driver, options: Mapping[str, Any]) -> str:
+    """Return a driver's own options as the end of an address; empty: there are none."""
+    query = urlencode(_written(driver, options), safe=",/")
+    return f"?{query}" if query else ""
+
+
+def _written(driver: Driver, options: Mapping[str, Any]) -> dict[str, str]:
+    return {
+        key: option.write(options[key])
+        for key, option in driver.options.items()
+        if options.get(key) is not None
+    }
 
 
 # ---- the parts of an address: each raises ValueError that says what is wrong, and the remedy -----
@@ -340,48 +322,54 @@ def _split(text: str) -> SplitResult:
     return parts
 
 
-def _scheme(scheme: str) -> tuple[Protocol, Carrier]:
-    for protocol, carrier in _KINDS:
-        if scheme == _scheme_name(protocol, carrier):
-            return protocol, carrier
-    known = ", ".join(_scheme_name(*kind) for kind in _KINDS)
+def _kind(scheme: str) -> _Kind:
+    if scheme in _SOURCES:
+        return _SOURCES[scheme]
+    driver = driver_of(scheme.partition("+")[0]) if "+" in scheme else None
+    for kind in () if driver is None else _kinds_of(driver):
+        if scheme == kind.scheme:
+            return kind
+    devices = [kind.scheme for each in drivers().values() for kind in _kinds_of(each)]
+    known = ", ".join((*devices, *_SOURCES))
     raise ValueError(f"scheme {scheme or 'missing'}: start it with one of {known}, then ://")
 
 
-def _scheme_name(protocol: Protocol, carrier: Carrier) -> str:
-    return protocol.value if carrier in _BARE else f"{protocol}+{carrier}"
-
-
-def _given(query: str, protocol: Protocol, known: tuple[str, ...]) -> dict[str, Any]:
+def _given(query: str, kind: _Kind) -> dict[str, Any]:
     """Return the options of a query, each of which must be known."""
     found: dict[str, str] = {}
     try:
         pairs = parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query), errors="strict")
     except ValueError as error:
         raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
-    for name, value in pairs:
-        if name not in known:
-            raise ValueError(f"unknown option {name!r}. Possible: {', '.join(known)}")
-        if name in found:
-            raise ValueError(f"option {name!r} appears twice: keep one")
-        found[name] = value
-    return {name: _read(name, value, protocol) for name, value in found.items()}
+    for key, value in pairs:
+        if key not in kind.defaults:
+            raise ValueError(f"unknown option {key!r}. Possible: {', '.join(kind.defaults)}")
+        if key in found:
+            raise ValueError(f"option {key!r} appears twice: keep one")
+        found[key] = value
+    return {key: _read(key, value, _reader(key, kind)) for key, value in found.items()}
 
 
-def _read(name: str, value: str, protocol: Protocol) -> Any:
-    read = _BENCH[name] if name in _BENCH else _OPTIONS[name][1]
-    if name == "speed":
-        read = _SPEEDS.get(protocol, read)
+def _reader(key: str, kind: _Kind) -> Callable[[str], Any]:
+    if kind.driver is not None and key in kind.driver.options:
+        return kind.driver.options[key].read
+    if key == "speed" and kind.protocol in _SPEEDS:
+        return _SPEEDS[kind.protocol]
+    return _BENCH[key] if key in _BENCH else _OPTIONS[key][1]
+
+
+def _read(key: str, value: str, read: Callable[[str], Any]) -> Any:
     try:
         return read(value)
     except ValueError as error:
-        raise ValueError(f"{name} {value[:80]!r}: {error}") from error
+        raise ValueError(f"{key} {value[:80]!r}: {error}") from error
 
 
-def _place(parts: SplitResult, carrier: Carrier, kind: _Kind) -> tuple[str, int | None, str]:
+def _place(parts: SplitResult, kind: _Kind) -> tuple[str, int | None, str]:
     """Return host, port and path."""
+    carrier = kind.carrier
     if carrier in _SOCKETS:
-        return *_socket(parts, kind.port), ""
+        return *_socket(parts, None if kind.driver is None else kind.driver.way(carrier).port), ""
     if carrier in (Carrier.TYPED, Carrier.SIMULATED):
         host, what, begin = (
             ("", "a typed pose has no host or path", f"{parts.scheme}://?")
@@ -447,9 +435,9 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
 def _check_bench(given: Mapping[str, Any]) -> None:
     if "probe" in given and "mesh" in given:
         raise ValueError("probe and mesh: give only one of them")
-    for name in ("rate", "pose_rate"):
-        if given.get(name, 0.0) > _FASTEST_HZ:
-            raise ValueError(f"{name}: the bench provides at most {_FASTEST_HZ:g} Hz")
+    for key in ("rate", "pose_rate"):
+        if given.get(key, 0.0) > _FASTEST_HZ:
+            raise ValueError(f"{key}: the bench provides at most {_FASTEST_HZ:g} Hz")
 
 
 def _check_typed(address: DeviceAddress) -> None:
@@ -468,9 +456,10 @@ def _check_typed(address: DeviceAddress) -> None:
 
 
 def _check_ceiling(address: DeviceAddress, kind: _Kind) -> None:
-    if not (address.baud and address.rate and kind.frame):
+    frame = 0 if kind.driver is None else kind.driver.way(kind.carrier).frame
+    if not (address.baud and address.rate and frame):
         return
-    ceiling = address.baud / (_BITS_PER_BYTE * kind.frame)
+    ceiling = address.baud / (_BITS_PER_BYTE * frame)
     if address.rate > ceiling:
         raise ValueError(
             f"rate: {address.rate:g} samples/s are too many for {address.baud} bit/s: choose at"

@@ -8,8 +8,9 @@ from itertools import groupby, islice
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
@@ -262,14 +263,13 @@ def _timed(
 
 
 def _is_timed(address: str) -> bool:
-    """Tell whether a stream from there times its samples by a clock: an Elfin robot is asked, and so timed already."""
+    """Tell whether a stream from there times its samples by a clock."""
     try:
         where = DeviceAddress.parse(address)
     except AddressError:
         return False
-    return (
-        where.carrier in (Carrier.SERIAL, Carrier.TCP, Carrier.UDP) and where.protocol is not Protocol.ELFIN
-    )
+    known = driver_of(where.protocol)
+    return known is not None and known.stamped
 
 
 def _format(path: Path, record: Metadata) -> int:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.protocols.registry import drivers
+from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
 from contactbench.pipeline.workbench.standings import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.session import State
-
-SERIAL_PROTOCOLS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ)
 
 
 @dataclass(frozen=True)
@@ -84,9 +83,19 @@ def virtual_address(probe: str) -> str:
     return f"virtual://bench?probe={quote(probe)}&sensor=paper"
 
 
-def serial_address(protocol: Protocol, path: str) -> str:
+def serial_sensors() -> dict[str, str]:
+    """Return the title of each sensor that needs nothing but its serial port, by its scheme."""
+    return {
+        scheme: driver.title
+        for scheme, driver in drivers().items()
+        if any(way.carrier is Carrier.SERIAL for way in driver.ways)
+        and not problem_of(serial_address(scheme, "/port"))
+    }
+
+
+def serial_address(scheme: str, path: str) -> str:
     """Return the address of a sensor at a serial port."""
-    return f"{protocol}+serial://{path}"
+    return f"{scheme}+serial://{path}"
 
 
 def replay_address(file: Path) -> str:

@@ -9,7 +9,6 @@ from contactbench.app.trouble_watch import TroubleWatch
 from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
-from contactbench.pipeline.devices.url import Protocol
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live_devices import Devices
@@ -128,7 +127,7 @@ def test_a_recording_that_is_not_there_is_told_in_words(page, bench, qtbot, tmp_
 
 def test_ports_come_and_go_while_one_is_chosen(page):
     ports = (
-        SerialPort("/dev/ttyUSB0", "Bota Systems", None, Protocol.BOTA),
+        SerialPort("/dev/ttyUSB0", "Bota Systems", None, "bota"),
         SerialPort("/dev/ttyUSB1", "FT232R", None, None),
     )
     page.sensor.set_ports(ports)
@@ -136,7 +135,7 @@ def test_ports_come_and_go_while_one_is_chosen(page):
     assert page.sensor.kind.currentText() == "BOTA sensor at /dev/ttyUSB0"
     assert page.devices().sensor == "bota+serial:///dev/ttyUSB0"
     page.sensor.kind.setCurrentIndex(1)
-    page.sensor.protocol.setCurrentIndex(page.sensor.protocol.findData(Protocol.ROBOTIQ))
+    page.sensor.protocol.setCurrentIndex(page.sensor.protocol.findData("robotiq"))
     assert page.devices().sensor == "robotiq+serial:///dev/ttyUSB1"
     page.sensor.set_ports(ports[:1])
     assert "not plugged in" in page.sensor.kind.currentText()
@@ -146,7 +145,7 @@ def test_ports_come_and_go_while_one_is_chosen(page):
 
 
 def test_ports_are_looked_for_beside_the_window(page, qtbot, monkeypatch):
-    found = [SerialPort("/dev/ttyACM7", "SRI M8128", None, Protocol.SRI)]
+    found = [SerialPort("/dev/ttyACM7", "SRI M8128", None, "sri")]
     monkeypatch.setattr("contactbench.app.pages.devices.list_ports", lambda: found)
     page.enter()
     tick_until(qtbot, page, lambda: page.sensor.kind.findText("SRI sensor at /dev/ttyACM7") >= 0)

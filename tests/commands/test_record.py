@@ -498,3 +498,14 @@ def test_lines_that_wait_at_the_end_are_said(tmp_path, monkeypatch):
         assert result.exit_code == 0, result.stderr
     assert len(ends) == 1
     assert ends[0] <= before  # after the streams
+
+
+def test_devices_are_listed_with_their_options():
+    result = invoke("record", "devices", "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert found["left_out"] == []
+    rdt = next(each for each in found["devices"] if each["scheme"] == "rdt")
+    assert rdt["carriers"] == ["udp"]
+    assert rdt["options"].keys() == {"profile", "cpf", "cpt"}
+    assert "profile: Maker of the box" in invoke("record", "devices").stderr

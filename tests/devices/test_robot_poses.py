@@ -69,7 +69,7 @@ TOOL = (0.01, -0.02, 0.2, 0.0, 0.0, 1.5707963)
 def test_a_turned_tool_of_a_ur_does_not_turn_its_flange():
     heard = Heard()
     with (
-        emulator("ur", signal=constant(JOINTS), tool=TOOL) as device,
+        emulator("ur", signal=constant(JOINTS), options={"tool": ",".join(map(str, TOOL))}) as device,
         poses_from(device.url, heard.take, heard.change) as stream,
     ):
         heard.until(lambda: len(heard.samples) > 5)

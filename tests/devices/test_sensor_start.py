@@ -85,7 +85,7 @@ def test_onrobot_is_told_a_rate_only_when_one_is_asked_for():
 
 def test_an_ati_sensor_is_asked_for_its_counts_where_the_address_has_none(monkeypatch):
     monkeypatch.setattr(ati_scale, "scale_for", lambda _: rdt.CountScale(4.0, 8.0))
-    record = rdt_record((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (4.0, 8.0))
+    record = rdt_record((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), rdt.CountScale(4.0, 8.0))
     heard = Heard()
     made = driver_for(DeviceAddress.parse("rdt+udp://h"))
     assert made.parser.scale == rdt.ATI_TYPICAL  # nothing is asked before the stream begins
@@ -106,7 +106,7 @@ def test_counts_that_are_assumed_are_told_as_long_as_they_are(monkeypatch):
     numbers = iter(range(1, 10**6))
 
     def says(_line, now):
-        return rdt_record((1.0, 2.0, now, 0.1, 0.2, 0.3), (1e6, 1e6), sequence=next(numbers))
+        return rdt_record((1.0, 2.0, now, 0.1, 0.2, 0.3), rdt.ATI_TYPICAL, sequence=next(numbers))
 
     with SensorStream("rdt+udp://h", heard.take, heard.change, line=Script(says)) as stream:
         heard.until(lambda: len(heard.samples) > 50)
@@ -115,7 +115,7 @@ def test_counts_that_are_assumed_are_told_as_long_as_they_are(monkeypatch):
 
 def test_too_much_load_is_not_called_a_broken_sensor():
     parser = rdt.RdtParser(rdt.ATI_TYPICAL)
-    (sample,) = parser.feed(rdt_record((1.0,) * 6, (1e6, 1e6), status=0x8000_0002), 0.0)
+    (sample,) = parser.feed(rdt_record((1.0,) * 6, rdt.ATI_TYPICAL, status=0x8000_0002), 0.0)
     assert Status.ERROR in sample.status
     made = driver_for(DeviceAddress.parse("rdt+udp://h?cpf=1&cpt=1"))
     readings = Readings(made.limits)

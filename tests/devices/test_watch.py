@@ -17,7 +17,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
 from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import Carrier, DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 
 SENSORS = [line for line in LINES if not line.robot]
@@ -31,7 +31,7 @@ ADDRESSES = {
     "rdt ati": "rdt+udp://h",
     "rdt onrobot": "rdt+udp://h?profile=onrobot&rate=100",
 }
-MODELS = {Protocol.SRI: SriModel, Protocol.BOTA: BotaModel, Protocol.ROBOTIQ: RobotiqModel}
+MODELS = {"sri": SriModel, "bota": BotaModel, "robotiq": RobotiqModel}
 
 
 class Played:
@@ -40,9 +40,7 @@ class Played:
     def __init__(self, line, script, signal=resting, seconds=5.0):
         driver = driver_for(DeviceAddress.parse(ADDRESSES[str(line)]))
         model = (
-            RdtModel(RATE, profile=line.profile)
-            if line.protocol is Protocol.RDT
-            else MODELS[line.protocol](RATE)
+            RdtModel(RATE, profile=line.profile) if line.protocol == "rdt" else MODELS[line.protocol](RATE)
         )
         self.parser = driver.parser
         self.watch = Watch(driver.rate, rate_known=driver.rate_known, limits=driver.limits)

@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactbench.pipeline.devices.url import DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.pipeline.workbench.live_devices import Devices
@@ -11,7 +11,7 @@ from contactbench.pipeline.workbench.live_devices import Devices
 
 def test_addresses_read_back():
     assert DeviceAddress.parse(devices.virtual_address("linear")).bench.probe == "linear"
-    assert DeviceAddress.parse(devices.serial_address(Protocol.BOTA, "/dev/ttyUSB3")).path == "/dev/ttyUSB3"
+    assert DeviceAddress.parse(devices.serial_address("bota", "/dev/ttyUSB3")).path == "/dev/ttyUSB3"
     for name in ("/data/a b.mcap", "/data/50%?#ä.mcap"):
         assert DeviceAddress.parse(devices.replay_address(Path(name))).path == name
         assert DeviceAddress.parse(devices.poses_address(Path(name))).path == name

@@ -111,10 +111,10 @@ def scale_for(address: DeviceAddress, port: int = 80) -> CountScale:
     PageError, ScaleError
         As `read_scale`.
     """
-    force, torque = address.counts_per_newton, address.counts_per_newton_metre
+    force, torque = address.options["cpf"], address.options["cpt"]
     if force is not None and torque is not None:
         return CountScale(force, torque)
-    if address.profile == "onrobot":
+    if address.options["profile"] == "onrobot":
         return CountScale(force or ONROBOT_SCALE.per_newton, torque or ONROBOT_SCALE.per_newton_metre)
     told = read_scale(address.host, port)
     return CountScale(force or told.counts_per_newton, torque or told.counts_per_newton_metre)

@@ -14,6 +14,7 @@ import re
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
@@ -148,20 +149,6 @@ def _status(bits: int) -> Status:
     return status | Status.ERROR if bits & ~_KNOWN_BITS else status
 
 
-def driver(address: DeviceAddress) -> SensorDriver:
-    """
-    Return the driver of the sensor at an address.
-
-    Raises
-    ------
-    ProtocolError
-        The rate does not fit the device or its line.
-    """
-    rate = address.rate or ASSUMED_RATE_HZ
-    start = start_commands(rate, baud=address.baud or DEFAULT_BAUD)
-    return SensorDriver(BotaParser(rate), start, stop_commands(), rate)
-
-
 # ---- emulated: a SensONE or Rokubi ---------------------------------------------------------------
 
 _TRAP = struct.unpack("<f", b"\xaa\x00\x00\xaa")[0]
@@ -242,3 +229,19 @@ class BotaModel(Model):
         if fields[0] == b"c":
             return fields[3:] == [b"0", _BAUD_CODE]
         return fields[0] == b"R" or int(fields[1]) > 0
+
+
+class BotaDriver(Driver):
+    """A SensONE, Rokubi or MiniONE."""
+
+    scheme, title = "bota", "Bota"
+    ways = (Way(Carrier.SERIAL, baud=DEFAULT_BAUD, frame=FRAME_BYTES),)
+    rate = 200.0
+    emulated = BotaModel
+    usb_words = ("bota", "rokubi", "sensone", "minione")
+
+    def sensor(self, address: DeviceAddress) -> SensorDriver:
+        """As `Driver`."""
+        rate = address.rate or ASSUMED_RATE_HZ
+        start = start_commands(rate, baud=address.baud or DEFAULT_BAUD)
+        return SensorDriver(BotaParser(rate), start, stop_commands(), rate)

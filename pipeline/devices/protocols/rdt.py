@@ -12,9 +12,11 @@ import math
 import struct
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.options import Option, choice, number
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
@@ -26,11 +28,10 @@ from contactbench.pipeline.devices.protocols.parser import (
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
-from contactbench.pipeline.devices.url import PROFILES
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.url import DeviceAddress
@@ -85,6 +86,8 @@ class CountScale:
 
 ATI_TYPICAL = CountScale(1e6, 1e6)
 ONROBOT_SCALE = CountScale(1e4, 1e5)
+SCALES = {"ati": ATI_TYPICAL, "onrobot": ONROBOT_SCALE}
+"""By profile. An ATI box may have others: its own configuration page says."""
 
 
 class RdtParser(SensorParser):
@@ -186,35 +189,6 @@ def _request(command: _Request, argument: int) -> Command:
     return Command(_REQUEST.pack(_MAGIC, command, argument))
 
 
-def driver(address: DeviceAddress) -> SensorDriver:
-    """
-    Return the driver of the sensor at an address.
-
-    Raises
-    ------
-    ProtocolError
-        The rate does not fit the device or its line.
-    """
-    profile = Profile.ONROBOT if address.profile == "onrobot" else Profile.ATI
-    start = start_commands(address.rate, profile=profile)
-    rate = ASSUMED_RATE_HZ if address.rate is None else possible_rate(address.rate, profile)
-    typical = ONROBOT_SCALE if profile is Profile.ONROBOT else ATI_TYPICAL
-    assumed = CountScale(
-        address.counts_per_newton or typical.per_newton,
-        address.counts_per_newton_metre or typical.per_newton_metre,
-    )
-    parser = RdtParser(assumed)
-    known = address.counts_per_newton is not None and address.counts_per_newton_metre is not None
-    return SensorDriver(
-        parser,
-        start,
-        stop_commands(),
-        rate,
-        rate_known=address.rate is not None,
-        prepare=None if known else lambda: _ask_scale(parser, address),
-    )
-
-
 def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
     """Take the sensor's own counts per newton."""
     from contactbench.pipeline.devices.protocols.ati_scale import scale_for  # it needs the counts of here
@@ -239,7 +213,7 @@ _INT32 = 2**31
 
 
 def rdt_record(
-    values: Six, scale: tuple[float, float], *, sequence: int = 1, ft_sequence: int = 1, status: int = 0
+    values: Six, scale: CountScale, *, sequence: int = 1, ft_sequence: int = 1, status: int = 0
 ) -> bytes:
     """Return one record of 36 bytes.
 
@@ -247,13 +221,13 @@ def rdt_record(
     ----------
     values : six floats
         N, N·m.
-    scale : (counts per N, counts per N·m)
+    scale : CountScale
     sequence, ft_sequence : int
         Of the record and of the sensor's clock, modulo 2**32.
     status : int
         0: no error.
     """
-    factors = (scale[0],) * 3 + (scale[1],) * 3
+    factors = (scale.per_newton,) * 3 + (scale.per_newton_metre,) * 3
     counts = [max(-_INT32, min(_INT32 - 1, round(v * k))) for v, k in zip(values, factors, strict=True)]
     return struct.pack(">3I6i", sequence % 2**32, ft_sequence % 2**32, status, *counts)
 
@@ -279,14 +253,10 @@ class RdtModel(Model):
     ) -> None:
         super().__init__(rate, quirks)
         self._left: int | None = None
-        self.speak(profile)
-
-    def speak(self, profile: str) -> None:
-        """Take a profile's counts and commands."""
-        if profile not in PROFILES:
-            raise EmulatorError(f"profile {profile!r}: choose one of {', '.join(PROFILES)}.")
-        self.scale = PROFILES[profile]
-        self._onrobot = profile == "onrobot"
+        if profile not in SCALES:
+            raise EmulatorError(f"profile {profile!r}: choose one of {', '.join(SCALES)}.")
+        self.scale = SCALES[profile]
+        self.onrobot = profile == "onrobot"
 
     def feed(self, data: bytes, silence: float = math.inf) -> list[bytes]:  # noqa: ARG002 - datagrams stay apart
         """Take one datagram; there are no answers but the records."""
@@ -298,9 +268,9 @@ class RdtModel(Model):
             self.streaming, self._left = True, count or None
         elif command == _STOP:
             self.streaming = False
-        elif self._onrobot and command == _SPEED and count:
+        elif self.onrobot and command == _SPEED and count:
             self.rate = 1000 / count
-        elif not (self._onrobot and command == _FILTER):
+        elif not (self.onrobot and command == _FILTER):
             self._refuse(data)
             return []
         self._obey(data)
@@ -325,3 +295,47 @@ class RdtModel(Model):
 
     def _step(self) -> list[bytes]:
         return []
+
+
+class RdtDriver(Driver):
+    """A box that speaks RDT."""
+
+    scheme, title = "rdt", "ATI or OnRobot (RDT)"
+    ways = (Way(Carrier.UDP, port=PORT),)
+    options: ClassVar[Mapping[str, Option]] = {
+        "profile": Option("Maker of the box: ati or onrobot.", choice(*SCALES), "ati"),
+        "cpf": Option("Counts per N; an ATI box is asked for them.", number("counts per N")),
+        "cpt": Option("Counts per N·m; an ATI box is asked for them.", number("counts per N·m")),
+    }
+    emulated = RdtModel
+
+    def complete(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Fill in the counts of an OnRobot box: an ATI sensor has counts of its own, and reports them."""
+        if values["profile"] == "onrobot":
+            usual = {"cpf": ONROBOT_SCALE.per_newton, "cpt": ONROBOT_SCALE.per_newton_metre}
+            values |= {name: scale for name, scale in usual.items() if values[name] is None}
+        return values
+
+    def sensor(self, address: DeviceAddress) -> SensorDriver:
+        """As `Driver`."""
+        profile = Profile.ONROBOT if address.options["profile"] == "onrobot" else Profile.ATI
+        start = start_commands(address.rate, profile=profile)
+        rate = ASSUMED_RATE_HZ if address.rate is None else possible_rate(address.rate, profile)
+        typical, cpf, cpt = SCALES[address.options["profile"]], address.options["cpf"], address.options["cpt"]
+        parser = RdtParser(CountScale(cpf or typical.per_newton, cpt or typical.per_newton_metre))
+        return SensorDriver(
+            parser,
+            start,
+            stop_commands(),
+            rate,
+            rate_known=address.rate is not None,
+            prepare=None if cpf and cpt else lambda: _ask_scale(parser, address),
+        )
+
+    def emulate(
+        self, rate: float | None, quirks: Iterable[Quirk | str], options: Mapping[str, Any]
+    ) -> tuple[Model, Mapping[str, Any]]:
+        """As `Driver`; the address has the counts, since there is no page to ask for them as an ATI sensor has."""
+        model = RdtModel(rate, quirks, profile=options.get("profile", "ati"))
+        counts = {"cpf": model.scale.per_newton, "cpt": model.scale.per_newton_metre}
+        return model, {"profile": "ati", **(counts if not model.onrobot else {}), **options}

@@ -1,38 +1,77 @@
-"""The protocols by their names in an address: a new one needs a line here and one in the table of addresses."""
+"""The drivers by their schemes: those of contactbench, and those of installed packages."""
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.driver import AddressError, Driver, fault_of
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from contactbench.pipeline.devices.protocols.device_model import Model
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
+    from contactbench.pipeline.devices.url import DeviceAddress
+
+GROUP = "contactbench.sensors"
+"""The group of entry points in which an installed package names its drivers."""
+
+# Imported when one is asked for: some take a third of a second.
+_BUILT_IN = {
+    name: EntryPoint(name, f"contactbench.pipeline.devices.protocols.{place}", GROUP)
+    for name, place in {
+        "sri": "sri:SriDriver",
+        "bota": "bota:BotaDriver",
+        "robotiq": "robotiq:RobotiqDriver",
+        "rdt": "rdt:RdtDriver",
+        "elfin": "elfin:ElfinDriver",
+        "ur": "ur_pose:UrDriver",
+    }.items()
+}
 
 
 @dataclass(frozen=True)
-class DeviceProtocol:
-    """What is known of one protocol."""
+class LeftOut:
+    """A plug-in that cannot be used."""
 
-    emulated: type[Model]
-    driver: Callable[[DeviceAddress], SensorDriver] | None = None  # None: a robot
-    # Words in what USB says about a port. Most boxes use a bought converter that says nothing about them.
-    usb_words: tuple[str, ...] = ()
+    scheme: str  # as its entry point says
+    why: str  # one sentence that names it
 
 
-PROTOCOLS = {
-    Protocol.SRI: DeviceProtocol(sri.SriModel, sri.driver, ("sunrise", "m8128", "m8126", "sri ")),
-    Protocol.BOTA: DeviceProtocol(bota.BotaModel, bota.driver, ("bota", "rokubi", "sensone", "minione")),
-    Protocol.ROBOTIQ: DeviceProtocol(robotiq.RobotiqModel, robotiq.driver, ("robotiq", "ft300", "ft 300")),
-    Protocol.RDT: DeviceProtocol(rdt.RdtModel, rdt.driver),
-    Protocol.ELFIN: DeviceProtocol(elfin.ElfinModel),
-    Protocol.UR: DeviceProtocol(ur_pose.UrModel),
-}
+def driver_of(scheme: str) -> Driver | None:
+    """
+    Return the driver of a scheme; None: there is none.
+
+    Raises
+    ------
+    ValueError
+        A plug-in has it, and cannot be used.
+    """
+    if scheme in _BUILT_IN:
+        return _load(_BUILT_IN[scheme])
+    usable, left_out = _plug_ins()
+    for each in left_out:
+        if each.scheme == scheme and scheme not in usable:
+            raise ValueError(each.why)
+    return usable.get(scheme)
+
+
+def drivers() -> dict[str, Driver]:
+    """Return all drivers that can be used by their schemes, those of contactbench first."""
+    return {name: _load(entry) for name, entry in _BUILT_IN.items()} | _plug_ins()[0]
+
+
+def left_out() -> tuple[LeftOut, ...]:
+    """Return the plug-ins that cannot be used."""
+    return _plug_ins()[1]
+
+
+def forget_plug_ins() -> None:
+    """Look for plug-ins anew: packages have come or gone."""
+    _plug_ins.cache_clear()
 
 
 def driver_for(address: DeviceAddress) -> SensorDriver:
@@ -44,11 +83,66 @@ def driver_for(address: DeviceAddress) -> SensorDriver:
     AddressError
         It is a robot or a recording.
     ProtocolError
-        The rate does not fit the device or its line.
+        The rate does not fit the device or its line, or a plug-in has failed.
     """
-    known = PROTOCOLS.get(address.protocol)
-    if known is None or known.driver is None:
+    known = driver_of(address.protocol)
+    if known is None:
         raise AddressError(
             f"address {str(address)!r}: not a force/torque sensor. Give the address of a sensor."
         )
-    return known.driver(address)
+    try:
+        return known.sensor(address)
+    except InputError:
+        raise
+    except Exception as error:
+        raise ProtocolError(
+            f"address {str(address)!r}: the driver of {known.title} failed: {error!r}. Update the"
+            " package that it comes from."
+        ) from error
+
+
+@cache
+def _load(entry: EntryPoint) -> Driver:
+    made: Driver = entry.load()()
+    return made
+
+
+@cache
+def _plug_ins() -> tuple[dict[str, Driver], tuple[LeftOut, ...]]:
+    usable: dict[str, Driver] = {}
+    wrong: list[LeftOut] = []
+    found = sorted(entry_points(group=GROUP), key=lambda entry: (entry.name, entry.value))
+    often = Counter(entry.name for entry in found)
+    for entry in found:
+        why = ""
+        if entry.name in _BUILT_IN:
+            why = "contactbench has a driver of that scheme itself"
+        elif often[entry.name] > 1:
+            why = "another plug-in has the same scheme"
+        else:
+            try:
+                made = _load(entry)
+                why = fault_of(made) or _misnamed(entry, made)
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a foreign module does
+                why = f"it cannot be imported: {error!r}"
+        if why:
+            wrong.append(LeftOut(entry.name, _sentence(entry, why)))
+        else:
+            usable[entry.name] = made
+    return usable, tuple(wrong)
+
+
+def _misnamed(entry: EntryPoint, made: Driver) -> str:
+    return (
+        ""
+        if made.scheme == entry.name
+        else f"its entry point is named otherwise than its scheme {made.scheme!r}"
+    )
+
+
+def _sentence(entry: EntryPoint, why: str) -> str:
+    package = entry.dist.name if entry.dist is not None else "an installed package"
+    return (
+        f"the plug-in {entry.name} ({entry.value}) of {package} is left out: {why}: repair or"
+        " uninstall that package"
+    )

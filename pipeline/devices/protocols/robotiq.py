@@ -13,6 +13,7 @@ import math
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
@@ -78,19 +79,6 @@ def stop_commands() -> tuple[Command, ...]:
 
 def _intact(frame: bytes) -> bool:
     return crc16_modbus(frame[:-2]) == int.from_bytes(frame[-2:], "little")
-
-
-def driver(address: DeviceAddress) -> SensorDriver:
-    """
-    Return the driver of the sensor at an address.
-
-    Raises
-    ------
-    ProtocolError
-        The rate does not fit the device or its line.
-    """
-    rate = address.rate or RATE
-    return SensorDriver(RobotiqParser(), start_commands(rate), stop_commands(), rate, limits=_LIMITS)
 
 
 # ---- emulated: an FT 300 -------------------------------------------------------------------------
@@ -195,3 +183,18 @@ class RobotiqModel(Model):
             return [_with_crc(bytes([_SLAVE, _READ, 2 * count]) + bytes(2 * count))]
         self._refuse(request)
         return [_with_crc(bytes([_SLAVE, body[1] | 0x80, 1]))]
+
+
+class RobotiqDriver(Driver):
+    """An FT 300 or FT 300-S."""
+
+    scheme, title = "robotiq", "Robotiq FT 300"
+    ways = (Way(Carrier.SERIAL, baud=19_200, frame=FRAME_BYTES),)
+    rate = RATE
+    emulated = RobotiqModel
+    usb_words = ("robotiq", "ft300", "ft 300")
+
+    def sensor(self, address: DeviceAddress) -> SensorDriver:
+        """As `Driver`."""
+        rate = address.rate or RATE
+        return SensorDriver(RobotiqParser(), start_commands(rate), stop_commands(), rate, limits=_LIMITS)

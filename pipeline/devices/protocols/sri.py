@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, ClassVar
 
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
@@ -236,21 +237,6 @@ def _check_for(layout: Layout) -> Callable[[bytes], bool]:
     return sum_fits if layout.trailer is Trailer.SUM else crc_fits
 
 
-def driver(address: DeviceAddress) -> SensorDriver:
-    """
-    Return the driver of the sensor at an address.
-
-    Raises
-    ------
-    ProtocolError
-        The rate does not fit the device or its line.
-    """
-    rate = address.rate or ASSUMED_RATE_HZ
-    start = start_commands(rate, baud=address.baud)
-    parser = SriParser(either_trailer=True)
-    return SensorDriver(parser, start, stop_commands(), rate, troubles=lambda: _troubles(parser))
-
-
 def _troubles(parser: SriParser) -> dict[str, str]:
     if parser.trailer is Trailer.SUM:
         return {}
@@ -367,3 +353,20 @@ class SriModel(Model):
 
 def _acknowledged(name: bytes, value: bytes) -> bytes:
     return b"ACK+" + name + b"=" + value + b"$OK\r\n"
+
+
+class SriDriver(Driver):
+    """An M8128 or M8126 box."""
+
+    scheme, title = "sri", "SRI"
+    ways = (Way(Carrier.SERIAL, baud=115_200, frame=Layout().frame_bytes), Way(Carrier.TCP, port=4008))
+    rate = 200.0
+    emulated = SriModel
+    usb_words = ("sunrise", "m8128", "m8126", "sri ")
+
+    def sensor(self, address: DeviceAddress) -> SensorDriver:
+        """As `Driver`."""
+        rate = address.rate or ASSUMED_RATE_HZ
+        start = start_commands(rate, baud=address.baud)
+        parser = SriParser(either_trailer=True)
+        return SensorDriver(parser, start, stop_commands(), rate, troubles=lambda: _troubles(parser))

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import struct
 from enum import Enum
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.options import Option, numbers
 from contactbench.pipeline.devices.protocols import ur_rtde
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.commands import check_rate
@@ -30,10 +32,14 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
+    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 CLOCK, JOINTS, POSE, TOOL = "timestamp", "actual_q", "actual_TCP_pose", "tcp_offset"
 _ABSURD = 1e3  # m or rad
+_MOST_TOOL = 10.0  # m or rad
 VARIABLES = (CLOCK, JOINTS, POSE)
 # The pose is that of the tool frame which is active on the pendant; older controllers do not tell which.
 _WITH_TOOL = (*VARIABLES, TOOL)
@@ -266,17 +272,13 @@ class UrModel(Model):
         self, rate: float | None = None, quirks: Iterable[Quirk | str] = (), *, tool: Six = (0.0,) * 6
     ) -> None:
         super().__init__(rate, quirks)
-        self.set_tool(tool)
-        self._agreed = False
-        self._recipe: tuple[str, ...] = ()
-        self._known = {name for name in _TYPES if name != "tcp_offset" or Quirk.OLDER not in self.quirks}
-
-    def set_tool(self, tool: Six) -> None:
-        """Have an active tool frame."""
         if len(tool) != 6 or not all(map(math.isfinite, tool)):
             raise EmulatorError(f"tool {tool}: give six finite numbers, m and rad.")
         self._tool = tool
         self._R_ET = Rotation.from_rotvec(tool[3:]).as_matrix()
+        self._agreed = False
+        self._recipe: tuple[str, ...] = ()
+        self._known = {name for name in _TYPES if name != "tcp_offset" or Quirk.OLDER not in self.quirks}
 
     def restart(self) -> None:
         """Come up again, without a recipe."""
@@ -354,3 +356,32 @@ class UrModel(Model):
 def _vector(R_BE: NDArray[np.float64]) -> list[float]:
     values: list[float] = Rotation.from_matrix(R_BE).as_rotvec().tolist()
     return values
+
+
+class UrDriver(Driver):
+    """A UR's controller."""
+
+    scheme, title = "ur", "Universal Robots"
+    ways = (Way(Carrier.TCP, port=ur_rtde.PORT),)
+    rate = 125.0
+    options: ClassVar[Mapping[str, Option]] = {
+        "tool": Option(
+            "Tool frame as on the pendant, x,y,z,rx,ry,rz in m and rad, for controllers that do not report it.",
+            numbers(6, 6, _MOST_TOOL),
+        )
+    }
+    emulated = UrModel
+
+    def poses(
+        self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
+    ) -> ReconnectingStream[FlangeSample]:
+        """As `Driver`."""
+        from contactbench.pipeline.devices.robot_poses import UrPoses  # it needs what is here
+
+        return UrPoses(address, on_samples, on_change, tool=address.options["tool"])
+
+    def emulate(
+        self, rate: float | None, quirks: Iterable[Quirk | str], options: Mapping[str, Any]
+    ) -> tuple[Model, Mapping[str, Any]]:
+        """As `Driver`; a tool is not in the address: the controller reports it, unless it is an older one."""
+        return UrModel(rate, quirks, tool=options.get("tool", (0.0,) * 6)), {}

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
-
-if TYPE_CHECKING:
-    from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.devices.protocols.registry import drivers
 
 
 @dataclass(frozen=True)
@@ -18,7 +14,7 @@ class SerialPort:
     path: str  # as an address has it
     description: str  # what the system says about it
     serial_number: str | None  # of the USB converter
-    guess: Protocol | None  # None: a converter that does not say what it belongs to
+    guess: str | None  # the scheme of its driver; None: a converter that does not say what it belongs to
 
     @property
     def url(self) -> str | None:
@@ -40,9 +36,9 @@ def list_ports() -> list[SerialPort]:
     return sorted(ports, key=lambda port: (port.guess is None, port.path))
 
 
-def guess_device(description: str) -> Protocol | None:
-    """Guess from what USB says of a port which protocol its device speaks; None: it does not say."""
+def guess_device(description: str) -> str | None:
+    """Guess from what USB says of a port the scheme of its device; None: it does not say."""
     text = f"{description.lower()} "
     return next(
-        (name for name, known in PROTOCOLS.items() if any(word in text for word in known.usb_words)), None
+        (name for name, known in drivers().items() if any(word in text for word in known.usb_words)), None
     )

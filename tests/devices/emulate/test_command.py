@@ -23,7 +23,7 @@ def test_the_first_line_is_the_address():
     assert ended.exit_code == 0
     assert DeviceAddress.parse(ended.stdout.splitlines()[0]).baud == 115_200
     ended = runner.invoke(app, ["bench", "emulate", "rdt", "--port", "0", "--seconds", "0.05", "--json"])
-    assert DeviceAddress.parse(json.loads(ended.stdout)["url"]).profile == "ati"
+    assert DeviceAddress.parse(json.loads(ended.stdout)["url"]).options["profile"] == "ati"
     assert "0 commands refused" in ended.stderr
 
 
@@ -38,9 +38,9 @@ def test_wrong_devices_and_faults_are_refused():
 
 
 def test_wrong_tools_are_refused():
-    assert runner.invoke(app, ["bench", "emulate", "ur", "--tool", "0,0,0"]).exit_code == 2
-    assert "error:" in runner.invoke(app, ["bench", "emulate", "sri", "--tool", "0,0,0,0,0,0"]).stderr
-    arguments = ["ur", "--tool", "0,0,0.1,0,0,1", "--quirk", "older", "--seconds", "0.05"]
+    assert runner.invoke(app, ["bench", "emulate", "ur", "--option", "tool=0,0,0"]).exit_code == 2
+    assert "error:" in runner.invoke(app, ["bench", "emulate", "sri", "--option", "tool=0,0,0,0,0,0"]).stderr
+    arguments = ["ur", "--option", "tool=0,0,0.1,0,0,1", "--quirk", "older", "--seconds", "0.05"]
     assert runner.invoke(app, ["bench", "emulate", *arguments]).exit_code == 0
 
 

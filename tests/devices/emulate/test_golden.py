@@ -7,7 +7,7 @@ from contactbench.pipeline.devices.emulate import SYNTHETIC
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.bota import bota_frame
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25
-from contactbench.pipeline.devices.protocols.rdt import rdt_record
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, rdt_record
 from contactbench.pipeline.devices.protocols.robotiq import robotiq_frame
 from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.devices.protocols.ur_pose import rtde_packet
@@ -31,7 +31,7 @@ def test_frames_are_those_of_the_devices():
         "AA00000000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D40E201000000FC41F2F6"
     )
     assert robotiq_frame(SYNTHETIC) == bytes.fromhex("204E640038FF5E01640038FF32006365")
-    assert rdt_record(SYNTHETIC, (1e6, 1e6), sequence=1, ft_sequence=7) == bytes.fromhex(
+    assert rdt_record(SYNTHETIC, ATI_TYPICAL, sequence=1, ft_sequence=7) == bytes.fromhex(
         "000000010000000700000000000F4240FFE17B80003567E0000186A0FFFCF2C00000C350"
     )
     assert rtde_packet(b"V", b"\0\2") == bytes.fromhex("0005560002")

@@ -11,7 +11,6 @@ import pytest
 from waiting import JumpingClock, until
 
 from contactbench.pipeline.devices.emulate import (
-    EMULATED,
     SYNTHETIC,
     Emulator,
     EmulatorError,
@@ -20,6 +19,7 @@ from contactbench.pipeline.devices.emulate import (
     Script,
     Six,
     constant,
+    emulated,
     emulator,
     possible_faults,
     swinging,
@@ -248,11 +248,11 @@ def test_what_cannot_be_made_is_refused():
         emulator("elfin", script=Script([(0, Fault.DRIFT, 1)]))
     with emulator("ur") as device, pytest.raises(EmulatorError, match="choose another"):
         emulator("ur", port=int(device.url.rpartition(":")[2]))
-    with pytest.raises(EmulatorError, match="has no tool option"):
-        emulator("elfin", tool=(0.0,) * 6)
+    with pytest.raises(EmulatorError, match="unknown option 'tool'"):
+        emulator("elfin", options={"tool": "0,0,0,0,0,0"})
     with pytest.raises(EmulatorError, match="Choose from: none"):
         emulator("bota", quirks=["older"])
-    assert len(EMULATED) == 6
+    assert len(emulated()) == 6
 
 
 def opened(device: Emulator) -> Line:

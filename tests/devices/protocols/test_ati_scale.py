@@ -206,13 +206,13 @@ class TestScaleFor:
     def test_onrobot_is_fixed_and_not_asked(self):
         address = DeviceAddress.parse("rdt+udp://127.0.0.1?profile=onrobot&cpf=5")
         assert scale_for(address, 1) == CountScale(5.0, 1e5)
-        bare = replace(address, counts_per_newton=None, counts_per_newton_metre=None)
+        bare = replace(address, options={**address.options, "cpf": None, "cpt": None})
         assert scale_for(bare, 1) == CountScale(1e4, 1e5)
 
     def test_what_is_left_out_is_asked_for(self):
-        address = replace(
-            DeviceAddress.parse("rdt+udp://127.0.0.1"), counts_per_newton=None, counts_per_newton_metre=None
-        )
+        address = DeviceAddress.parse("rdt+udp://127.0.0.1")
         with sensor(page("kN", "N-mm", "2000000", "3000")) as (port, _):
             assert scale_for(address, port) == CountScale(2000.0, 3e6)
-            assert scale_for(replace(address, counts_per_newton=7.0), port) == CountScale(7.0, 3e6)
+            assert scale_for(replace(address, options={**address.options, "cpf": 7.0}), port) == CountScale(
+                7.0, 3e6
+            )

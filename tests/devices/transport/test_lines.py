@@ -26,7 +26,7 @@ from contactbench.pipeline.devices.transport import (
     line_to,
     list_ports,
 )
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 
 
 @dataclass
@@ -190,9 +190,9 @@ def test_an_address_leads_to_its_line():
 
 
 def test_ports_are_guessed_from_what_they_say(monkeypatch):
-    assert guess_device("Bota Systems SensONE") is Protocol.BOTA
-    assert guess_device("ROBOTIQ FT300 Sensor") is Protocol.ROBOTIQ
-    assert guess_device("Sunrise Instruments M8128") is Protocol.SRI
+    assert guess_device("Bota Systems SensONE") == "bota"
+    assert guess_device("ROBOTIQ FT300 Sensor") == "robotiq"
+    assert guess_device("Sunrise Instruments M8128") == "sri"
     assert guess_device("FT232R USB UART") is None
 
     class Found:
@@ -207,7 +207,7 @@ def test_ports_are_guessed_from_what_they_say(monkeypatch):
     first, second = list_ports()
     assert (first.path, first.guess, first.url) == (
         "/dev/ttyUSB1",
-        Protocol.ROBOTIQ,
+        "robotiq",
         "robotiq+serial:///dev/ttyUSB1",
     )
     assert (second.description, second.url) == ("no description", None)

@@ -302,11 +302,12 @@ def emulate(
             rate=rate,
             script=script,
             seed=seed,
-            signal=None if still else swinging(device),
             quirks=quirk or (),
             options=_options(option or []),
             log=0,
         )
+        if not still:
+            made.measure(swinging(made.model))
         with made:
             _emulate(made, ended, seconds)
     taken, refused = made.counts, made.model.refused_count

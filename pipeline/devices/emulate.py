@@ -404,9 +404,9 @@ def socket_of(scheme: str) -> Carrier:
     return next((way.carrier for way in _driver(scheme).ways if way.port is not None), Carrier.TCP)
 
 
-def swinging(scheme: str) -> Signal:
+def swinging(scheme: str | Model) -> Signal:
     """Return a signal to look at: a slow sine of each channel about the constant one."""
-    model = _model(scheme)
+    model = _model(scheme) if isinstance(scheme, str) else scheme
     return sine(model.swing, model.swing_hz, model.rest)
 
 

@@ -12,6 +12,7 @@ from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
 from contactbench.pipeline.devices.protocols.elfin import REQUEST, ElfinError, ReplyReader, read_position
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
+from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder
+    from contactbench.pipeline.devices.protocols.parser import Parser
     from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.robot import Robot
 
@@ -219,6 +221,56 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
                 " network and controller, or choose a lower rate."
             )
         return found
+
+
+class ParsedPoses(ReconnectingStream[FlangeSample]):
+    """
+    A robot that sends its flange by itself, once it was told to.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+    parser : Parser
+        Of its poses.
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    start, stop : bytes
+        What to send first and last; empty: nothing.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        parser: Parser[FlangeSample],
+        on_samples: OnFlanges,
+        on_change: OnChange = None,
+        *,
+        start: bytes = b"",
+        stop: bytes = b"",
+        line: Line | None = None,
+    ) -> None:
+        self._parser, self._start, self._stop = parser, start, stop
+        self._clock = SampleClock(address.rate)
+        watch = Watch(address.rate or ASSUMED_RATE_HZ, rate_known=address.rate is not None)
+        super().__init__(address, line or line_to(address), watch, on_samples, on_change)
+
+    def _begin(self) -> None:
+        if self._start:
+            self._line.write(self._start)
+
+    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
+        return self._clock.stamp(self._parser.feed(data, arrived))
+
+    def _end(self) -> None:
+        if self._stop:
+            self._line.write(self._stop)
+
+    def _reset(self) -> None:
+        self._parser.reset()
+        self._clock.forget()
+
+    def _counters(self) -> Counters:
+        return self._parser.counters
 
 
 def poses_from(

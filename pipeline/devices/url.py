@@ -256,7 +256,7 @@ class DeviceAddress:
         driver = self._driver
         if driver is not None:
             given |= _written(driver, self.options)
-        query = urlencode(given, safe=",/")
+        query = urlencode(given, safe=",/:")
         scheme = self.protocol if driver is None else f"{self.protocol}+{self.carrier}"
         return f"{scheme}://{where}" + (f"?{query}" if query else "")
 
@@ -294,7 +294,7 @@ def read_options(driver: Driver, key: str, text: str) -> Any:
 
 def options_query(driver: Driver, options: Mapping[str, Any]) -> str:
     """Return a driver's own options as the end of an address; empty: there are none."""
-    query = urlencode(_written(driver, options), safe=",/")
+    query = urlencode(_written(driver, options), safe=",/:")
     return f"?{query}" if query else ""
 
 

@@ -47,10 +47,10 @@ class FaultLine:
 
     protocol: str
     carrier: Carrier
-    profile: str = ""
+    options: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
-        return f"{self.protocol} {self.profile or self.carrier}"
+        return f"{self.protocol} {dict(self.options).get('profile', self.carrier)}"
 
     @property
     def robot(self) -> bool:
@@ -58,13 +58,18 @@ class FaultLine:
         return self.protocol in ("elfin", "ur")
 
 
+_FIELDS = (("fields", "n,t,fx,fy,fz,mx,my,mz,status"),)
 LINES = (
     FaultLine("sri", Carrier.SERIAL),
     FaultLine("sri", Carrier.TCP),
     FaultLine("bota", Carrier.SERIAL),
     FaultLine("robotiq", Carrier.SERIAL),
-    FaultLine("rdt", Carrier.UDP, "ati"),
-    FaultLine("rdt", Carrier.UDP, "onrobot"),
+    FaultLine("rdt", Carrier.UDP, (("profile", "ati"),)),
+    FaultLine("rdt", Carrier.UDP, (("profile", "onrobot"),)),
+    FaultLine("kunwei", Carrier.SERIAL),
+    FaultLine("robotous", Carrier.SERIAL),
+    FaultLine("line", Carrier.UDP, _FIELDS),
+    FaultLine("line", Carrier.TCP, _FIELDS),
     FaultLine("elfin", Carrier.TCP),
     FaultLine("ur", Carrier.TCP),
 )
@@ -132,7 +137,7 @@ def run_case(line: FaultLine, fault: Fault, *, seed: int = 0) -> Outcome:
         signal=swinging(line.protocol) if line.robot else resting,
         script=script,
         seed=seed,
-        options={"profile": line.profile} if line.profile else None,
+        options=dict(line.options),
     )
     with made as device, _stream(line, device.url, heard) as stream:
         heard.wait(lambda: bool(device.log) and time.monotonic() > _origin(device) + script.events[-1].stop)
@@ -200,12 +205,9 @@ def _visible(script: Script) -> float:
 def _stream(line: FaultLine, url: str, heard: _Heard) -> SensorStream | ElfinPoses | UrPoses:
     if line.robot:
         return poses_from(f"{url}?rate={_ROBOT_RATE:g}", heard.take, heard.change)
-    if line.protocol == "rdt":
-        # An ATI sensor's rate is its own: no rate is given, so the stream has to learn it.
-        return SensorStream(
-            url if line.profile == "ati" else f"{url}&rate={_RATE:g}", heard.take, heard.change
-        )
-    option = "" if line.protocol == "robotiq" else f"?rate={_RATE:g}"
+    # An ATI sensor's rate is its own: no rate is given, so the stream has to learn it.
+    own = line.protocol == "robotiq" or ("profile", "ati") in line.options
+    option = "" if own else f"{'&' if '?' in url else '?'}rate={_RATE:g}"
     return SensorStream(url + option, heard.take, heard.change)
 
 

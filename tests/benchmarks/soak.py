@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.devices.protocols import bota, robotiq
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.protocols import bota, kunwei, robotiq, robotous
 from contactbench.pipeline.devices.protocols.bota import BotaParser
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 from contactbench.pipeline.devices.protocols.elfin import (
@@ -18,10 +19,15 @@ from contactbench.pipeline.devices.protocols.elfin import (
     ReplyReader,
     read_position,
 )
+from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
+from contactbench.pipeline.devices.protocols.line import LineWrenches
+from contactbench.pipeline.devices.protocols.line_layout import OPTIONS, Layout
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTES, RdtParser
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
-from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
+from contactbench.pipeline.devices.protocols.robotous import RobotousParser
+from contactbench.pipeline.devices.protocols.sri import Layout as SriLayout
+from contactbench.pipeline.devices.protocols.sri import SriParser, Trailer
 from contactbench.pipeline.devices.protocols.ur_pose import UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     Packet,
@@ -30,6 +36,7 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     RtdeError,
     packet,
 )
+from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
 
@@ -41,7 +48,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.protocols.parser import SensorParser
     from contactbench.pipeline.devices.sample import WrenchSample
 
-_LAYOUTS = {Trailer.SUM: Layout(Trailer.SUM), Trailer.CRC32: Layout(Trailer.CRC32)}
+_LAYOUTS = {Trailer.SUM: SriLayout(Trailer.SUM), Trailer.CRC32: SriLayout(Trailer.CRC32)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +63,7 @@ class Subject:
     payload_bytes: int
     # A false frame begins at one place in 2 to this power of random bytes; None without a checksum
     false_bits: int | None
+    lines: bool = False  # frames are lines of text: of any length, as long as they make sense
 
 
 def _sri(number: int, payload: bytes, trailer: Trailer) -> bytes:
@@ -87,6 +95,32 @@ def _rdt(number: int, payload: bytes) -> bytes:
     return struct.pack(">3I", number & 0xFFFFFFFF, number & 0xFFFFFFFF, 0) + payload
 
 
+def _kunwei(number: int, payload: bytes) -> bytes:  # noqa: ARG001 (the protocol has no number)
+    return b"\x48\xaa" + payload + b"\x0d\x0a"
+
+
+def _robotous(number: int, payload: bytes) -> bytes:  # noqa: ARG001 (the protocol has no number)
+    field = b"\x0b" + payload[:12] + bytes(3)
+    return b"\x55" + field + bytes([sum8(field)]) + b"\xaa"
+
+
+def _hundredths(payload: bytes) -> list[str]:
+    return [f"{value / 100:8.2f}" for value in struct.unpack("<6h", payload[:12])]
+
+
+def _columns(number: int, payload: bytes) -> bytes:
+    return f"{number:10d},{','.join(_hundredths(payload))}\n".encode()
+
+
+def _json(number: int, payload: bytes) -> bytes:
+    return f'{{"n":{number:10d},"f":[{",".join(_hundredths(payload))}]}}\n'.encode()
+
+
+def _line(fields: str) -> LineWrenches:
+    options = {**dict.fromkeys(OPTIONS), "fields": OPTIONS["fields"].read(fields)}
+    return LineWrenches(Layout.of(options), datagrams=False)
+
+
 SUBJECTS = {
     "sri": Subject(SriParser, _sri_sum, frame_bytes=31, payload_at=6, payload_bytes=24, false_bits=40),
     "sri-crc32": Subject(
@@ -107,6 +141,40 @@ SUBJECTS = {
         payload_at=2,
         payload_bytes=12,
         false_bits=32,
+    ),
+    "kunwei": Subject(
+        KunweiParser,
+        _kunwei,
+        frame_bytes=kunwei.FRAME_BYTES,
+        payload_at=2,
+        payload_bytes=24,
+        false_bits=32,
+    ),
+    "robotous": Subject(
+        RobotousParser,
+        _robotous,
+        frame_bytes=robotous.FRAME_BYTES,
+        payload_at=2,
+        payload_bytes=12,
+        false_bits=32,
+    ),
+    "line": Subject(
+        lambda: _line("n,fx,fy,fz,mx,my,mz"),
+        _columns,
+        frame_bytes=65,
+        payload_at=11,
+        payload_bytes=53,
+        false_bits=64,
+        lines=True,
+    ),
+    "line-json": Subject(
+        lambda: _line("n:n,fx:f.0,fy:f.1,fz:f.2,mx:f.3,my:f.4,mz:f.5"),
+        _json,
+        frame_bytes=77,
+        payload_at=21,
+        payload_bytes=53,
+        false_bits=64,
+        lines=True,
     ),
     "rdt": Subject(
         lambda: RdtParser(ATI_TYPICAL),
@@ -152,6 +220,8 @@ _LONGEST_CHUNK = 300
 _BLOCK = 1 << 16
 _PAUSE = 1e-3
 _RECOVERED = 0.95
+_HOUR_S, _RATE_HZ, _AT_ONCE = 3600, 1000.0, 10
+_MOST_OF_AN_HOUR_S = 360.0  # a tenth of one core
 _SIGMAS = 5.0  # how far above the chance expected false frames may be
 
 
@@ -191,7 +261,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> StudyReport:
-    """Feed each parser random bytes, and a stream with one byte in a hundred damaged."""
+    """Feed each parser random bytes, a stream with one byte in a hundred damaged, and one as it should be."""
     if count < 1 or frames < 1:
         raise InputError("give numbers of bytes and frames above 0.")
     figures = []
@@ -204,6 +274,10 @@ def run(
             Figure(protocol, "false frames in random bytes", chance.false_frames, most=most),
             Figure(protocol, "speed", chance.bytes_fed / max(chance.seconds, 1e-9) / 1e6, "MB/s"),
         ]
+        if protocol in SUBJECTS:
+            progress(f"{protocol}: {frames:,} frames at 1 kHz")
+            hour = _HOUR_S * _RATE_HZ / frames * pace(protocol, frames, seed)
+            figures.append(Figure(protocol, "time for an hour at 1 kHz", hour, "s", most=_MOST_OF_AN_HOUR_S))
         if expected is None:
             continue
         progress(f"{protocol}: {frames:,} frames, 1 % of the bytes damaged")
@@ -246,6 +320,25 @@ def damage(protocol: str, frames: int, seed: int, *, share: float = 0.01) -> Dam
     )
 
 
+def pace(protocol: str, frames: int, seed: int) -> float:
+    """Return the time for parsing, timing and watching frames that come ten at a time, 1000 a second; s."""
+    subject = SUBJECTS[protocol]
+    stream = _stream(subject, frames, np.random.default_rng(seed))
+    parser, clock, watch = subject.parser(), SampleClock(_RATE_HZ), Watch(_RATE_HZ)
+    started = perf_counter()
+    for first in range(0, frames, _AT_ONCE):
+        now = (first + _AT_ONCE) / _RATE_HZ
+        batch = stream[first : first + _AT_ONCE]
+        chunks = [row.tobytes() for row in batch] if protocol == "rdt" else [batch.tobytes()]
+        samples = [sample for chunk in chunks for sample in parser.feed(chunk, now)]
+        watch.see(clock.stamp(samples))
+        watch.count(now, parser.counters, batch.size)
+    seconds = perf_counter() - started
+    if watch.samples < frames - 1:  # the first line of text is not believed
+        raise SoakError(f"{watch.samples} of {frames} frames came out")
+    return seconds
+
+
 class _Watch:
     """A sensor parser, watched."""
 
@@ -265,6 +358,8 @@ class _Watch:
         self.seconds += perf_counter() - started
         self._fed += len(chunk)
         counters, pending = self._parser.counters, self._parser.pending
+        if self._subject.lines:
+            return samples
         if pending >= self._subject.frame_bytes:
             raise SoakError(f"{pending} bytes wait for a frame of {self._subject.frame_bytes}")
         known = counters.frames * self._subject.frame_bytes + counters.skipped_bytes + pending
@@ -355,6 +450,14 @@ def _payload(subject: Subject, sample: WrenchSample) -> bytes:
     if subject is SUBJECTS["robotiq"]:
         scaled = [round(n * scale) for n, scale in zip(numbers, [100.0] * 3 + [1000.0] * 3, strict=True)]
         return struct.pack("<6h", *scaled)
+    if subject is SUBJECTS["robotous"]:
+        return struct.pack(
+            ">6h", *(round(n * k) for n, k in zip(numbers, [50.0] * 3 + [2000.0] * 3, strict=True))
+        )
+    if subject is SUBJECTS["kunwei"]:
+        return struct.pack("<6f", *(n / 9.80665 for n in numbers))
+    if subject.lines:
+        return ",".join(f"{n:8.2f}" for n in numbers).encode()
     if subject is SUBJECTS["rdt"]:
         return struct.pack(">6i", *(round(n * 1e6) for n in numbers))
     return struct.pack("<6f", *numbers)

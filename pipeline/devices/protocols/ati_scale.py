@@ -15,6 +15,7 @@ from xml.parsers import expat
 
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 from contactbench.pipeline.devices.protocols.rdt import ONROBOT_SCALE, CountScale
+from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
 
 if TYPE_CHECKING:
@@ -31,33 +32,6 @@ _PRODUCT, _PER_FORCE, _PER_TORQUE, _FORCE_UNIT, _TORQUE_UNIT = _NAMES = (
 _NUMBER = re.compile(r"[0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][+-]?[0-9]{1,2})?")
 _FEWEST, _MOST = 1e-3, 1e12  # counts per unit that any sensor could have
 _LONGEST = 80  # characters of a name or number that are looked at
-
-_POUND = 0.45359237 * 9.80665  # lbf in N; both factors are exact by definition
-_INCH = 0.0254
-# Written with and without hyphens, and kg for kgf, by different firmware.
-_NEWTONS = {
-    "n": 1.0,
-    "kn": 1e3,
-    "lbf": _POUND,
-    "lb": _POUND,
-    "klbf": 1e3 * _POUND,
-    "klb": 1e3 * _POUND,
-    "kgf": 9.80665,
-    "kg": 9.80665,
-    "gf": 9.80665e-3,
-    "g": 9.80665e-3,
-}
-_NEWTON_METRES = {
-    "nm": 1.0,
-    "nmm": 1e-3,
-    "knm": 1e3,
-    "lbfin": _POUND * _INCH,
-    "lbin": _POUND * _INCH,
-    "lbfft": 12 * _POUND * _INCH,
-    "lbft": 12 * _POUND * _INCH,
-    "kgfcm": 9.80665e-2,
-    "kgcm": 9.80665e-2,
-}
 
 
 class ScaleError(ProtocolError):
@@ -138,15 +112,15 @@ def parse_scale(page: bytes, where: str = "ATI sensor") -> AtiScale:
     """
     found = _texts(page, where)
     return AtiScale(
-        _counts(found, _PER_FORCE, _FORCE_UNIT, _NEWTONS, where),
-        _counts(found, _PER_TORQUE, _TORQUE_UNIT, _NEWTON_METRES, where),
+        _counts(found, _PER_FORCE, _FORCE_UNIT, FORCES, where),
+        _counts(found, _PER_TORQUE, _TORQUE_UNIT, TORQUES, where),
         "".join(character for character in found.get(_PRODUCT, "") if character.isprintable()),
     )
 
 
 def _counts(found: dict[str, str], name: str, unit_name: str, units: dict[str, float], where: str) -> float:
     number, unit = _present(found, name, where), _present(found, unit_name, where)
-    factor = units.get(re.sub(r"[ .·-]", "", unit).lower())
+    factor = unit_factor(units, unit)
     if factor is None:
         raise ScaleError(
             f"{where}: {PAGE}: {unit_name}: unknown unit {unit!r}: set the sensor to N and N-m, or"

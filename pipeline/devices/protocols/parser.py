@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.devices.protocols.commands import Command
     from contactbench.pipeline.devices.protocols.scanner import FrameScanner
-    from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 
+
+Sample = TypeVar("Sample", bound="WrenchSample | FlangeSample")
 
 ASSUMED_RATE_HZ = 100.0  # of a sensor that is asked for none; a silence is judged by it
 
@@ -47,8 +49,8 @@ class Counters:
     invalid: int = 0  # samples with a number that is not finite; they carry `Status.INVALID`
 
 
-class SensorParser(ABC):
-    """Turns the bytes of one sensor into samples."""
+class Parser(ABC, Generic[Sample]):
+    """Turns the bytes of one device into samples."""
 
     pending = 0
     """Bytes that wait for the rest of their frame; always fewer than one frame."""
@@ -59,7 +61,7 @@ class SensorParser(ABC):
         """A snapshot of what was seen so far."""
 
     @abstractmethod
-    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
+    def feed(self, data: bytes, time: float) -> list[Sample]:
         """
         Take bytes as they arrive, cut anywhere; for a datagram protocol, one whole datagram.
 
@@ -72,12 +74,16 @@ class SensorParser(ABC):
 
         Returns
         -------
-        list of WrenchSample
+        list of samples
             One per intact frame that ends in these bytes, oldest first.
         """
 
-    def reset(self) -> None:  # noqa: B027 - a datagram is whole
+    def reset(self) -> None:
         """Forget half a frame, after the line was lost. Counters and numbering go on."""
+
+
+class SensorParser(Parser["WrenchSample"]):
+    """Turns the bytes of one sensor into wrenches."""
 
 
 class FrameParser(SensorParser):

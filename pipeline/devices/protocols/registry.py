@@ -27,8 +27,11 @@ _BUILT_IN = {
         "bota": "bota:BotaDriver",
         "robotiq": "robotiq:RobotiqDriver",
         "rdt": "rdt:RdtDriver",
+        "kunwei": "kunwei:KunweiDriver",
+        "robotous": "robotous:RobotousDriver",
         "elfin": "elfin:ElfinDriver",
         "ur": "ur_pose:UrDriver",
+        "line": "line:LineDriver",
     }.items()
 }
 

@@ -26,5 +26,5 @@ def line_to(address: DeviceAddress) -> Line:
     if address.carrier is Carrier.TCP and address.port is not None:
         return TcpLine(address.host, address.port)
     if address.carrier is Carrier.UDP and address.port is not None:
-        return UdpLine(address.host, address.port)
+        return UdpLine(address.host, address.port, address.options.get("listen"))
     raise AddressError(f"address {str(address)!r} has no line: give the address of a device.")

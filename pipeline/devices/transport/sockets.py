@@ -165,12 +165,17 @@ class UdpLine(_SocketLine):
     ----------
     host : str
     port : int
+    listen : int or None
+        Port of this computer that the device sends to by itself, from any port of its own; None: it answers to where
+        it was asked from.
     """
 
     datagrams = True
 
-    def __init__(self, host: str, port: int) -> None:
+    def __init__(self, host: str, port: int, listen: int | None = None) -> None:
         super().__init__(host, port)
+        self._listen = listen
+        self._peer: Any = None
         self._turn = -1
 
     def open(self) -> None:
@@ -184,13 +189,37 @@ class UdpLine(_SocketLine):
         except OSError as error:
             raise self._unavailable(error) from error
         try:
-            opened.connect(where)
+            if self._listen is None:
+                opened.connect(where)
+            else:
+                opened.bind(("", self._listen))
         except OSError as error:
             opened.close()
             raise self._unavailable(error) from error
-        self._socket = opened
+        self._socket, self._peer = opened, where
+
+    def write(self, data: bytes) -> None:
+        """Send all of `data`; see `Line.write`."""
+        if self._listen is None:
+            super().write(data)
+            return
+        try:
+            self._opened().sendto(data, self._peer)
+        except OSError as error:
+            raise self._lost(str(error)) from error
 
     def read(self, timeout: float) -> Chunk:
         """Return one datagram; see `Line.read`."""
-        data = self._receive(timeout, _DATAGRAM)
+        data = self._receive(timeout, _DATAGRAM) if self._listen is None else self._heard(timeout)
         return Chunk(data or b"", time.monotonic())
+
+    def _heard(self, timeout: float) -> bytes | None:
+        opened = self._opened()
+        try:
+            opened.settimeout(timeout)
+            data, sender = opened.recvfrom(_DATAGRAM)
+        except _NOTHING:
+            return None
+        except OSError as error:
+            raise self._lost(str(error)) from error
+        return data if sender[0] == self._peer[0] else None

@@ -15,8 +15,10 @@ from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorErr
 from contactbench.pipeline.devices.protocols.bota import BotaModel
 from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
+from contactbench.pipeline.devices.protocols.kunwei import KunweiModel
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.robotous import RobotousModel
 from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.protocols.ur_pose import UrModel, rtde_packet
 
@@ -25,7 +27,7 @@ ROBOTIQ_START = bytes.fromhex("0910019A0001020200CDCA")
 UR_OUTPUTS = struct.pack(">d", 125.0) + b"timestamp,actual_q,actual_TCP_pose,ft_raw_wrench"
 
 
-KINDS = [SriModel, BotaModel, RobotiqModel, RdtModel, ElfinModel, UrModel]
+KINDS = [SriModel, BotaModel, RobotiqModel, RdtModel, KunweiModel, RobotousModel, ElfinModel, UrModel]
 AGREED = rtde_packet(b"V", b"\0\2")
 
 
@@ -49,6 +51,8 @@ def model(kind: type[Model], *quirks: Quirk) -> Model:
             b"r,0,C,0\r\nr,0,c,0\r\nr,0,f,0\r\nr,0,R,0\r\n",
         ),
         (RobotiqModel, [b"\xff" * 50, ROBOTIQ_START], bytes.fromhex("0910019A00012152")),
+        (KunweiModel, [bytes.fromhex("48AA0D0A")], b""),
+        (RobotousModel, [bytes.fromhex("550B000000000000000BAA")], b""),
         (
             UrModel,
             [rtde_packet(b"V", b"\0\2"), rtde_packet(b"O", UR_OUTPUTS), rtde_packet(b"S")],
@@ -83,6 +87,8 @@ def test_start_commands_are_obeyed_whole_and_byte_by_byte(
         (SriModel, b"AT+UARTCFG=921600,8,1,0\r\n"),
         (SriModel, b"hello\r\n"),
         (BotaModel, b"R"),
+        (KunweiModel, bytes.fromhex("47AA0D0A")),
+        (RobotousModel, bytes.fromhex("55110100000000000012AA")),
         (BotaModel, b"Cc,0,1,0,2"),
         (BotaModel, b"Cc,0,1,1,4"),
         (BotaModel, b"Z"),

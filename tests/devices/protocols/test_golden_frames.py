@@ -9,8 +9,10 @@ import pytest
 
 from contactbench.pipeline.devices.protocols import SensorParser
 from contactbench.pipeline.devices.protocols.bota import BotaParser
+from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
 from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, ONROBOT_SCALE, RdtParser
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.robotous import RobotousParser
 from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 
@@ -87,3 +89,28 @@ def test_rdt_with_both_scales() -> None:
     onrobot = only(RdtParser(ONROBOT_SCALE), RDT)
     assert onrobot.force == (100.0, -200.0, 350.0)
     assert onrobot.torque == (1.0, -2.0, 0.5)
+
+
+def test_kunwei_frame_of_the_manual() -> None:
+    frame = bytes.fromhex("48AAB0751CC19B3FEDC0AE5CF040D4B52DBE5F55993E7C1AB0BB0D0A")
+    sample = only(KunweiParser(), frame)
+    kilograms = [value / 9.80665 for value in sample.force + sample.torque]
+    # The manual leaves out the first sign; its bytes have it.
+    assert kilograms == pytest.approx([-9.7787, -7.4140, 7.5113, -0.16964, 0.29948, -0.00537], abs=5e-5)
+
+
+@pytest.mark.parametrize("number", ["0000C07F", "0000807F", "00401C46", "00401CC6"])
+def test_a_kunwei_number_that_cannot_be_is_no_frame(number: str) -> None:
+    """NaN, infinity, ten tonnes to either side."""
+    parser = KunweiParser()
+    assert parser.feed(b"\x48\xaa" + bytes.fromhex(number) + bytes(20) + b"\x0d\x0a", 0.0) == []
+    assert parser.counters.bad_checksums == 1
+
+
+def test_robotous_synthetic() -> None:
+    sample = only(RobotousParser(), bytes.fromhex("550B0032FF9C00AF00C8FE70006400000021AA"))
+    assert (sample.force, sample.torque, sample.status) == (FORCE, TORQUE, Status.OK)
+    overloaded = bytes.fromhex("550B0032FF9C00AF00C8FE70006420000041AA")
+    assert only(RobotousParser(), overloaded).status is Status.OVERRANGE
+    thousand = only(RobotousParser(50.0, 1000.0), overloaded)
+    assert thousand.torque == (0.2, -0.4, 0.1)

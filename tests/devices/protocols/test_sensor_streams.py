@@ -14,8 +14,10 @@ from hypothesis import strategies as st
 from contactbench.pipeline.devices.protocols import ProtocolError, SensorParser
 from contactbench.pipeline.devices.protocols.bota import BotaParser
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25, sum8
+from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
 from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, CountScale, RdtParser
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.robotous import RobotousParser
 from contactbench.pipeline.devices.protocols.sri import Layout, SriParser
 from contactbench.pipeline.devices.sample import Status
 
@@ -23,12 +25,18 @@ SERIAL: dict[str, Callable[[], SensorParser]] = {
     "sri": SriParser,
     "bota": BotaParser,
     "robotiq": RobotiqParser,
+    "kunwei": KunweiParser,
+    "robotous": RobotousParser,
 }
 GOLDEN = {
     "sri": bytes.fromhex("AA55001B00010000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D86"),
     "bota": bytes.fromhex("AA00000000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D40E201000000FC41F2F6"),
     "robotiq": bytes.fromhex("204E640038FF5E01640038FF32006365"),
+    "kunwei": bytes.fromhex("48AAB0751CC19B3FEDC0AE5CF040D4B52DBE5F55993E7C1AB0BB0D0A"),
+    "robotous": bytes.fromhex("550B0032FF9C00AF00C8FE70006400000021AA"),
 }
+# No checksum covers these: an SRI packet's number, and the numbers of a Kunwei.
+UNCOVERED = {"sri": range(4, 6), "kunwei": range(2, 26)}
 
 
 def sri(number: int, force: float = 1.0, *rest: float) -> bytes:
@@ -78,8 +86,7 @@ def test_garbage_costs_no_intact_frame(name: str, pieces: list[bytes | None], cu
 @pytest.mark.parametrize("name", SERIAL)
 def test_a_damaged_frame_costs_itself_alone(name: str) -> None:
     frame = GOLDEN[name]
-    # An SRI packet number is not covered by its checksum.
-    for at in (n for n in range(len(frame)) if name != "sri" or n not in {4, 5}):
+    for at in (n for n in range(len(frame)) if n not in UNCOVERED.get(name, ())):
         parser = SERIAL[name]()
         broken = bytearray(frame)
         broken[at] ^= 0x41

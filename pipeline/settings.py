@@ -153,7 +153,9 @@ class PosesSettings(OrientationSettings):
     """How orientations in a table are written, also as the joints of a robot."""
 
     robot: str | None = knob(
-        None, "Orientation is that of a robot's flange, by joints j1..j6: elfin3.", metavar="NAME"
+        None,
+        "Orientation is that of a robot's flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.",
+        metavar="NAME|FILE",
     )
 
 

@@ -85,8 +85,12 @@ class Convention:
             Kind.QUATERNION: ("qw", "qx", "qy", "qz"),
             Kind.EULER: ("rx", "ry", "rz"),
             Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
-            Kind.JOINTS: tuple(f"j{number}" for number in range(1, 7)),
+            Kind.JOINTS: tuple(f"j{number}" for number in range(1, self._joint_count + 1)),
         }[self.kind]
+
+    @property
+    def _joint_count(self) -> int:
+        return len(Robot.named(self.robot).lower) if self.robot else 6
 
 
 def convention_of(given: OrientationSettings) -> Convention | None:

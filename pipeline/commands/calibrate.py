@@ -442,7 +442,9 @@ class ReachSettings(MountSettings):
     """Which poses can be taken: what a robot reaches from where it is, or anything by hand."""
 
     robot: str | None = knob(
-        None, "Orientation is that of a robot's flange, by joints j1..j6: elfin3.", metavar="NAME"
+        None,
+        "Orientation is that of a robot's flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.",
+        metavar="NAME|FILE",
     )
     joints: str | None = knob(None, "Current joints of the robot, degrees.", metavar="J1,...,J6")
     all_joints: bool = knob(False, "Move the arm as well as the wrist: longer moves.")

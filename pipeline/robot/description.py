@@ -109,7 +109,7 @@ class RobotDescription:
     # Envelope of the links, for clearance alone: kinematics never look at it
     capsules: tuple[Capsule, ...] = ()
     # Capsules that overlap or come close by construction, though the links themselves cannot meet. Pairs on
-    # the same link or on neighbouring links need no entry.
+    # the same link or on neighbouring links need no entry. `TOOL` stands for the tool.
     never_touch: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:
@@ -126,6 +126,7 @@ class RobotDescription:
                     f"but bodies run from 0 to {len(self.joints)}"
                 )
         unknown = {name for pair in self.never_touch for name in pair} - {c.name for c in self.capsules}
+        unknown.discard(TOOL)
         if unknown:
             raise InputError(
                 f"{where}: never_touch names no capsule of this arm: {', '.join(sorted(unknown))}"

@@ -40,7 +40,7 @@ class Kinematics:
 
     def __init__(self, description: RobotDescription, capsules: Iterable[Capsule] = ()) -> None:
         # Any: MuJoCo ships no type stubs. Imported here so that importing this package costs nothing.
-        self.mujoco: Any = _import_mujoco()
+        self.mujoco: Any = import_mujoco()
         self.model: Any = self.mujoco.MjModel.from_xml_string(mjcf(description, capsules))
         self.data: Any = self.mujoco.MjData(self.model)
         self._site: int = self.model.site(FLANGE).id
@@ -147,7 +147,14 @@ def _numbers(*values: float) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def _import_mujoco() -> Any:  # any module attribute: there are no stubs to check against
+def import_mujoco() -> Any:  # any module attribute: there are no stubs to check against
+    """Return MuJoCo.
+
+    Raises
+    ------
+    InputError
+        It is not installed.
+    """
     try:
         return importlib.import_module("mujoco")
     except ImportError as error:

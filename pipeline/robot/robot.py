@@ -11,6 +11,7 @@ from contactbench.pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
 from contactbench.pipeline.robot.description import RobotDescription, joint_angles
 from contactbench.pipeline.robot.model import Kinematics
+from contactbench.pipeline.robot.robot_file import names_file, read_robot
 from contactbench.pipeline.robot.robots import ROBOTS
 
 
@@ -43,20 +44,23 @@ class Robot:
 
     @classmethod
     def named(cls, name: str) -> "Robot":
-        """Look up a known arm.
+        """Look up a known arm, or read one from a file.
 
         Parameters
         ----------
         name : str
-            A key of `ROBOTS`, such as "elfin3".
+            A key of `ROBOTS`, such as "elfin3", or a URDF or MJCF file, see `read_robot`.
 
         Raises
         ------
         InputError
-            There is none of that name.
+            There is none of that name, or the file is no arm.
         """
+        if names_file(name):
+            return cls(read_robot(name))
         if name not in ROBOTS:
-            raise InputError(f"there is no robot named {name!r}; known: {', '.join(sorted(ROBOTS))}")
+            known = ", ".join(sorted(ROBOTS))
+            raise InputError(f"there is no robot named {name!r}; known: {known}, or a URDF or MJCF file")
         return cls(ROBOTS[name])
 
     @property

@@ -1,0 +1,341 @@
+"""Any arm from its URDF or MJCF file: MuJoCo reads it, and its chain to the flange becomes a description."""
+
+import itertools
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot.description import TOOL, Capsule, Joint, RobotDescription, Triple
+from contactbench.pipeline.robot.model import import_mujoco
+
+SUFFIXES = (".urdf", ".xml", ".mjcf")
+FLANGES = ("tool0", "attachment_site", "flange")
+"""
+Names that a flange has by convention, alone or after the arm's own; the first one counts: a UR's ``tool0`` is what its
+controller reports, and its ``flange`` is turned against that.
+"""
+
+_LARGEST_FILE = 20_000_000
+_MOST_BODIES = 500
+_RADIUS_M = 0.06  # of a link whose outline is not known
+_SHORTEST_M = 0.01
+_MARGIN_M = 0.05  # more than what a clearance keeps free
+_TURNS = 2 * np.pi  # to either side, of a joint without an end
+_SPEED, _TORQUE = 1.0, 100.0  # rad/s, N·m, where the file tells none
+_LEAST_MASS = 1e-3
+# What neither kinematics nor limits need, and what would make MuJoCo look for other files.
+_NEEDLESS = {
+    "urdf": ("visual", "collision", "transmission", "gazebo", "ros2_control", "mujoco"),
+    "mjcf": (
+        "geom", "asset", "actuator", "contact", "custom", "deformable", "equality", "extension", "flexcomp",
+        "keyframe", "camera", "light", "option", "plugin", "sensor", "size", "skin", "statistic", "tendon", "visual",
+    ),
+}  # fmt: skip
+
+
+def names_file(name: str) -> bool:
+    """Tell whether a robot's name is that of a file, with or without ``@FRAME``."""
+    return _split(name)[0].suffix.lower() in (*SUFFIXES, ".xacro")
+
+
+def read_robot(name: str) -> RobotDescription:
+    """
+    Return the arm in a file.
+
+    The chain runs from the world of the file (which is B: a URDF's root link) to the flange, and its joints are all
+    hinges. Where links have no known outline, their capsules are rough: lines between the joints' origins, 60 mm
+    around.
+
+    Parameters
+    ----------
+    name : str
+        Of a URDF or MJCF file; with ``@FRAME``, the link, body or site that is the flange E. Without, it is the one of
+        `FLANGES`, or else the only one at the end of the arm.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is no arm of hinges, or has several frames that may be the flange: names them.
+    """
+    path, flange = _split(name)
+    try:
+        about = path.stat()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}: give a URDF or MJCF file.") from error
+    return _read(path, flange, about.st_mtime_ns, about.st_size)
+
+
+def _split(name: str) -> tuple[Path, str]:
+    file, _, frame = name.partition("@")
+    return Path(file).expanduser(), frame
+
+
+@lru_cache(maxsize=16)
+def _read(path: Path, flange: str, changed: int, size: int) -> RobotDescription:
+    del changed  # it says only that the file is another one
+    if path.suffix.lower() == ".xacro":
+        raise InputError(f"{path}: run xacro first, and give the URDF that it makes.")
+    if size > _LARGEST_FILE:
+        raise InputError(f"{path}: the file has more than {_LARGEST_FILE} bytes: give a robot's description.")
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}: check the file.") from error
+    root = _parsed(path, data)
+    speeds = _speeds(root)
+    mujoco = import_mujoco()
+    try:
+        model: Any = mujoco.MjModel.from_xml_string(_bare(path, root))
+    except ValueError as error:
+        raise InputError(f"{path}: it is no robot that MuJoCo can read ({str(error).strip()}).") from error
+    if model.nbody > _MOST_BODIES:
+        raise InputError(f"{path}: it has {model.nbody} bodies: give the file of one arm alone.")
+    return _Arm(mujoco, model, path).description(flange, speeds)
+
+
+def _parsed(path: Path, data: bytes) -> ET.Element:
+    # Without a document type there are no entities, so nothing is expanded and nothing fetched.
+    if b"<!DOCTYPE" in data.upper() or b"<!ENTITY" in data.upper():
+        raise InputError(f"{path}: it has a document type, which no robot's description needs: remove it.")
+    try:
+        root = ET.fromstring(data)  # noqa: S314 - without a document type there is nothing to expand
+    except (ET.ParseError, LookupError, ValueError) as error:
+        raise InputError(f"{path}: it is not XML ({error}): give a URDF or MJCF file.") from error
+    if root.tag not in ("robot", "mujoco"):
+        raise InputError(
+            f"{path}: it begins with <{root.tag[:40]}>: give a URDF (<robot>) or MJCF (<mujoco>) file."
+        )
+    if root.tag == "mujoco" and root.find(".//include") is not None:
+        raise InputError(f"{path}: it includes other files: give the file that has the arm itself.")
+    return root
+
+
+def _bare(path: Path, root: ET.Element) -> str:
+    """Return the file's kinematics alone, as XML: no meshes, so that their files need not be there."""
+    needless = _NEEDLESS["urdf" if root.tag == "robot" else "mjcf"]
+    _remove(root, needless)
+    limits = {"boundmass": "0.001", "boundinertia": "1e-6", "balanceinertia": "true"}
+    if root.tag == "robot":
+        extension = ET.SubElement(root, "mujoco")
+        # Fixed links stay, since one of them is the flange.
+        ET.SubElement(extension, "compiler", {"fusestatic": "false", **limits})
+        for link in root.iter("link"):
+            if not link.get("name"):
+                raise InputError(f"{path}: a link has no name: give it one.")
+    else:
+        compiler = root.find("compiler")
+        compiler = ET.SubElement(root, "compiler") if compiler is None else compiler
+        for word in ("meshdir", "texturedir", "assetdir", "fusestatic", "inertiafromgeom"):
+            compiler.attrib.pop(word, None)
+        compiler.attrib.update(limits)
+    return ET.tostring(root, encoding="unicode")
+
+
+def _remove(element: ET.Element, tags: tuple[str, ...]) -> None:
+    for child in list(element):
+        if child.tag in tags:
+            element.remove(child)
+        else:
+            _remove(child, tags)
+
+
+def _speeds(root: ET.Element) -> dict[str, float]:
+    """Return the largest speeds that a URDF tells, rad/s, by joint: MuJoCo has none."""
+    found = {}
+    for joint in root.iter("joint"):
+        limit = joint.find("limit")
+        try:
+            speed = float((limit.get("velocity") if limit is not None else None) or 0.0)
+        except ValueError:
+            speed = 0.0
+        if 0 < speed < np.inf:
+            found[joint.get("name") or ""] = speed
+    return found
+
+
+def _only_named(usual: str, names: Iterable[str]) -> str | None:
+    """Return the only one of that name, which may follow the arm's own; None: there is none, or several are."""
+    found = [name for name in names if name == usual or name.endswith(f"_{usual}")]
+    return found[0] if len(found) == 1 else None
+
+
+class _Arm:
+    """A model, looked at as one chain."""
+
+    def __init__(self, mujoco: Any, model: Any, path: Path) -> None:
+        self._model, self._path = model, path
+        self._hinge, self._slide = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
+        data = mujoco.MjData(model)
+        hinges = [int(model.jnt_qposadr[j]) for j in range(model.njnt) if model.jnt_type[j] == self._hinge]
+        data.qpos[hinges] = 0.0
+        mujoco.mj_kinematics(model, data)
+        self._data = data
+
+    def description(self, flange: str, speeds: dict[str, float]) -> RobotDescription:
+        """Return the arm from the world to its flange."""
+        chain_of = {name: self._chain(body) for name, body, _, _ in self._frames()}
+        name = self._flange(flange, chain_of)
+        chain = chain_of[name]
+        _, _, p_BE, R_BE = next(frame for frame in self._frames() if frame[0] == name)
+        joints, p, R = [], np.zeros(3), np.eye(3)
+        for number, joint in enumerate(chain):
+            axis, anchor = self._data.xaxis[joint], self._data.xanchor[joint]
+            R_next = _along(axis)
+            mass = self._mass(joint, chain[number + 1] if number + 1 < len(chain) else None)
+            joints.append(self._joint(joint, R.T @ (anchor - p), R.T @ R_next, mass, speeds))
+            p, R = anchor.copy(), R_next
+        origins = [self._data.xanchor[joint].copy() for joint in chain]
+        frames = [np.eye(3), *(_along(self._data.xaxis[joint]) for joint in chain)]
+        capsules, never = _envelope([np.zeros(3), *origins, p_BE], frames)
+        return RobotDescription(
+            f"{self._path.stem}@{name}",
+            tuple(joints),
+            _triple(R.T @ (p_BE - p)),
+            _angles(R.T @ R_BE),
+            capsules,
+            never,
+        )
+
+    def _frames(self) -> list[tuple[str, int, NDArray[np.float64], NDArray[np.float64]]]:
+        """Return name, body, position and rotation in B of every body and site."""
+        model, data = self._model, self._data
+        bodies = [
+            (model.body(k).name, k, data.xpos[k].copy(), data.xmat[k].reshape(3, 3).copy())
+            for k in range(1, model.nbody)
+        ]
+        sites = [
+            (
+                model.site(k).name,
+                int(model.site_bodyid[k]),
+                data.site_xpos[k].copy(),
+                data.site_xmat[k].reshape(3, 3).copy(),
+            )
+            for k in range(model.nsite)
+        ]
+        return [frame for frame in (*sites, *bodies) if frame[0]]
+
+    def _chain(self, body: int) -> tuple[int, ...]:
+        """Return the joints between the world and a body, from the base on."""
+        chain: list[int] = []
+        while body:
+            first, count = int(self._model.body_jntadr[body]), int(self._model.body_jntnum[body])
+            chain = [*range(first, first + count), *chain] if count else chain
+            body = int(self._model.body_parentid[body])
+        return tuple(chain)
+
+    def _flange(self, wanted: str, chain_of: dict[str, tuple[int, ...]]) -> str:
+        arms = {
+            name: chain
+            for name, chain in chain_of.items()
+            if chain and all(self._model.jnt_type[joint] == self._hinge for joint in chain)
+        }
+        if wanted and wanted not in chain_of:
+            raise InputError(
+                f"{self._path}: it has no frame {wanted!r}. Possible: {', '.join(sorted(arms))}."
+            )
+        if wanted and wanted not in arms:
+            raise InputError(
+                f"{self._path}: between the base and {wanted} there are no joints, or joints that do not turn:"
+                " give an arm of hinges."
+            )
+        if not arms:
+            raise InputError(f"{self._path}: it has no joint that turns: give the file of an arm.")
+        usual = next(filter(None, (_only_named(each, arms) for each in FLANGES)), None)
+        most = max(map(len, arms.values()))
+        last = [name for name, chain in arms.items() if len(chain) == most]
+        if wanted or usual or len(last) == 1:
+            return wanted or usual or last[0]
+        raise InputError(
+            f"{self._path}: several frames may be the flange. Name it: {self._path.name}@FRAME, with one of"
+            f" {', '.join(sorted(last))}."
+        )
+
+    def _joint(
+        self,
+        joint: int,
+        position: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+        mass: float,
+        speeds: dict[str, float],
+    ) -> Joint:
+        model = self._model
+        name = model.joint(joint).name or f"joint {joint + 1}"
+        low, high = (float(end) for end in model.jnt_range[joint])
+        if not model.jnt_limited[joint]:
+            low, high = -_TURNS, _TURNS
+        torque = float(max(abs(model.jnt_actfrcrange[joint]))) if model.jnt_actfrclimited[joint] else 0.0
+        return Joint(
+            name,
+            _triple(position),
+            _angles(rotation),
+            low,
+            high,
+            speeds.get(name, _SPEED),
+            torque or _TORQUE,
+            mass,
+        )
+
+    def _mass(self, joint: int, following: int | None) -> float:
+        """Return the mass that a joint moves and the next one does not, kg."""
+        model = self._model
+        whole = float(model.body_subtreemass[model.jnt_bodyid[joint]])
+        rest = 0.0 if following is None else float(model.body_subtreemass[model.jnt_bodyid[following]])
+        return max(whole - rest, _LEAST_MASS)
+
+
+def _along(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the least turn (3, 3) that takes z to an axis of length 1."""
+    from scipy.spatial.transform import Rotation  # a third of a second to import
+
+    z = np.array([0.0, 0.0, 1.0])
+    normal = np.cross(z, axis)
+    sine, cosine = float(np.linalg.norm(normal)), float(axis[2])
+    if sine < 1e-12:
+        return np.eye(3) if cosine > 0 else np.diag([1.0, -1.0, -1.0])
+    return np.asarray(Rotation.from_rotvec(normal / sine * np.arctan2(sine, cosine)).as_matrix())
+
+
+def _envelope(
+    points: list[NDArray[np.float64]], frames: list[NDArray[np.float64]]
+) -> tuple[tuple[Capsule, ...], tuple[tuple[str, str], ...]]:
+    """Return capsules between the joints' origins, and the pairs that only short links keep apart."""
+    lengths = [float(np.linalg.norm(b - a)) for a, b in itertools.pairwise(points)]
+    capsules = []
+    for body, (start, end, length) in enumerate(zip(points[:-1], points[1:], lengths, strict=True)):
+        if length < _SHORTEST_M:
+            continue
+        # In the frame of the joint that moves it, whose origin is the start; the base's is B.
+        local = frames[body].T @ (end - start)
+        capsules.append(
+            Capsule("base" if body == 0 else f"link {body}", body, (0.0, 0.0, 0.0), _triple(local), _RADIUS_M)
+        )
+    ends = [(capsule.name, capsule.body) for capsule in capsules] + [(TOOL, len(points) - 1)]
+    near = 2 * _RADIUS_M + _MARGIN_M
+    never = tuple(
+        (a, b) for (a, i), (b, j) in itertools.combinations(ends, 2) if sum(lengths[i + 1 : j]) <= near
+    )
+    return tuple(capsules), never
+
+
+def _triple(values: NDArray[np.float64]) -> Triple:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _angles(rotation: NDArray[np.float64]) -> Triple:
+    """Return turns about the fixed x, then y, then z axis, rad."""
+    from scipy.spatial.transform import Rotation
+
+    # Where y is a quarter turn the other two are one: any split of it is right.
+    sy = -rotation[2, 0]
+    if abs(sy) > 1 - 1e-12:
+        sign = 1.0 if sy > 0 else -1.0
+        x = float(np.arctan2(sign * rotation[0, 1], sign * rotation[0, 2]))
+        return x, sign * np.pi / 2, 0.0
+    return _triple(Rotation.from_matrix(rotation).as_euler("xyz"))

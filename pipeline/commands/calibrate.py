@@ -646,7 +646,11 @@ def captures(
 def _write(out: Path, planned: PosePlan) -> None:
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")
-    names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []
+    names = (
+        [f"j{number}" for number in range(1, planned.joints.shape[1] + 1)]
+        if planned.joints is not None
+        else []
+    )
     rows.writerow(["name", "qw", "qx", "qy", "qz", *names, "contact_error_mm"])
     joints: Any = _degrees(planned.joints) or [[]] * len(planned.R_WS)
     for number, (quaternion, angles, error) in enumerate(

@@ -36,6 +36,7 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     RtdeError,
     packet,
 )
+from contactbench.pipeline.devices.protocols.ur_wrench import UrWrenchParser
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport
@@ -187,7 +188,7 @@ SUBJECTS = {
 }
 
 
-ROBOTS = ("elfin", "ur")
+ROBOTS = ("elfin", "ur", "ur-wrench")
 PROTOCOLS = (*SUBJECTS, *ROBOTS)
 
 _FRAGMENTS = {
@@ -294,7 +295,7 @@ def soak(protocol: str, count: int, seed: int) -> SoakReport:
     rng = np.random.default_rng(seed)
     if protocol in SUBJECTS:
         return _soak_sensor(protocol, SUBJECTS[protocol], count, rng)
-    robots = {"elfin": _elfin_feed, "ur": _ur_feed}
+    robots = {"elfin": _elfin_feed, "ur": _ur_feed, "ur-wrench": _ur_wrench_feed}
     if protocol not in robots:
         raise ProtocolError(f"soak: there is no protocol {protocol!r}; known: {', '.join(PROTOCOLS)}.")
     return _soak_robot(protocol, robots[protocol](), count, rng)
@@ -381,7 +382,7 @@ def _soak_robot(
 ) -> SoakReport:
     refusals = found = 0
     seconds = 0.0
-    for chunk in _fragment_chunks(_FRAGMENTS[protocol], count, rng):
+    for chunk in _fragment_chunks(_FRAGMENTS[protocol.partition("-")[0]], count, rng):
         started = perf_counter()
         new, refused = feed(chunk)
         seconds += perf_counter() - started
@@ -420,6 +421,23 @@ def _ur_feed() -> Callable[[bytes], tuple[int, int]]:
         if max(reader.pending, stream.pending) > 4096:
             raise SoakError(f"{reader.pending} bytes wait for the end of a packet")
         return len(found), refused
+
+    return feed
+
+
+def _ur_wrench_feed() -> Callable[[bytes], tuple[int, int]]:
+    parser = UrWrenchParser()
+    agreed = packet(PacketKind.OUTPUTS, b"\x01DOUBLE,VECTOR6D")
+
+    def feed(chunk: bytes) -> tuple[int, int]:
+        try:
+            found = len(parser.feed(agreed + chunk, 0.0))
+        except RtdeError:
+            parser.reset()
+            return 0, 1
+        if parser.pending > 4096:
+            raise SoakError(f"{parser.pending} bytes wait for the end of a packet")
+        return found, 0
 
     return feed
 

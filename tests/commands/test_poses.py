@@ -108,3 +108,24 @@ def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message:
     assert result.exit_code == 2
     assert message in said(result)
     assert not (tmp_path / "p.csv").exists()
+
+
+def test_a_plan_has_as_many_joints_as_the_arm_of_a_file(tmp_path: Path) -> None:
+    arm, out = tmp_path / "arm.xml", tmp_path / "plan.csv"
+    bodies, ends = "", ""
+    for number, axis in enumerate(("0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0", "0 0 1")):
+        bodies += f'<body pos="0 0 0.2"><joint name="a{number}" axis="{axis}" range="-2 2" limited="true"/>'
+        ends += "</body>"
+    arm.write_text(
+        f'<mujoco><compiler angle="radian"/><worldbody>{bodies}<site name="attachment_site"/>{ends}'
+        "</worldbody></mujoco>"
+    )
+    joints = "0,20,40,0,30,0,0"
+    result = invoke("calibrate", "plan", 6, "--robot", arm, "--joints", joints, "--out", out)
+    assert result.exit_code == 0, said(result)
+    header, *rows = out.read_text(encoding="utf-8").splitlines()
+    assert header == "name,qw,qx,qy,qz,j1,j2,j3,j4,j5,j6,j7,contact_error_mm"
+    cells = np.array([[float(cell) for cell in row.split(",")[1:]] for row in rows])
+    R_WS = Rotation.from_quat(np.roll(cells[:, :4], -1, axis=1)).as_matrix()
+    found = Robot.named(str(arm)).flange_rotations(np.radians(cells[:, 4:11]))
+    np.testing.assert_allclose(found, R_WS, atol=1e-9)

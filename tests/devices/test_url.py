@@ -63,7 +63,9 @@ def test_files_of_poses():
 
 
 def test_what_gives_what():
-    for text in ("ur+tcp://r", "elfin+tcp://r", "still://?rpy=0,0,0", "poses:///a.csv"):
+    assert parse("ur+tcp://r").gives_wrenches
+    assert parse("ur+tcp://r").gives_poses
+    for text in ("elfin+tcp://r", "still://?rpy=0,0,0", "poses:///a.csv"):
         assert parse(text).gives_poses
         assert not parse(text).gives_wrenches
     assert parse("sri+tcp://r").gives_wrenches

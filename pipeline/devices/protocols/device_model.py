@@ -39,7 +39,7 @@ class Quirk(StrEnum):
 
     OLDER = "older"
     """SRI: the rate is set by SMPR, SMPF is an error. Elfin: ReadActPos gives 12 numbers, not 24. UR: the
-    controller does not know the variable tcp_offset."""
+    controller does not know the variables tcp_offset and ft_raw_wrench."""
     CRC32_ONLY = "crc32-only"
     """SRI: frames end with a CRC-32; DCKMD=SUM is an error."""
     CRC32_SILENTLY = "crc32-silently"

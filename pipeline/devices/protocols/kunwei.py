@@ -73,7 +73,7 @@ class KunweiModel(Model):
     # 48 AA as the beginning of a float.
     trap: ClassVar[Six | None] = tuple(
         struct.unpack("<f", _HEADER + b"\x0d\x41")[0] * k for k in (_NEWTON,) * 3 + (_NEWTON_METRE,) * 3
-    )  # type: ignore[assignment]  # six of them
+    )
 
     def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:  # noqa: ARG002 - it has no count
         """Return one frame."""

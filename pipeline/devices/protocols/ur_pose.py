@@ -25,6 +25,7 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     PacketReader,
     RtdeError,
 )
+from contactbench.pipeline.devices.protocols.ur_wrench import wrench_driver
 from contactbench.pipeline.devices.sample import FlangeSample
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
+    from contactbench.pipeline.devices.protocols.parser import SensorDriver
     from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
     from contactbench.pipeline.devices.url import DeviceAddress
 
@@ -226,6 +228,7 @@ _TYPES = {
     "safety_mode": ("INT32", "i"),
     "robot_status_bits": ("UINT32", "I"),
 }
+_NEWER = {"tcp_offset", "ft_raw_wrench"}
 _STILL: dict[str, tuple[float, ...]] = {
     "actual_qd": (0.0,) * 6,
     "actual_TCP_force": (0.0,) * 6,
@@ -245,6 +248,8 @@ def rtde_packet(kind: bytes, payload: bytes = b"") -> bytes:
 
 class UrModel(Model):
     """A UR5e; its signal is the joint angles in rad. It speaks version 2 of the protocol and no other.
+
+    For a host that asks for the raw wrench and for no joints, the signal is that wrench, N and N·m.
 
     Parameters
     ----------
@@ -278,7 +283,7 @@ class UrModel(Model):
         self._R_ET = Rotation.from_rotvec(tool[3:]).as_matrix()
         self._agreed = False
         self._recipe: tuple[str, ...] = ()
-        self._known = {name for name in _TYPES if name != "tcp_offset" or Quirk.OLDER not in self.quirks}
+        self._known = set(_TYPES) - (_NEWER if Quirk.OLDER in self.quirks else set())
 
     def restart(self) -> None:
         """Come up again, without a recipe."""
@@ -289,12 +294,14 @@ class UrModel(Model):
         """Return one data packet."""
         R_BE, p_BE_B = flange_pose(UR5E_TABLE, reading.values)
         position = p_BE_B + R_BE @ np.array(self._tool[:3])
+        wrench = {} if "actual_q" in self._recipe else {"ft_raw_wrench": reading.values}
         values = {
             "timestamp": (moment.clock,),
             "actual_q": reading.values,
             "actual_TCP_pose": (*position.tolist(), *_vector(R_BE @ self._R_ET)),
             "tcp_offset": self._tool,
             **_STILL,
+            **wrench,
         }
         fields = [struct.pack(">" + _TYPES[name][1], *values[name]) for name in self._recipe]
         return rtde_packet(_DATA, bytes([_RECIPE]) + b"".join(fields))
@@ -371,6 +378,10 @@ class UrDriver(Driver):
         )
     }
     emulated = UrModel
+
+    def sensor(self, address: DeviceAddress) -> SensorDriver:
+        """As `Driver`: the sensor in the flange, where the robot has one."""
+        return wrench_driver(address.rate or 125.0)
 
     def poses(
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None

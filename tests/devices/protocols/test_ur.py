@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import struct
+import threading
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.emulate import Fault, Quirk, Script, constant, emulator
 from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     OutputRecipe,
@@ -25,6 +28,10 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     start_request,
     version_request,
 )
+from contactbench.pipeline.devices.protocols.ur_wrench import UrWrenchParser
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.stream import Health, StreamState
 
 JOINTS = (0.1, -1.2, 1.3, -0.4, 0.5, 0.6)
 POSE = (0.4, -0.1, 0.3, 0.2, -1.1, 0.7)
@@ -195,3 +202,84 @@ def test_any_bytes_are_cut_or_skipped(pieces: list[bytes]) -> None:
     in_packets = sum(3 + len(one.payload) for one in found)
     assert in_packets + reader.skipped_bytes + reader.pending == sum(map(len, pieces))
     assert reader.pending < 4096
+
+
+# ---- the sensor in the flange --------------------------------------------------------------------
+
+WRENCH = (1.0, -2.0, 3.5, 0.1, -0.2, 0.05)
+AGREED = packet(PacketKind.OUTPUTS, b"\x01DOUBLE,VECTOR6D")
+
+
+def wrench(clock: float, values: tuple[float, ...] = WRENCH, recipe: int = 1) -> bytes:
+    return packet(PacketKind.DATA, struct.pack(">B7d", recipe, clock, *values))
+
+
+def test_a_raw_wrench_byte_by_byte() -> None:
+    parser = UrWrenchParser()
+    stream = packet(PacketKind.VERSION, b"\x01") + AGREED + packet(PacketKind.TEXT, b"hello") + wrench(7.5)
+    (sample,) = [sample for byte in stream for sample in parser.feed(bytes([byte]), 2.0)]
+    assert (sample.force, sample.torque) == (WRENCH[:3], WRENCH[3:])
+    assert (sample.time, sample.device_time) == (2.0, 7.5)
+
+
+def test_wrenches_that_are_old_or_no_data_are_dropped_and_counted() -> None:
+    parser = UrWrenchParser()
+    assert parser.feed(wrench(1.0), 0.0) == []  # nothing is agreed yet
+    parser.feed(AGREED, 0.0)
+    absurd = wrench(1.0, (1e9, *WRENCH[1:])) + wrench(1.0, (math.nan, *WRENCH[1:])) + wrench(1.0, recipe=2)
+    assert parser.feed(absurd, 0.0) == []
+    assert len(parser.feed(wrench(1.0) + wrench(1.0) + wrench(1.008), 0.0)) == 2
+    counters = parser.counters
+    assert (counters.frames, counters.duplicates, counters.bad_checksums) == (3, 1, 4)
+    parser.reset()
+    assert parser.feed(wrench(2.0), 0.0) == []
+
+
+def test_a_controller_without_the_wrench_says_so() -> None:
+    with pytest.raises(RtdeError, match="ft_raw_wrench is 'NOT_FOUND'"):
+        UrWrenchParser().feed(packet(PacketKind.OUTPUTS, b"\x00DOUBLE,NOT_FOUND"), 0.0)
+
+
+@given(st.lists(st.binary(max_size=80) | st.sampled_from([AGREED, wrench(1.0), b"\x00\x3cU"]), max_size=20))
+def test_any_bytes_make_no_wrench_but_a_sound_one(pieces: list[bytes]) -> None:
+    parser = UrWrenchParser()
+    for piece in pieces:
+        try:
+            samples = parser.feed(piece, 0.0)
+        except RtdeError:
+            parser.reset()
+            continue
+        for sample in samples:
+            assert max(map(abs, sample.force + sample.torque)) <= 1e5
+
+
+@pytest.mark.parametrize("fault", [None, Fault.SPLIT, Fault.RECONNECT, Fault.STALL])
+def test_an_emulated_ur_streams_its_raw_wrench(fault: Fault | None) -> None:
+    heard: list[WrenchSample] = []
+    enough = threading.Event()
+
+    def take(samples: Sequence[WrenchSample]) -> None:
+        heard.extend(samples)
+        if len(heard) > 60:
+            enough.set()
+
+    script = None if fault is None else Script([(0.1, fault, 0.2)])
+    device = emulator("ur", signal=constant(WRENCH), script=script)
+    with device, SensorStream(device.url, take):
+        assert enough.wait(20)
+    assert {sample.force + sample.torque for sample in heard} == {WRENCH}
+    assert device.refused == []
+
+
+def test_an_older_ur_has_no_raw_wrench() -> None:
+    lost: list[str] = []
+    told = threading.Event()
+
+    def change(health: Health) -> None:
+        if health.state is StreamState.LOST:
+            lost.extend(health.findings)
+            told.set()
+
+    with emulator("ur", quirks=[Quirk.OLDER]) as device, SensorStream(device.url, lambda _: None, change):
+        assert told.wait(20)
+    assert "ft_raw_wrench is 'NOT_FOUND'" in lost[0]

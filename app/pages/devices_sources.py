@@ -133,7 +133,7 @@ class SensorSource(DeviceChoice):
         self.address.setAccessibleName(self.tr("Sensor address"))
         self.address.setToolTip(
             self.tr(
-                "sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and the device address"
+                "One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address"
             )
         )
         for widget in (self.protocol, self.probe, self.recording, self.address):

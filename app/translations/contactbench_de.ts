@@ -3642,8 +3642,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Adresse des Sensors</translation>
     </message>
     <message>
-        <source>sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and the device address</source>
-        <translation>sri+serial, sri+tcp, bota+serial, robotiq+serial oder rdt+udp, dann :// und die Geräteadresse</translation>
+        <source>One of contactbench record devices, such as sri+tcp or line+udp, then :// and the device address</source>
+        <translation>Eine aus contactbench record devices, etwa sri+tcp oder line+udp, dann :// und die Geräteadresse</translation>
     </message>
     <message>
         <source> (not plugged in)</source>

@@ -53,7 +53,7 @@ def start(
 ) -> None:
     """Record a force/torque sensor until Ctrl-C, or for some seconds.
 
-    ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and its location; or
+    ADDRESS is one of contactbench record devices, such as sri+tcp, then :// and its location; or
     replay:///recording.mcap?speed=4 (or speed=step: as fast as it can be read), which ends by itself and
     keeps its times. Only the commands needed for streaming are sent: no sensor is zeroed. A lost connection
     is reopened; the gap remains. Exit code 1: one of them sent no sample, a stream failed, or a replay could

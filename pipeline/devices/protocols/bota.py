@@ -4,6 +4,8 @@ Bota Systems force/torque sensors on a serial line (SensONE, Rokubi, MiniONE).
 A frame of 37 bytes, little endian: AA, status (uint16), six float32 (N and N·m), time (uint32, µs),
 temperature (float32, °C), CRC-16/X-25 of all between AA and itself.
 
+The public sources of this frame have no fields of the inertial unit that some models carry.
+
 In random bytes a false frame comes once in 2^24 bytes, because the header is a single byte.
 """
 

@@ -76,7 +76,8 @@ class MainWindow(QMainWindow):
         self.settings, self.log = settings or WindowSettings(), log
         self.bench: Bench | None = None
         self.scene: Scene | None = None
-        self._ending = self._ended = self._connected = self._waits = False
+        self._ending = self._ended = self._connected = self._waits = self._opening = False
+        self._first: Step | None = None  # with which a session begins that is being opened; None: as it stands
         self.jobs, self.undo, self._turns = Jobs(self), QUndoGroup(self), Turns(self)
         self.heartbeat, self.garbage = Heartbeat(self), Garbage(self)
         self.setWindowTitle("contactbench")
@@ -160,7 +161,7 @@ class MainWindow(QMainWindow):
 
     def _show_session(self, opened: OpenedSession, step: Step | None) -> None:
         """Make room for a session, and show it: in turns, for all of it at once is a window that hangs."""
-        self._arriving = opened
+        self._arriving, self._opening, self._first = opened, True, step
         self.start.set_busy(True)
         self.garbage.settle()  # the modules that a worker has just imported
         self._turns.run(
@@ -174,8 +175,8 @@ class MainWindow(QMainWindow):
             lambda: self.docks.restore(self.settings.now.docks),
             lambda: self.setUpdatesEnabled(True),
             partial(self._begin, opened),
-            lambda: self.pages.make(step or self.pages.first()),
-            partial(self._show_first, step, opened.desk.notes),
+            lambda: self.pages.make(self._first or self.pages.first()),
+            partial(self._show_first, opened.desk.notes),
         )
 
     def _make_scene(self) -> None:
@@ -209,13 +210,13 @@ class MainWindow(QMainWindow):
         bench.changed.connect(self.pages.read_statuses)
         self.menus.set_open(True)
 
-    def _show_first(self, step: Step | None, notes: tuple[str, ...]) -> None:
-        bench = self.bench
+    def _show_first(self, notes: tuple[str, ...]) -> None:
+        bench, self._opening = self.bench, False
         if bench is None:
             return
         self.start.set_busy(False)
         camera = self.settings.camera_of(bench.desk.folder)
-        self.show_step(step or self.pages.first())
+        self.show_step(self._first or self.pages.first())
         self._camera.restore(camera)
         self.live.reopen()
         for note in notes:
@@ -232,7 +233,7 @@ class MainWindow(QMainWindow):
 
     def _not_shown(self) -> None:
         """Give a session back that could not be shown: its desk must not keep the lock."""
-        opened, self._arriving = self._arriving, None
+        opened, self._arriving, self._opening = self._arriving, None, False
         self.setUpdatesEnabled(True)
         self.start.set_busy(False)
         if opened is not None:
@@ -334,8 +335,10 @@ class MainWindow(QMainWindow):
     # ---- steps -------------------------------------------------------------------------------------
 
     def show_step(self, step: Step) -> None:
-        """Show the page of a step."""
-        if self.bench is None or self._ending:
+        """Show the page of a step; while a session is being opened, it is the one to begin with."""
+        if self._opening:
+            self._first = step
+        if self.bench is None or self._ending or self._opening:
             return
         self.docks.page_dock.show()
         if step is self.pages.step:

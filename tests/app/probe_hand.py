@@ -25,6 +25,7 @@ def drive(hand, mesh, stage):
     hand.name_file("Choose mesh…", mesh)
     hand.read(mesh.name, LONG)
     if stage == "loaded":
+        kept(hand, "mesh")  # it is shown a moment before
         return
     hand.press("Align with sensor (3)", LONG)  # enabled only when the surface is there
     if stage == "closed":

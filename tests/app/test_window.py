@@ -68,6 +68,15 @@ def test_steps_by_click_key_and_page(qtbot, opened):
     assert probe.calls == ["enter", "leave"]
 
 
+def test_a_step_that_is_clicked_while_the_session_is_opened_is_shown_and_stays(qtbot, window, tmp_path):
+    click = window.steps.row(Step.PROBE).click
+    window.pages.judged.connect(lambda _: click(), Qt.ConnectionType.SingleShotConnection)
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "a session"))
+    beats(qtbot, window)
+    assert window.pages.step is Step.PROBE
+    assert window.pages.current.calls == ["enter"]
+
+
 def test_the_page_that_is_shown_is_ticked_and_told_its_state(qtbot, opened):
     page = opened.pages.current
     qtbot.waitUntil(lambda: page.ticks > 3, timeout=10_000)

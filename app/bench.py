@@ -42,6 +42,7 @@ class Notice:
     weight: Weight
     text: str  # What happened, why it matters, what to do
     details: str = ""  # For who asks, such as a stack trace
+    over: bool = False  # Whether what was told before is over: it is seen in the place of that
 
 
 class Bench(QObject):
@@ -100,6 +101,10 @@ class Bench(QObject):
     def tell(self, weight: Weight, text: str, details: str = "") -> None:
         """Put a message into the list."""
         self.told.emit(Notice(weight, text, details))
+
+    def tell_over(self, text: str) -> None:
+        """Put into the list that what was wrong is well again."""
+        self.told.emit(Notice(Weight.GOOD, text, over=True))
 
     def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
         """Put into the list why something was refused; what nobody expected is raised, for the hook."""

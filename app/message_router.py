@@ -42,16 +42,16 @@ class MessageRouter(QObject):
         self._docks, self._bench = docks, bench
         self._noted: set[str] = set()
 
-    def tell(self, weight: str, text: str, details: str = "") -> None:
-        """Put a message into the list; one that matters is also seen where the list is not shown."""
+    def tell(self, weight: str, text: str, details: str = "", *, over: bool = False) -> None:
+        """Put a message into the list; one that matters, or ends it, is also seen where the list is not shown."""
         LOG.info("%s: %s", weight, text)
         self._docks.messages.add(str(weight), text, details)
-        if weight in (Weight.WARNING, Weight.ERROR):
+        if over or weight in (Weight.WARNING, Weight.ERROR):
             self.told.emit(str(weight), text)
 
     def message(self, message: Notice) -> None:
         """Put a page's message into the list."""
-        self.tell(message.weight, message.text, message.details)
+        self.tell(message.weight, message.text, message.details, over=message.over)
 
     def fault(self, sentence: str, details: str, expected: bool) -> None:
         """Tell of what nobody caught; once in the journal, too."""

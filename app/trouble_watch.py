@@ -118,11 +118,11 @@ class TroubleWatch(QObject):
                 "The disk is writable again and the session continues. Repeat the actions that were"
                 " refused; earlier recordings are intact."
             )
-            tell(Weight.GOOD, words)
+            self._bench.tell_over(words)
         if now.devices and now.devices != before.devices:
             tell(Weight.WARNING, now.devices)
         elif before.devices and not now.devices and self._bench.connected:
-            tell(Weight.GOOD, self.tr("The sensor is back and sending readings."))
+            self._bench.tell_over(self.tr("The sensor is back and sending readings."))
         new = [why for place, why in now.files.items() if before.files.get(place) != why]
         for why in reversed(new[:_MOST]):
             tell(Weight.ERROR, why)
@@ -140,4 +140,4 @@ class TroubleWatch(QObject):
             )
             tell(Weight.ERROR, words)
         elif before.files and not now.files:
-            tell(Weight.GOOD, self.tr("All files of this session are as they were written again."))
+            self._bench.tell_over(self.tr("All files of this session are as they were written again."))

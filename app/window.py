@@ -77,7 +77,9 @@ class MainWindow(QMainWindow):
         self.bench: Bench | None = None
         self.scene: Scene | None = None
         self._ending = self._ended = self._connected = self._waits = self._opening = False
-        self._first: Step | None = None  # with which a session begins that is being opened; None: as it stands
+        self._first: Step | None = (
+            None  # with which a session begins that is being opened; None: as it stands
+        )
         self.jobs, self.undo, self._turns = Jobs(self), QUndoGroup(self), Turns(self)
         self.heartbeat, self.garbage = Heartbeat(self), Garbage(self)
         self.setWindowTitle("contactbench")

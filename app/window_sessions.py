@@ -24,6 +24,7 @@ from contactbench.app.opening import (
     unpacked,
     virtual_session,
 )
+from contactbench.app.qt_classes import QtClasses
 from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
 from contactbench.pipeline.workbench.steps import Step
@@ -82,6 +83,7 @@ class Sessions(QObject):
         self._start, self._jobs, self._settings = start, jobs, settings
         self._next: Callable[[], None] | None = None
         self._waiting: OpenedSession | None = None
+        self._classes = QtClasses(self)
         start.virtual.connect(self.try_virtual)
         start.new.connect(self.ask_new)
         start.browse.connect(self.ask_open)
@@ -178,7 +180,8 @@ class Sessions(QObject):
         self._next = None
 
     def close(self) -> None:
-        """Give back a session that waits for an answer."""
+        """Give back a session that waits for an answer, and open none that was asked for just now."""
+        self._classes.forget()
         waiting, self._waiting = self._waiting, None
         if waiting is not None:
             waiting.desk.close()
@@ -210,11 +213,13 @@ class Sessions(QObject):
                 raise
             return opened
 
-        self._jobs.start(
-            title,
-            prepared,
-            lambda opened: self._came(opened, step),
-            lambda error: self._refused(error, folder),
+        self._classes.when_made(
+            lambda: self._jobs.start(
+                title,
+                prepared,
+                lambda opened: self._came(opened, step),
+                lambda error: self._refused(error, folder),
+            )
         )
 
     def _came(self, opened: OpenedSession, step: Step | None) -> None:

@@ -350,9 +350,7 @@ class GravityRun(QObject):
             if _DIGITS.sub("", sentence) not in before:
                 self.bench.tell(Weight.WARNING, sentence)
         if self._said and not said:
-            self.bench.tell(
-                Weight.GOOD, self.tr("All devices are sending samples again. Recording continues.")
-            )
+            self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
         self._said = said
 
     def _set_checked(self, found: StillVerification) -> None:

@@ -160,9 +160,7 @@ class VerifyPage(Page):
             self.panel_touch.say(self.work.error)
             self.bench.set_failed(Step.VERIFY, self.work.error)
         if before and not self._told and self.work.going_on:
-            self.bench.tell(
-                Weight.GOOD, self.tr("All devices are sending samples again. Recording continues.")
-            )
+            self.bench.tell_over(self.tr("All devices are sending samples again. Recording continues."))
         self.panel_point.poll()
 
     def close_page(self) -> None:

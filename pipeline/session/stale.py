@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.session.recompute import parameter_of
 from contactbench.pipeline.session.sources import Recorded, sources_of
-from contactbench.pipeline.session.state import MESH
+from contactbench.pipeline.session.state import MESH, minute_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -86,7 +86,7 @@ class _Judge:
     def _of_made(self, made: Result) -> Iterator[str]:
         newest = self._results[made.slot]
         if made.outcome != self._outcomes[made.slot]:
-            yield f"The {made.title} it was computed from was recomputed on {newest.at}."
+            yield f"The {made.title} it was computed from was recomputed on {minute_of(newest.at)}."
             return
         # In a circle, which the newest results of journals made by hand can be, what it is by itself must do.
         known = self._known.get(newest.number)
@@ -98,7 +98,7 @@ class _Judge:
         newest = self._inputs[used.slot]
         if newest.number != used.number and newest.content != used.content:
             what = "The mesh" if used.kind == MESH else f"The {used.kind} {used.name}"
-            yield f"{what} it was computed from was replaced by {newest.name} on {newest.at}."
+            yield f"{what} it was computed from was replaced by {newest.name} on {minute_of(newest.at)}."
         if used.kind != MESH:
             yield from self._of_rezeros(used)
 
@@ -109,7 +109,7 @@ class _Judge:
             rezero = self._rezeros.get(sensor)
             if rezero is not None and self._recorded.is_before(used, rezero):
                 why = f" ({rezero.reason})" if rezero.reason else ""
-                what = f"The sensor {rezero.sensor} was re-zeroed on {rezero.at}{why}"
+                what = f"The sensor {rezero.sensor} was re-zeroed on {minute_of(rezero.at)}{why}"
                 yield f"{what}, after the {used.kind} {used.name} was recorded."
                 return
 
@@ -122,7 +122,7 @@ class _Judge:
             if parameter_of(kind, parameter, {**given, parameter: setting.value}) != used:
                 yield (
                     f"The parameter {kind}.{parameter} was set to {setting.value!r} on"
-                    f" {setting.at}; this was computed with {used!r}."
+                    f" {minute_of(setting.at)}; this was computed with {used!r}."
                 )
 
 

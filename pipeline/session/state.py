@@ -112,6 +112,11 @@ class Result:
         return self.mark is not None and self.mark.mark == "rejected"
 
 
+def minute_of(at: str) -> str:
+    """Return a record's time for people, to the minute."""
+    return at[:16].replace("T", " ") + " UTC"
+
+
 @dataclass(frozen=True)
 class Setting:
     """A parameter's value, and since which record, when."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import secrets
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, Self
@@ -51,6 +52,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.session.actions import Action, FileRef
 
+_NO_ROOM = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EROFS}
+
 
 class Session:
     """
@@ -83,6 +86,7 @@ class Session:
             )
         self._records = list(read.records)
         self._lock, self._writer, self._by = lock, writer, by
+        self._full = False  # Whether the disk took no more of a file
         self._state: State | None = None
 
     @classmethod
@@ -251,6 +255,7 @@ class Session:
         try:
             ref = take_in(self.folder, "raw", own_file(file), name)
         except OSError as error:
+            self._full = self._full or error.errno in _NO_ROOM
             raise SessionError(
                 f"{file}: the file cannot be added to the session ({error}): free disk space or"
                 " check the disk, then run `contactbench session repair`. Nothing is lost."
@@ -342,12 +347,15 @@ class Session:
     def _store(self, folder: str, name: str, chunks: Iterable[bytes]) -> FileRef:
         self._needs_writer()
         try:
-            return store(self.folder, folder, name, chunks)
+            ref = store(self.folder, folder, name, chunks)
         except OSError as error:
+            self._full = self._full or error.errno in _NO_ROOM  # else it may be the file that is copied
             raise SessionError(
                 f"{self.folder}: {name} cannot be copied into the session ({error}): free disk"
                 " space or check the disk. Nothing was recorded."
             ) from error
+        self._full = False
+        return ref
 
     def _store_all(self, folder: str, files: Mapping[str, Iterable[bytes]]) -> dict[str, FileRef]:
         return {name: self._store(folder, name, chunks) for name, chunks in files.items()}
@@ -355,7 +363,7 @@ class Session:
     @property
     def refuses(self) -> bool:
         """Whether a write has failed, and the disk was not looked at since; see `recover`."""
-        return self._writer is not None and self._writer.broken
+        return self._writer is not None and (self._writer.broken or self._full)
 
     def recover(self) -> None:
         """
@@ -367,7 +375,7 @@ class Session:
             The disk still takes nothing, or the journal is not what was acknowledged.
         """
         writer = self._needs_writer()
-        if writer.broken:
+        if self.refuses:
             try:
                 try_room(self.folder)
             except OSError as error:
@@ -375,6 +383,8 @@ class Session:
                     f"{self.folder}: the disk still rejects writes ({error}): free disk space or"
                     " check the disk."
                 ) from error
+            self._full = False
+        if writer.broken:
             writer.mend()
 
     def _append(self, action: Action, sensor: str | None = None) -> Record:

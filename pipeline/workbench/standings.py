@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.state import minute_of
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.pipeline.workbench.trouble import NO_TROUBLE, SessionTrouble, files_behind
@@ -97,7 +98,7 @@ class Judged:
     @property
     def day(self) -> str:
         """When it was made, for people."""
-        return "" if self.found is None else self.found.at[:16].replace("T", " ") + " UTC"
+        return "" if self.found is None else minute_of(self.found.at)
 
 
 class Judge:

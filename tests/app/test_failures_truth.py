@@ -120,6 +120,7 @@ def test_a_full_disk_turns_red_what_would_be_written(made, verified, tmp_path, f
     assert made.said(DISK)
     full.free()
     made.wait_said("writable again")
+    assert "writable again" in made.window._newest.text(), "and the line below is not red any more"
     made.wait(lambda: status(made, Step.EXPORT).state is not StepState.FAILED)
     assert not made.unexpected
 

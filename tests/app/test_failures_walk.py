@@ -150,7 +150,7 @@ def test_quitting_while_it_computes_waits_if_one_wants(made, hand, tmp_path):
     hand.until(lambda: Step.PROBE in made.window.bench.running, "the work to begin", LONG)
     hand.key(Qt.Key.Key_Q, Qt.KeyboardModifier.ControlModifier)
     question = asked(made, hand)
-    question.read("being prepared")
+    question.read("Preparing the probe")
     question.press("Wait until done")
     assert made.window.isVisible()
     hand.until(lambda: not made.window.isVisible(), "the window to close", LONG)
@@ -228,7 +228,7 @@ def test_a_missing_file_is_red_everywhere_and_well_again_when_it_is_back(made, h
 @pytest.mark.parametrize(
     ("answer", "found"),
     [
-        ("Open up to the damage", "is kept beside"),
+        ("Open up to the damage", "is kept as journal.before-repair-"),
         ("Open read-only", "this session is damaged"),
         ("Salvage a copy", "At least one record is lost"),
     ],

@@ -111,6 +111,23 @@ def test_after_a_failed_write_the_journal_is_read_again_before_anything_is_accep
     assert not list((tmp_path / "s").glob(".room*"))
 
 
+def test_a_disk_without_room_for_a_file_is_known_until_there_is_room(tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s") as session:
+        with pytest.raises((SessionError, OSError)):
+            session.add_input(tmp_path / "not there", "recording")
+        assert not session.refuses, "the disk has nothing to do with it"
+        with monkeypatch.context() as patch:
+            Failing(patch, 1, errno.ENOSPC, forever=True)
+            with pytest.raises(SessionError, match="free disk space"):
+                session.add_input(b"markers", "markers", name="m.csv")
+            assert session.refuses
+            with pytest.raises(SessionError, match="still rejects writes"):
+                session.recover()
+            assert session.refuses
+        session.recover()
+        assert not session.refuses
+
+
 def test_an_action_goes_on_by_itself_once_the_disk_does(tmp_path, monkeypatch):
     with Session.create(tmp_path / "s") as session:
         with monkeypatch.context() as patch:

@@ -136,6 +136,14 @@ class Faults(QObject):
 
     def _from_qt(self, kind: QtMsgType, context: object, text: str) -> None:  # noqa: ARG002 - Qt's signature
         LOG.log(_LEVELS.get(kind, logging.INFO), "Qt: %s", text)
+        if (
+            kind == QtMsgType.QtFatalMsg and sys.stderr is not None
+        ):  # Qt ends the process as soon as we return
+            sys.stderr.write(
+                f"contactbench: the window cannot be shown: {text}. Check the display and its OpenGL driver (Debian:"
+                " libgl1-mesa-dri).\n"
+            )
+            sys.stderr.flush()
 
 
 def in_words(error: BaseException) -> tuple[str, str, bool]:

@@ -5,7 +5,7 @@ import sys
 import threading
 
 import pytest
-from PySide6.QtCore import qWarning
+from PySide6.QtCore import QtMsgType, qWarning
 
 from contactbench.app.errors import LOG, Faults, LogFile
 from contactbench.pipeline.errors import InputError
@@ -81,6 +81,14 @@ def test_what_qt_says_is_in_the_log(faults, caplog):  # noqa: ARG001
     with caplog.at_level(logging.WARNING, logger="contactbench"):
         qWarning("a word of Qt")
     assert "a word of Qt" in caplog.text
+
+
+def test_what_makes_qt_end_the_process_is_said_where_it_was_started(faults, capsys):
+    faults._from_qt(QtMsgType.QtWarningMsg, None, "no icon")
+    assert not capsys.readouterr().err
+    faults._from_qt(QtMsgType.QtFatalMsg, None, "Could not initialize GLX")
+    said = capsys.readouterr().err
+    assert "the window cannot be shown: Could not initialize GLX. Check the display" in said
 
 
 def test_a_log_that_cannot_be_written_is_survived(tmp_path):

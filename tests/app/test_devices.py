@@ -97,7 +97,7 @@ def test_noise_and_margin_of_each_channel_are_shown(page, qtbot):
 
 def test_a_wrong_address_is_told_beside_it_and_nothing_can_be_used(page):
     choose(page.sensor, "Enter address")
-    page.sensor.address.setText("ur+tcp://1.2.3.4")
+    page.sensor.address.setText("elfin+tcp://1.2.3.4")
     assert "not a force/torque sensor" in page.sensor.problem
     assert not page.use_button.isEnabled()
     page.sensor.address.setText("sri+tcp://1.2.3.4")

@@ -132,7 +132,7 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
         ("sri+tcp:/127.0.0.1", "://"),
         ("nonsense", "://"),
         ("sri+tcp://127.0.0.1:99999", "port"),
-        ("ur+tcp://1.2.3.4", "not a force/torque sensor"),
+        ("elfin+tcp://1.2.3.4", "not a force/torque sensor"),
     ],
 )
 def test_a_wrong_address_cannot_be_used_and_says_why(made, tmp_path, address, words):

@@ -66,12 +66,12 @@ LINES = (
     FaultLine("robotiq", Carrier.SERIAL),
     FaultLine("rdt", Carrier.UDP, (("profile", "ati"),)),
     FaultLine("rdt", Carrier.UDP, (("profile", "onrobot"),)),
+    FaultLine("elfin", Carrier.TCP),
+    FaultLine("ur", Carrier.TCP),
     FaultLine("kunwei", Carrier.SERIAL),
     FaultLine("robotous", Carrier.SERIAL),
     FaultLine("line", Carrier.UDP, _FIELDS),
     FaultLine("line", Carrier.TCP, _FIELDS),
-    FaultLine("elfin", Carrier.TCP),
-    FaultLine("ur", Carrier.TCP),
 )
 
 

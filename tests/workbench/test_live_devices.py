@@ -22,7 +22,7 @@ def test_addresses_read_back():
     ("address", "poses", "words"),
     [
         ("", False, "Give the address"),
-        ("ur+tcp://1.2.3.4", False, "not a force/torque sensor"),
+        ("elfin+tcp://1.2.3.4", False, "not a force/torque sensor"),
         ("sri+tcp://1.2.3.4", True, "gives no poses"),
         ("sri://1.2.3.4", False, "scheme"),
     ],

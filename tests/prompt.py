@@ -10,6 +10,7 @@ import json
 import os
 import socket
 import sys
+from contextlib import suppress
 
 _STREAMS = 3
 # What most commands import by themselves.
@@ -19,12 +20,12 @@ _OFTEN = (
 
 
 def serve(place: str) -> None:
-    """Run what is asked for, one command after the other, until somebody ends this process."""
+    """Run what is asked for, until somebody ends this process."""
     from importlib import import_module
 
-    from contactbench.app.cli import main
     from contactbench.pipeline.cli import ENTRIES
 
+    import_module("contactbench.app.cli")
     for entry in ENTRIES.values():
         import_module(entry.place.partition(":")[0])
     for module in _OFTEN:
@@ -38,21 +39,35 @@ def serve(place: str) -> None:
         told, ancillary, *_ = asked.recvmsg(2**20, socket.CMSG_LEN(streams.itemsize * _STREAMS))
         streams = array.array("i", bytes(ancillary[0][2]))
         order = json.loads(told)
-        child = os.fork()
-        if child == 0:
+        if os.fork() == 0:  # it waits for the command, so that one in the background holds up no other
             server.close()
-            for number, stream in enumerate(streams):
-                os.dup2(stream, number)
-                os.close(stream)
-            asked.close()
-            os.chdir(order["folder"])
-            sys.argv = ["contactbench", *order["words"]]
-            main()
+            _run(asked, streams, order)
             return
         for stream in streams:
             os.close(stream)
-        asked.sendall(str(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])).encode())
         asked.close()
+        with suppress(ChildProcessError):
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+
+
+def _run(asked: socket.socket, streams: array.array, order: dict) -> None:
+    """Run a command in a process of its own, and say how it ended."""
+    from contactbench.app.cli import main
+
+    child = os.fork()
+    if child == 0:
+        for number, stream in enumerate(streams):
+            os.dup2(stream, number)
+            os.close(stream)
+        asked.close()
+        os.chdir(order["folder"])
+        sys.argv = ["contactbench", *order["words"]]
+        main()
+        return
+    for stream in streams:
+        os.close(stream)
+    asked.sendall(str(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])).encode())
 
 
 def ask(place: str, words: list[str]) -> int:

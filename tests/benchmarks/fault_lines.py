@@ -278,7 +278,9 @@ def _values(sent: Sent, address: DeviceAddress) -> tuple[float, ...]:
     """Return what is in a frame, as its bytes say."""
     if address.gives_poses:
         return sent.reading.values
-    (sample,) = driver_for(address).parser.feed(sent.frame, 0.0)
+    parser = driver_for(address).parser
+    parser.feed(b"\n", 0.0)  # a line of text is believed from its beginning on
+    (sample,) = parser.feed(sent.frame, 0.0)
     return _given(sample)
 
 

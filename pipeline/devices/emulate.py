@@ -29,6 +29,7 @@ from contactbench.pipeline.devices.faults import (
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.devices.url import Carrier, options_query, read_options
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -383,7 +384,12 @@ def emulator(
         given = {name: read_options(known, name, text) for name, text in (options or {}).items()}
     except ValueError as error:
         raise EmulatorError(f"{scheme}: {error}.") from error
-    model, needed = known.emulate(rate, quirks, given)
+    try:
+        model, needed = known.emulate(rate, quirks, given)
+    except InputError:
+        raise
+    except Exception as error:
+        raise EmulatorError(f"{scheme}: the driver of {known.title} failed: {error!r}.") from error
     if script is not None:
         script.check(model.faults, model.name)
     over = Carrier(carrier or carriers[0])

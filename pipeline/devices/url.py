@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
@@ -22,7 +23,7 @@ from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
     from urllib.parse import SplitResult
 
     from contactbench.pipeline.devices.driver import Driver
@@ -221,7 +222,8 @@ class DeviceAddress:
         values = {**kind.defaults, **given}
         own: dict[str, Any] = {}
         if kind.driver is not None:
-            own = kind.driver.complete({key: values[key] for key in kind.driver.options})
+            with _own_failures(kind.driver):
+                own = kind.driver.complete({key: values[key] for key in kind.driver.options})
         bench = None
         if kind.protocol == Protocol.VIRTUAL:
             bench = BenchOptions(**{key: value for key, value in given.items() if key in _BENCH})
@@ -347,7 +349,8 @@ def _given(query: str, kind: _Kind) -> dict[str, Any]:
         if key in found:
             raise ValueError(f"option {key!r} appears twice: keep one")
         found[key] = value
-    return {key: _read(key, value, _reader(key, kind)) for key, value in found.items()}
+    with _own_failures(kind.driver):
+        return {key: _read(key, value, _reader(key, kind)) for key, value in found.items()}
 
 
 def _reader(key: str, kind: _Kind) -> Callable[[str], Any]:
@@ -356,6 +359,18 @@ def _reader(key: str, kind: _Kind) -> Callable[[str], Any]:
     if key == "speed" and kind.protocol in _SPEEDS:
         return _SPEEDS[kind.protocol]
     return _BENCH[key] if key in _BENCH else _OPTIONS[key][1]
+
+
+@contextmanager
+def _own_failures(driver: Driver | None) -> Iterator[None]:
+    """Turn whatever a plug-in raises into a ValueError that names it."""
+    try:
+        yield
+    except ValueError:
+        raise
+    except Exception as error:
+        title = "" if driver is None else driver.title
+        raise ValueError(f"the driver of {title} failed: {error!r}: update its package") from error
 
 
 def _read(key: str, value: str, read: Callable[[str], Any]) -> Any:

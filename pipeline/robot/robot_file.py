@@ -92,7 +92,7 @@ def _read(path: Path, flange: str, changed: int, size: int) -> RobotDescription:
     mujoco = import_mujoco()
     try:
         model: Any = mujoco.MjModel.from_xml_string(_bare(path, root))
-    except ValueError as error:
+    except (ValueError, RecursionError, mujoco.FatalError) as error:
         raise InputError(f"{path}: it is no robot that MuJoCo can read ({str(error).strip()}).") from error
     if model.nbody > _MOST_BODIES:
         raise InputError(f"{path}: it has {model.nbody} bodies: give the file of one arm alone.")

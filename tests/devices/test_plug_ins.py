@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
-from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.emulate import EmulatorError, emulator
 from contactbench.pipeline.devices.protocols import registry
 from contactbench.pipeline.devices.transport.ports import guess_device
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
@@ -81,6 +81,7 @@ class Nothing:
     pass
 
 
+from contactbench.pipeline.devices.options import Option
 from tiny_driver import TinyDriver
 
 
@@ -97,8 +98,13 @@ class NoPort(TinyDriver):
 class Failing(TinyDriver):
     scheme = "failing"
 
+    options = {"odd": Option("Odd.", lambda text: {}[text])}
+
     def sensor(self, address):
         raise KeyError("counts")
+
+    def emulate(self, rate, quirks, options):
+        raise KeyError("model")
 """
 
 
@@ -212,6 +218,10 @@ def test_a_plug_in_that_cannot_be_used_is_named_and_left_out(installed):
         DeviceAddress.parse("unheard+tcp://h")
     with pytest.raises(registry.ProtocolError, match="the driver of Tiny works failed: KeyError"):
         registry.driver_for(DeviceAddress.parse("failing+tcp://h"))
+    with pytest.raises(AddressError, match="the driver of Tiny works failed: KeyError"):
+        DeviceAddress.parse("failing+tcp://h?odd=x")
+    with pytest.raises(EmulatorError, match="the driver of Tiny works failed: KeyError"):
+        emulator("failing")
 
 
 def test_two_plug_ins_of_one_scheme_are_both_left_out(installed):

@@ -171,7 +171,9 @@ def test_poses_are_planned_for_an_arm_of_a_file(file):
         ("a.xml", '<mujoco><include file="b.xml"/></mujoco>', "includes other files"),
         ("a.xml", "<mujoco><worldbody><body/></worldbody></mujoco>", "no joint that turns"),
         ("a.xacro", "<robot/>", "run xacro first"),
+        ("deep.xml", f"<mujoco>{'<body>' * 20_000}{'</body>' * 20_000}</mujoco>", "MuJoCo can read"),
     ],
+    ids=lambda value: value[:20],
 )
 def test_what_is_no_arm_is_refused_by_name(file, name, text, part):
     with pytest.raises(InputError, match=part) as failed:

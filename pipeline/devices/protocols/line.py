@@ -33,6 +33,7 @@ from contactbench.pipeline.devices.protocols.line_layout import (
     unescaped,
     with_file,
 )
+from contactbench.pipeline.devices.protocols.line_pose import pose_maker
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     Counters,
@@ -43,13 +44,9 @@ from contactbench.pipeline.devices.protocols.parser import (
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
@@ -58,15 +55,12 @@ if TYPE_CHECKING:
 
     Numbers = Mapping[str, float]
     Made = Callable[[Numbers, float, Status, float | None], Sample | None]
-    Turned = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]
 
 _LONGEST_LINE = 8192
 _ABSURD = 1e9  # in SI; times may be seconds since 1970
 _ABSURD_TIME = 1e12
-_FARTHEST_M = 1e3
 # Datagrams that overtake each other are a few apart, or less than this, s.
 _REORDER, _OVERTAKEN_S = 16, 1.0
-_UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 _BETWEEN = re.compile(r"[,;\s]+")
 
 
@@ -264,78 +258,6 @@ class LineWrenches(LineParser[WrenchSample], SensorParser):
 def _wrench(numbers: Numbers, time: float, status: Status, device_time: float | None) -> WrenchSample:
     fx, fy, fz, mx, my, mz = (numbers[role] for role in WRENCH)
     return WrenchSample(time, (fx, fy, fz), (mx, my, mz), None, status, device_time)
-
-
-def pose_maker(layout: Layout) -> Made[FlangeSample]:
-    """
-    Return what makes a pose from a line's numbers.
-
-    Raises
-    ------
-    InputError
-        There is no such robot, or MuJoCo is not installed.
-    """
-    turned = _by_joints(layout) if layout.joints else _by_rotation(layout)
-
-    def made(numbers: Numbers, time: float, status: Status, device_time: float | None) -> FlangeSample | None:
-        pose = turned(numbers)
-        if pose is None or status is not Status.OK:
-            return None
-        R_BE, p_BE_B, joints = pose
-        return FlangeSample(time, R_BE, p_BE_B, joints, device_time)
-
-    return made
-
-
-def _by_rotation(layout: Layout) -> Callable[[Numbers], Turned | None]:
-    import numpy as np
-    from scipy.spatial.transform import Rotation  # a third of a second to import
-
-    positioned = layout.roles.issuperset(POSITION)
-
-    def turned(numbers: Numbers) -> Turned | None:
-        position = np.array([numbers[role] if positioned else math.nan for role in POSITION])
-        if (np.abs(position) > _FARTHEST_M).any():
-            return None
-        if layout.rotation is None:
-            w, x, y, z = (numbers[role] for role in QUATERNION)
-            if not abs(math.sqrt(w * w + x * x + y * y + z * z) - 1) <= _UNIT:
-                return None
-            rotation = Rotation.from_quat([x, y, z, w])
-        else:
-            turn = [numbers[role] for role in TURN]
-            # Lower case: about the fixed axes, one after the other.
-            rotation = (
-                Rotation.from_rotvec(turn)
-                if layout.rotation == "vector"
-                else Rotation.from_euler("xyz", turn)
-            )
-        return rotation.as_matrix(), position, None
-
-    return turned
-
-
-def _by_joints(layout: Layout) -> Callable[[Numbers], Turned | None]:
-    import numpy as np
-
-    from contactbench.pipeline.robot import Robot
-
-    robot = Robot.named(layout.robot or "")
-    if len(layout.joints) != len(robot.lower):
-        raise InputError(
-            f"robot {robot.description.name}: it has {len(robot.lower)} joints, and the lines have"
-            f" {len(layout.joints)}: declare q1 to q{len(robot.lower)}."
-        )
-    robot.flange_pose(np.zeros(len(robot.lower)))  # says at once where MuJoCo is missing
-
-    def turned(numbers: Numbers) -> Turned | None:
-        joints = np.array([numbers[role] for role in layout.joints])
-        try:
-            return *robot.flange_pose(joints), joints
-        except InputError:
-            return None
-
-    return turned
 
 
 # ---- emulated: a device that sends lines ---------------------------------------------------------

@@ -16,8 +16,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.emulate import Fault, Script, emulator, sine
-from contactbench.pipeline.devices.protocols.line import LineWrenches, pose_maker
+from contactbench.pipeline.devices.protocols.line import LineWrenches
 from contactbench.pipeline.devices.protocols.line_layout import OPTIONS, Layout, unescaped, with_file
+from contactbench.pipeline.devices.protocols.line_pose import pose_maker
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress

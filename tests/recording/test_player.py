@@ -288,7 +288,7 @@ def test_of_several_sensors_one_is_chosen(tmp_path):
         ("replay://{0}", "replay:///other.mcap"),
         ("replay://{0}?speed=2", "replay://{0}?speed=4"),
         ("still://?rpy=0,0,0", "replay://{0}"),
-        ("ur+tcp://127.0.0.1", None),
+        ("elfin+tcp://127.0.0.1", None),
         ("replay://{0}", "sri+tcp://127.0.0.1"),
     ],
 )

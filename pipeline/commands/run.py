@@ -17,7 +17,7 @@ from contactbench.pipeline.console import Noun, say
 
 if TYPE_CHECKING:
     import threading
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import PatchReader
@@ -62,6 +62,12 @@ def run(
     udp: Annotated[
         str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a UDP datagram.")
     ] = None,
+    igtl: Annotated[
+        str | None,
+        typer.Option(
+            metavar="HOST:PORT", help="Serve contacts there to OpenIGTLink clients, such as 3D Slicer."
+        ),
+    ] = None,
     patch: PatchOption = None,
     seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
     unverified: Annotated[
@@ -71,14 +77,17 @@ def run(
         bool, typer.Option("--other-sensor", help="Also run with a sensor of another serial number.")
     ] = False,
     allow_remote: Annotated[
-        bool, typer.Option("--allow-remote", help="Datagrams may go to another machine, unprotected.")
+        bool,
+        typer.Option(
+            "--allow-remote", help="Outputs may reach other machines, neither encrypted nor signed."
+        ),
     ] = False,
 ) -> None:
     """Run a bundle on live streams, and locate the contact at every sample.
 
     It ends with Ctrl-C, after --seconds, or at the end of a replay.
 
-    Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on
+    Contacts are lines of JSON, on standard output unless another output is given; act only on
     those whose accepted is true. A sample uses the orientation at its own time, interpolated between two
     poses or extrapolated from the last one as far as the bundle allows; without one its reason is stale. A
     typed pose (still://) never becomes stale. Each contact contains its age (latency_s) and the state of
@@ -119,7 +128,8 @@ def run(
     with ended_by_signals() as ended, ExitStack() as stack:
         stack.callback(pair.stop)  # a replay has its file open before it begins
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
-        targets = _targets(out, mcap, udp, pair.about(), allow_remote=allow_remote)
+        network = {"udp": udp, "igtl": igtl}
+        targets = _targets(out, mcap, network, config, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
         live = pair.player is None
         keep = None if patches is None else patches.take
@@ -139,15 +149,23 @@ def run(
 
 
 def _targets(
-    out: str | None, mcap: Path | None, udp: str | None, about: RecordingInfo, *, allow_remote: bool
+    out: str | None,
+    mcap: Path | None,
+    network: Mapping[str, str | None],
+    config: RuntimeConfig,
+    about: RecordingInfo,
+    *,
+    allow_remote: bool,
 ) -> list[OutletTarget]:
-    from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+    from contactbench.pipeline.runtime.network_targets import network_target
+    from contactbench.pipeline.runtime.targets import LineTarget, McapTarget
 
     targets: list[OutletTarget] = []
+    wanted = {option: address for option, address in network.items() if address is not None}
     try:
-        if udp is not None:
-            targets.append(UdpTarget(udp, remote=allow_remote))
-        if out == "-" or (out is None and mcap is None and udp is None):
+        for option, address in wanted.items():
+            targets.append(network_target(option, address, config, about, remote=allow_remote))
+        if out == "-" or (out is None and mcap is None and not wanted):
             targets.append(LineTarget("standard output", _standard_output()))
         elif out is not None:
             targets.append(LineTarget.new(Path(out)))

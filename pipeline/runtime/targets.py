@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 import json
 import os
 import socket
@@ -12,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
-from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError, RunError
+from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
+from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -117,7 +117,7 @@ class UdpTarget:
 
     def __init__(self, address: str, *, remote: bool = False) -> None:
         self.name = f"udp {address}"
-        family, self._to = _resolve(address, remote=remote)
+        family, self._to = resolve("--udp", address, socket.SOCK_DGRAM, remote=remote)
         self._socket = socket.socket(family, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
 
@@ -276,22 +276,3 @@ def _numbers(description: str, *, array: bool = True) -> dict[str, Any]:
     number = {"type": "number"}
     kind: dict[str, Any] = {"type": "array", "items": number} if array else number
     return {**kind, "description": description}
-
-
-def _resolve(address: str, *, remote: bool) -> tuple[socket.AddressFamily, Any]:
-    host, _, port = address.rpartition(":")
-    if not host or not port.isascii() or not port.isdigit() or not 0 < int(port) < 65_536:
-        raise RunError(f"--udp {address}: give a host and a port, such as 127.0.0.1:9000.")
-    try:
-        family, _, _, _, place = socket.getaddrinfo(host.strip("[]"), int(port), type=socket.SOCK_DGRAM)[0]
-        near = ipaddress.ip_address(str(place[0]).partition("%")[0]).is_loopback
-    except (OSError, UnicodeError, ValueError) as error:
-        raise RunError(
-            f"--udp {address}: there is no such host ({error}): write its IP address, such as 127.0.0.1."
-        ) from error
-    if not near and not remote:
-        raise RunError(
-            f"--udp {address}: this is another machine, and datagrams are neither encrypted nor"
-            " signed: send to 127.0.0.1, or add --allow-remote."
-        )
-    return family, place

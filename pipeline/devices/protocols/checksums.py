@@ -42,3 +42,25 @@ def crc16_modbus(data: bytes) -> int:
     for byte in data:
         crc = crc >> 8 ^ _MODBUS[(crc ^ byte) & 0xFF]
     return crc
+
+
+def _ecma_entry(byte: int) -> int:
+    crc = byte << 56
+    for _ in range(8):
+        crc = (crc << 1 ^ (0x42F0E1EBA9EA3693 if crc >> 63 else 0)) & 0xFFFF_FFFF_FFFF_FFFF
+    return crc
+
+
+_ECMA = tuple(map(_ecma_entry, range(256)))
+
+
+def crc64_ecma(data: bytes) -> int:
+    """
+    Return CRC-64/ECMA-182: polynomial 0x42F0E1EBA9EA3693, start 0.
+
+    The check value, of b"123456789", is 0x6C40DF5F0B497347.
+    """
+    crc = 0
+    for byte in data:
+        crc = (crc & 0x00FF_FFFF_FFFF_FFFF) << 8 ^ _ECMA[crc >> 56 ^ byte]
+    return crc

@@ -44,7 +44,7 @@ def start(
         str | None,
         typer.Option(
             metavar="ADDRESS",
-            help="Also record a robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address,"
+            help="Also record a robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
             " poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).",
         ),
     ] = None,

@@ -51,7 +51,7 @@ def run(
         str,
         typer.Option(
             metavar="ADDRESS",
-            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address,"
+            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
             " poses:///file.csv, still://?rpy=0,90,0 (degrees).",
         ),
     ],

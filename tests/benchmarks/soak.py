@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.protocols import bota, kunwei, robotiq, robotous
+from contactbench.pipeline.devices.protocols import bota, igtl, kunwei, robotiq, robotous
 from contactbench.pipeline.devices.protocols.bota import BotaParser
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 from contactbench.pipeline.devices.protocols.elfin import (
@@ -19,6 +19,7 @@ from contactbench.pipeline.devices.protocols.elfin import (
     ReplyReader,
     read_position,
 )
+from contactbench.pipeline.devices.protocols.igtl_pose import BodyStream
 from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
 from contactbench.pipeline.devices.protocols.line import LineWrenches
 from contactbench.pipeline.devices.protocols.line_layout import OPTIONS, Layout
@@ -190,7 +191,7 @@ SUBJECTS = {
 }
 
 
-ROBOTS = ("elfin", "ur", "ur-wrench")
+ROBOTS = ("elfin", "ur", "ur-wrench", "igtl")
 PROTOCOLS = (*SUBJECTS, *ROBOTS)
 
 _FRAGMENTS = {
@@ -218,6 +219,21 @@ _FRAGMENTS = {
         *(b"\x00", b"\x00\x6c", b"\x00\x6cU\x01", b"\x0f\xffM", b"\xff\xffU"),
     ],
 }
+
+_TRANSFORM = igtl.pack(igtl.TRANSFORM, "Probe", 10**18, igtl.transform(np.eye(3), np.ones(3)))
+_FRAGMENTS["igtl"] = [
+    _TRANSFORM,
+    *(_TRANSFORM[:cut] for cut in (2, 14, 42, 57, 58, 70)),
+    _TRANSFORM[58:],
+    *(
+        struct.pack(">H12s20sIIQQ", version, kind, b"Probe", 1, 0, size, 0)
+        for version in (1, 2)
+        for kind in (b"TRANSFORM", b"QTDATA", b"IMAGE")  # an image is skipped unread: a short one
+        for size in (0, 48, 3_200, 60_000 if kind != b"IMAGE" else 7, 2**63)
+    ),
+    igtl.pack(igtl.QTDATA, "", 1, b"\xff" * 50),
+    *(igtl.pack(kind, "Probe", 1, b"\x7f\xc0\0\0" * 12) for kind in (igtl.TRANSFORM, igtl.POSITION)),
+]
 
 _LONGEST_CHUNK = 300
 _BLOCK = 1 << 16
@@ -297,7 +313,12 @@ def soak(protocol: str, count: int, seed: int) -> SoakReport:
     rng = np.random.default_rng(seed)
     if protocol in SUBJECTS:
         return _soak_sensor(protocol, SUBJECTS[protocol], count, rng)
-    robots = {"elfin": _elfin_feed, "ur": _ur_feed, "ur-wrench": _ur_wrench_feed}
+    robots = {
+        "elfin": _elfin_feed,
+        "ur": _ur_feed,
+        "ur-wrench": _ur_wrench_feed,
+        "igtl": _igtl_feed,
+    }
     if protocol not in robots:
         raise ProtocolError(f"soak: there is no protocol {protocol!r}; known: {', '.join(PROTOCOLS)}.")
     return _soak_robot(protocol, robots[protocol](), count, rng)
@@ -440,6 +461,21 @@ def _ur_wrench_feed() -> Callable[[bytes], tuple[int, int]]:
         if parser.pending > 4096:
             raise SoakError(f"{parser.pending} bytes wait for the end of a packet")
         return found, 0
+
+    return feed
+
+
+def _igtl_feed() -> Callable[[bytes], tuple[int, int]]:
+    bodies = BodyStream("Probe")
+
+    def feed(chunk: bytes) -> tuple[int, int]:
+        before = bodies.counters
+        samples = bodies.feed(chunk, 0.0)
+        if bodies.pending > 16_384:
+            raise SoakError(f"{bodies.pending} bytes wait for the end of a message")
+        if not all(np.isfinite(each.R_BE).all() and np.isfinite(each.p_BE_B).all() for each in samples):
+            raise SoakError("a pose is not finite")
+        return bodies.counters.frames - before.frames, bodies.counters.bad_checksums - before.bad_checksums
 
     return feed
 

@@ -23,7 +23,7 @@ def test_each_protocol_has_its_defaults():
     )
     assert parse("bota+serial:///dev/ttyUSB0").baud == 460_800
     assert parse("robotiq+serial:///dev/ttyUSB0").baud == 19_200
-    ports = {"sri+tcp": 4008, "rdt+udp": 49_152, "elfin+tcp": 10_003, "ur+tcp": 30_004}
+    ports = {"sri+tcp": 4008, "rdt+udp": 49_152, "elfin+tcp": 10_003, "ur+tcp": 30_004, "igtl+tcp": 18_944}
     for scheme, port in ports.items():
         address = parse(f"{scheme}://192.168.0.108")
         assert (address.host, address.port, address.path) == ("192.168.0.108", port, "")

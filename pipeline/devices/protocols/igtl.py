@@ -215,11 +215,20 @@ class MessageReader:
         self._frames += 1
         time = seconds + fraction / 2**32 if seconds or fraction else None
         found.append(Message(kind, device, time, content))
-        return _HEADER.size + size
+        return _HEADER.size + int(size)
 
     def _move_on(self) -> int:
         self._skipped += 1
         return 1
+
+
+def first_message(data: bytes) -> tuple[str, int] | None:
+    """Return kind and length in bytes of the message that data begins with; None: it is not whole."""
+    if len(data) < _HEADER.size:
+        return None
+    _, kind, _, _, _, size, _ = _HEADER.unpack_from(data)
+    whole = _HEADER.size + size
+    return (_text(kind), whole) if whole <= len(data) else None
 
 
 def _text(field: bytes) -> str:

@@ -32,6 +32,7 @@ _BUILT_IN = {
         "elfin": "elfin:ElfinDriver",
         "ur": "ur_pose:UrDriver",
         "line": "line:LineDriver",
+        "igtl": "igtl_pose:IgtlDriver",
     }.items()
 }
 

@@ -1,0 +1,201 @@
+"""One tracked body of an OpenIGTLink server as flange samples, and an emulated tracker that serves one."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.options import Option
+from contactbench.pipeline.devices.options import name as read_name
+from contactbench.pipeline.devices.protocols import igtl
+from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
+from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
+from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.sample import FlangeSample
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
+    from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
+    from contactbench.pipeline.devices.protocols.device_model import Quirk
+    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
+    from contactbench.pipeline.devices.url import DeviceAddress
+
+_MOST_NAMES = 20
+
+
+class BodyStream:
+    """
+    Bytes of a server to poses of one body, which plays the flange: E is the body, the base B is the tracker.
+
+    Parameters
+    ----------
+    body : str or None
+        Its name; None: the server's only one.
+
+    Attributes
+    ----------
+    names : list of str
+        Bodies heard of, at most twenty.
+    trouble : str
+        Why the last pose that came is none; empty: it is one.
+    """
+
+    def __init__(self, body: str | None = None) -> None:
+        self._body = body
+        self._reader = MessageReader()
+        self._refused = self._repeated = 0
+        self._stamp: float | None = None
+        self.names: list[str] = []
+        self.trouble = ""
+
+    @property
+    def counters(self) -> Counters:
+        """What was seen so far; a pose that is none counts as damaged."""
+        seen = self._reader.counters
+        return Counters(
+            frames=seen.frames,
+            bad_checksums=seen.bad_checksums + self._refused,
+            skipped_bytes=seen.skipped_bytes,
+            duplicates=self._repeated,
+        )
+
+    @property
+    def pending(self) -> int:
+        """Bytes that wait for the rest of their message."""
+        return self._reader.pending
+
+    def reset(self) -> None:
+        """Forget half a message, after the line was lost."""
+        self._reader.reset()
+        self._stamp, self.trouble = None, ""
+
+    def feed(self, data: bytes, time: float) -> list[FlangeSample]:
+        """
+        Take bytes as they arrive, cut anywhere.
+
+        A message with the time stamp of the one before is the same measurement again, and dropped.
+
+        Parameters
+        ----------
+        data : bytes
+            Any bytes: what is no message is skipped and counted.
+        time : float
+            When the last of them arrived, seconds of the host's monotonic clock.
+
+        Raises
+        ------
+        IgtlError
+            The server has several bodies, and none was chosen.
+        """
+        samples: list[FlangeSample] = []
+        for message in self._reader.feed(data):
+            try:
+                poses = igtl.poses_of(message)
+            except IgtlError as error:
+                self.trouble = str(error)
+                self._refused += 1
+                continue
+            for pose in poses:
+                if not self._is_wanted(pose.body):
+                    continue
+                self.trouble = ""
+                if message.time is not None and message.time == self._stamp:
+                    self._repeated += 1
+                    continue
+                self._stamp = message.time
+                samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=message.time))
+        return samples
+
+    def _is_wanted(self, name: str) -> bool:
+        if name not in self.names and len(self.names) < _MOST_NAMES:
+            self.names.append(name)
+        if self._body is None and len(self.names) > 1:
+            raise IgtlError(
+                f"OpenIGTLink: the server sends several bodies ({', '.join(self.names)}): add ?device=NAME to the"
+                " address."
+            )
+        return self._body in (None, name)
+
+
+# ---- emulated: a tracker that streams one body ---------------------------------------------------
+
+BODY = "Probe"
+"""The body of an emulated tracker."""
+
+
+class IgtlModel(Model):
+    """A tracker; its signal is the body's position (m) and orientation (rotation vector, rad) in the tracker's frame.
+
+    It sends TRANSFORM by itself, and QTDATA once it is asked for that.
+    """
+
+    name = "igtl"
+    rest: ClassVar[Six] = (0.1, -0.2, 0.9, 0.3, -0.4, 1.1)
+    swing: ClassVar[Six] = (0.02, 0.02, 0.02, 0.2, 0.2, 0.2)
+    swing_hz = 0.2
+    own_rate = 60.0
+    faults = WIRE_FAULTS | {Fault.WRONG_RATE, Fault.CLOCK_JUMP}
+
+    def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
+        super().__init__(rate, quirks)
+        self._lists = False
+        self.streaming = True
+
+    def restart(self) -> None:
+        """Come up again, and stream at once."""
+        super().restart()
+        self._lists = False
+        self.streaming = True
+
+    def frame(self, reading: SensorReading, moment: FrameMoment) -> bytes:
+        """Return one message; its clock begins in November 2023."""
+        R, p = Rotation.from_rotvec(reading.values[3:]).as_matrix(), np.array(reading.values[:3])
+        stamp = 1_700_000_000_000_000_000 + round(1e9 * moment.clock)
+        if self._lists:
+            content = igtl.listed(BODY, igtl.quaternion_pose(R, p))
+            return igtl.pack(igtl.QTDATA, "Tracker", stamp, content)
+        return igtl.pack(igtl.TRANSFORM, BODY, stamp, igtl.transform(R, p))
+
+    def _step(self) -> list[bytes]:
+        whole = igtl.first_message(self._pending)
+        if whole is None:
+            return []
+        kind, size = whole
+        message = self._take(size)
+        if kind == igtl.START_QTDATA and size == len(igtl.start_qtdata(1.0)):
+            self.rate = 1e3 / max(1, struct.unpack_from(">i", message, size - 36)[0])
+            self._lists = True
+            self._obey(message)
+            return [igtl.pack(igtl.ANSWER_QTDATA, "Tracker", 0, b"\0")]
+        if kind == igtl.STOP_QTDATA:
+            self._lists = False
+            self._obey(message)
+            return []
+        self._refuse(message)
+        return []
+
+
+class IgtlDriver(Driver):
+    """A tracker that serves OpenIGTLink."""
+
+    scheme, title = "igtl", "OpenIGTLink tracker"
+    ways = (Way(Carrier.TCP, port=18_944),)
+    options: ClassVar[Mapping[str, Option]] = {
+        "device": Option("Name of the tracked body, where the server sends several.", read_name)
+    }
+    emulated = IgtlModel
+
+    def poses(
+        self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
+    ) -> ReconnectingStream[FlangeSample]:
+        """As `Driver`."""
+        from contactbench.pipeline.devices.tracker_poses import TrackerPoses  # it needs what is here
+
+        return TrackerPoses(address, on_samples, on_change)

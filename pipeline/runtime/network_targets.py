@@ -55,4 +55,10 @@ def _igtl(address: str, _config: RuntimeConfig, about: RecordingInfo, remote: bo
     return IgtlTarget(address, about, remote=remote)
 
 
-NETWORK_TARGETS: dict[str, Open] = {"udp": _udp, "igtl": _igtl}
+def _foxglove(address: str, config: RuntimeConfig, about: RecordingInfo, remote: bool) -> OutletTarget:
+    from contactbench.pipeline.runtime.foxglove_target import FoxgloveTarget
+
+    return FoxgloveTarget(address, config.probe, about, remote=remote)
+
+
+NETWORK_TARGETS: dict[str, Open] = {"udp": _udp, "igtl": _igtl, "foxglove": _foxglove}

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 import socket
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
+from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 from contactbench.pipeline.runtime.places import resolve
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
 
-CONTACT_TOPIC, CONTACT_SCHEMA = "/contact", "contactbench.Contact"
+CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20
 _CHUNK_S = 0.5
 _SYNC_S = 1.0
@@ -181,9 +181,7 @@ class McapTarget:
                     stamp = self._about.log_time(answer.time)
                 except ValueError:
                     continue
-                seconds, nanoseconds = divmod(stamp, 1_000_000_000)
-                head = f'{{"timestamp":{{"sec":{seconds},"nsec":{nanoseconds}}},"frame_id":"sensor",'
-                self._file.add_message(self._channel, stamp, head.encode("ascii") + answer.line[1:-1])
+                self._file.add_message(self._channel, stamp, contact_message(answer, stamp))
                 written += 1
                 if self._file.pending >= _CHUNK_BYTES:
                     self._file.finish_chunk()
@@ -210,69 +208,3 @@ class McapTarget:
             self._file.finish()
         except RecordingError as error:
             raise OutputError(str(error)) from error
-
-
-def contact_schema() -> bytes:
-    """Return the JSON schema of a contact in an MCAP file."""
-    whole, text = {"type": "integer"}, {"type": "string"}
-    fields = {
-        "timestamp": {"type": "object", "properties": {"sec": whole, "nsec": whole}},
-        "frame_id": text,
-        "time": _numbers("The samples' clock, s.", array=False),
-        "reason": {**text, "description": "Why there is a contact, or none."},
-        "accepted": {"type": "boolean", "description": "Act only where it is true."},
-        "health": {
-            "type": "array",
-            "items": text,
-            "description": "What is wrong with sample, sensor or pose; empty: nothing.",
-        },
-        "latency_s": _numbers("How old the reading was when the contact was known, s.", array=False),
-        "pose_age_s": _numbers("How much older than the sample the last pose before it is, s.", array=False),
-        "point_S_m": _numbers("In the sensor's frame, m; null: none."),
-        "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),
-        "normal_S": _numbers("Outward."),
-        "torque_Nm": _numbers("About the normal, N·m.", array=False),
-        "force_S_N": _numbers("Of the tissue on the probe, compensated and filtered, N."),
-        "torque_S_Nm": _numbers("The same, about the sensor's origin, N·m."),
-        "covariance_S_m2": _numbers("Of the point, row by row, m²."),
-        "face": {**whole, "description": "-1: none."},
-        "vertex": {**whole, "description": "-1: none."},
-        "region": {**whole, "description": "Rank; 0: none."},
-        "on": {
-            **text,
-            "description": "What the facet is: measured, invented (the file had an opening there) or untouchable;"
-            " null: none.",
-        },
-        "candidates": whole,
-        "confidence": _numbers("That this place is touched and no other, 0 to 1.", array=False),
-        "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
-        "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
-        "arm_m": _numbers("Torque along the force over the force, m.", array=False),
-        "runner_up_S_m": _numbers("The likeliest other place, m; null: none."),
-        "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
-        "zero": {
-            "type": "object",
-            "description": "What is known of the sensor's zero; nothing of it is applied to the contact.",
-            "properties": {
-                "state": {
-                    **text,
-                    "description": "unknown, confirmed, doubtful (off, unless something touches the probe) or off.",
-                },
-                "age_s": _numbers(
-                    "Since the last moment without touch, s; null: there was none.", array=False
-                ),
-                "force_S_N": _numbers("What the readings have too much, N; null: not known."),
-                "torque_S_Nm": _numbers("The same, N·m."),
-                "shift_m": _numbers("By how much that moves a contact of 10 N at most, m.", array=False),
-                "shift_sigma_m": _numbers("One standard deviation of it, m.", array=False),
-            },
-        },
-    }
-    schema = {"title": CONTACT_SCHEMA, "type": "object", "properties": fields}
-    return json.dumps(schema, ensure_ascii=False).encode()
-
-
-def _numbers(description: str, *, array: bool = True) -> dict[str, Any]:
-    number = {"type": "number"}
-    kind: dict[str, Any] = {"type": "array", "items": number} if array else number
-    return {**kind, "description": description}

@@ -74,6 +74,10 @@ def run(
             metavar="HOST:PORT", help="Serve contacts and a picture there to Foxglove (extra live)."
         ),
     ] = None,
+    dds: Annotated[
+        str | None,
+        typer.Option(metavar="DOMAIN", help="Publish contacts to ROS 2 in this DDS domain (extra live)."),
+    ] = None,
     patch: PatchOption = None,
     seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
     unverified: Annotated[
@@ -134,7 +138,7 @@ def run(
     with ended_by_signals() as ended, ExitStack() as stack:
         stack.callback(pair.stop)  # a replay has its file open before it begins
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
-        network = {"udp": udp, "igtl": igtl, "foxglove": foxglove}
+        network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds}
         targets = _targets(out, mcap, network, config, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
         live = pair.player is None

@@ -61,4 +61,10 @@ def _foxglove(address: str, config: RuntimeConfig, about: RecordingInfo, remote:
     return FoxgloveTarget(address, config.probe, about, remote=remote)
 
 
-NETWORK_TARGETS: dict[str, Open] = {"udp": _udp, "igtl": _igtl, "foxglove": _foxglove}
+def _dds(domain: str, _config: RuntimeConfig, about: RecordingInfo, remote: bool) -> OutletTarget:
+    from contactbench.pipeline.runtime.dds_target import DdsTarget
+
+    return DdsTarget(domain, about, remote=remote)
+
+
+NETWORK_TARGETS: dict[str, Open] = {"udp": _udp, "igtl": _igtl, "foxglove": _foxglove, "dds": _dds}

@@ -1,0 +1,141 @@
+"""Contacts for ROS 2 without ROS: two topics by DDS."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from cyclonedds.core import DDSException, Policy, Qos
+from cyclonedds.domain import Domain, DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.topic import Topic
+from cyclonedds.util import duration
+
+from contactbench.pipeline.runtime import dds_types as ros
+from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.runtime.lines import health_names
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.runtime.lines import Answer
+
+WRENCH, CONTACT = "rt/contactbench/wrench", "rt/contactbench/contact"
+"""Topics; ROS calls them /contactbench/wrench and /contactbench/contact."""
+
+_FRAME = "sensor"
+_MOST_DOMAIN = 232  # beyond, the ports do not fit
+_DEPTH = 10
+_NOTHING = (math.nan,) * 9
+# The loopback interface cannot multicast everywhere, so participants are looked for port by port.
+_LOOPBACK = """
+<CycloneDDS><Domain><General><Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces>
+<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
+<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers></Discovery>
+</Domain></CycloneDDS>
+"""
+
+
+class DdsTarget:
+    """
+    ``geometry_msgs/msg/WrenchStamped`` and ``contactbench_msgs/msg/Contact``, as ROS 2 names and encodes them.
+
+    Both are reliable, volatile and keep the last ten: what ROS offers by default, which fits reliable and best-effort
+    subscribers. A subscriber that stops makes the writer wait for at most a millisecond, in the output's own thread.
+
+    Parameters
+    ----------
+    domain : str
+        A whole number, ROS_DOMAIN_ID.
+    about : RecordingInfo
+        Ties the samples' clock to the calendar.
+    remote : bool
+        Whether other machines may subscribe: all interfaces, as CYCLONEDDS_URI says. Else the loopback interface.
+
+    Raises
+    ------
+    RunError
+        It is no domain, or DDS does not start.
+    """
+
+    pace = 0.0
+
+    def __init__(self, domain: str, about: RecordingInfo, *, remote: bool = False) -> None:
+        if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
+            raise RunError(f"--dds {domain}: give the ROS domain, a whole number from 0 to {_MOST_DOMAIN}.")
+        self.name, self._about = f"DDS domain {domain}", about
+        qos = Qos(
+            Policy.Reliability.Reliable(max_blocking_time=duration(milliseconds=1)),
+            Policy.Durability.Volatile,
+            Policy.History.KeepLast(_DEPTH),
+            Policy.DataRepresentation(use_cdrv0_representation=True),
+        )
+        try:
+            self._domain = None if remote else Domain(int(domain), _LOOPBACK)
+            self._participant: Any = DomainParticipant(int(domain))
+            self._wrench, self._contact = (
+                DataWriter(self._participant, Topic(self._participant, name, kind, qos=qos), qos=qos)
+                for name, kind in ((WRENCH, ros.WrenchStamped), (CONTACT, ros.Contact))
+            )
+        except DDSException as error:
+            raise RunError(f"--dds {domain}: DDS did not start ({error.msg}): check the network.") from error
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """As `Target`."""
+        written = 0
+        for answer in answers:
+            try:
+                self._publish(answer, self._about.log_time(answer.time))
+            except (ValueError, DDSException):  # its time is no time, or a subscriber holds up the writer
+                continue
+            written += 1
+        return written
+
+    def flush(self) -> None:
+        """As `Target`: nothing is held back."""
+
+    def close(self) -> None:
+        """As `Target`."""
+        self._wrench = self._contact = self._participant = self._domain = (
+            None  # deleted with the last reference
+        )
+
+    def _publish(self, answer: Answer, stamp: int) -> None:
+        contact = answer.contact
+        if contact is None:
+            return
+        seconds, rest = divmod(stamp, 1_000_000_000)
+        header = ros.Header(ros.Time(seconds, rest), _FRAME)
+        wrench = _wrench(contact.wrench)
+        if contact.wrench is not None:
+            self._wrench.write(ros.WrenchStamped(header, wrench))
+        self._contact.write(
+            ros.Contact(
+                header=header,
+                accepted=contact.accepted,
+                reason=answer.reason,
+                health=list(health_names(answer.health)),
+                point=ros.Point(*_numbers(contact.point, 3)),
+                normal=ros.Vector3(*_numbers(contact.normal, 3)),
+                wrench=wrench,
+                covariance=_numbers(contact.covariance, 9),
+                confidence=contact.confidence,
+                region=contact.region,
+                latency=answer.latency,
+            )
+        )
+
+
+def _wrench(values: NDArray[np.float64] | None) -> ros.Wrench:
+    numbers = _numbers(values, 6)
+    return ros.Wrench(ros.Vector3(*numbers[:3]), ros.Vector3(*numbers[3:]))
+
+
+def _numbers(values: NDArray[np.float64] | None, count: int) -> list[float]:
+    """Return the numbers of an array row by row; NaN for one that is not there."""
+    return list(_NOTHING[:count]) if values is None else values.ravel().tolist()

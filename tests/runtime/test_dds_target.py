@@ -1,0 +1,95 @@
+"""DDS, heard by a second participant in a process of its own, with ROS 2's own message types."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from runtime.contacts import touching
+from runtime.runtime_recordings import ABOUT
+
+from contactbench.pipeline.runtime import RunError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from contactbench.pipeline.runtime.dds_target import DdsTarget
+
+pytest.importorskip("cyclonedds")
+
+DOMAIN = 100 + os.getpid() % 100  # two runs on one machine must not hear each other
+
+
+@pytest.fixture
+def target() -> Iterator[DdsTarget]:
+    from contactbench.pipeline.runtime.dds_target import DdsTarget
+
+    made = DdsTarget(str(DOMAIN), ABOUT)
+    yield made
+    made.close()
+
+
+def listener(count: int) -> subprocess.Popen[str]:
+    words = [sys.executable, str(Path(__file__).with_name("dds_listener.py")), str(DOMAIN), str(count)]
+    return subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+
+
+def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
+    given = touching(3, free=2)
+    with listener(len(given)) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "ready\n"
+        assert target.write(given) == len(given)
+        rows: list[dict[str, Any]] = [json.loads(line) for line in process.stdout]
+    assert process.returncode == 0
+    contacts = [row["contact"] for row in rows if "contact" in row]
+    assert len(contacts) == len(given)
+    for told, answer in zip(contacts, given, strict=True):
+        contact = answer.contact
+        assert contact is not None
+        stamp = told["header"]["stamp"]
+        assert stamp["sec"] * 10**9 + stamp["nanosec"] == ABOUT.log_time(answer.time)
+        assert told["header"]["frame_id"] == "sensor"
+        assert (told["accepted"], told["reason"], told["health"]) == (contact.accepted, answer.reason, [])
+        assert told["region"] == contact.region
+        assert told["confidence"] == contact.confidence or math.isnan(contact.confidence)
+        assert told["latency"] == answer.latency
+        if contact.point is None:
+            assert all(map(math.isnan, [*told["point"].values(), *told["covariance"]]))
+            continue
+        assert contact.normal is not None
+        assert contact.wrench is not None
+        assert contact.covariance is not None
+        assert list(told["point"].values()) == contact.point.tolist()
+        assert list(told["normal"].values()) == contact.normal.tolist()
+        assert [*told["wrench"]["force"].values(), *told["wrench"]["torque"].values()] == (
+            contact.wrench.tolist()
+        )
+        assert told["covariance"] == contact.covariance.ravel().tolist()
+    wrench = [row["wrench"] for row in rows if "wrench" in row][-1]
+    assert wrench["wrench"] == contacts[-1]["wrench"] or wrench["header"] != contacts[-1]["header"]
+
+
+def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:
+    given = touching(1)
+    for _ in range(2):
+        with listener(1) as process:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "ready\n"
+            assert target.write(given) == 1
+            assert any('"contact"' in line for line in process.stdout)
+        assert target.write(given * 200) == 200
+
+
+@pytest.mark.parametrize("domain", ["-1", "233", "a", "", "1.5"])
+def test_no_domain(domain: str) -> None:
+    from contactbench.pipeline.runtime.dds_target import DdsTarget
+
+    with pytest.raises(RunError, match="--dds"):
+        DdsTarget(domain, ABOUT)

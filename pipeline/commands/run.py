@@ -78,6 +78,10 @@ def run(
         str | None,
         typer.Option(metavar="DOMAIN", help="Publish contacts to ROS 2 in this DDS domain (extra live)."),
     ] = None,
+    mqtt: Annotated[
+        str | None,
+        typer.Option(metavar="HOST:PORT/TOPIC", help="Publish contacts to this MQTT broker (extra live)."),
+    ] = None,
     patch: PatchOption = None,
     seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
     unverified: Annotated[
@@ -138,7 +142,7 @@ def run(
     with ended_by_signals() as ended, ExitStack() as stack:
         stack.callback(pair.stop)  # a replay has its file open before it begins
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
-        network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds}
+        network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds, "mqtt": mqtt}
         targets = _targets(out, mcap, network, config, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
         live = pair.player is None
@@ -250,7 +254,10 @@ def _wait(
         for outlet in runner.outlets:
             if outlet.lost and outlet.name not in slow:
                 slow.add(outlet.name)
-                _say(f"{outlet.name}: too slow, so contacts were dropped there; they are counted.", "yellow")
+                _say(
+                    f"{outlet.name}: contacts are lost there: it is too slow, or nobody takes them. They are counted.",
+                    "yellow",
+                )
         if not settled and now - begun > _SETTLED_S:
             settled = True  # said early, not only at the end
             _say_rate(config, pair)

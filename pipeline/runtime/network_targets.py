@@ -67,4 +67,16 @@ def _dds(domain: str, _config: RuntimeConfig, about: RecordingInfo, remote: bool
     return DdsTarget(domain, about, remote=remote)
 
 
-NETWORK_TARGETS: dict[str, Open] = {"udp": _udp, "igtl": _igtl, "foxglove": _foxglove, "dds": _dds}
+def _mqtt(address: str, _config: RuntimeConfig, about: RecordingInfo, remote: bool) -> OutletTarget:
+    from contactbench.pipeline.runtime.mqtt_target import MqttTarget
+
+    return MqttTarget(address, about, remote=remote)
+
+
+NETWORK_TARGETS: dict[str, Open] = {
+    "udp": _udp,
+    "igtl": _igtl,
+    "foxglove": _foxglove,
+    "dds": _dds,
+    "mqtt": _mqtt,
+}

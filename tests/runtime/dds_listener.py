@@ -1,12 +1,13 @@
 """
 A second participant, in a process of its own, with types of its own as ROS 2 has them: prints what it hears as JSON.
 
-Started as ``python dds_listener.py DOMAIN COUNT [SECONDS]``: it says ``ready`` when both writers are found, and ends after
-COUNT contacts.
+Started as ``python dds_listener.py DOMAIN COUNT [SECONDS]``: it says ``ready`` when both writers are found, and ends
+after COUNT contacts.
 """
 
 import json
 import sys
+import threading
 import time
 from dataclasses import asdict, dataclass
 
@@ -92,19 +93,21 @@ def main(domain: int, count: int, seconds: float = 60.0) -> None:
     wrenches = DataReader(participant, Topic(participant, "rt/contactbench/wrench", WrenchStamped), qos=loose)
     end = time.monotonic() + seconds
     while not (contacts.get_matched_publications() and wrenches.get_matched_publications()):
-        if time.monotonic() > end:
-            raise SystemExit("no writers found")
-        time.sleep(0.01)
-    print("ready", flush=True)
-    heard = 0
-    while heard < count and time.monotonic() < end:
-        for sample in wrenches.take(N=1000):
-            print(json.dumps({"wrench": asdict(sample), "at": time.time()}))
-        for sample in contacts.take(N=1000):
-            print(json.dumps({"contact": asdict(sample), "at": time.time()}), flush=True)
-            heard += 1
-        time.sleep(0.0005)
+        assert time.monotonic() < end, "no writers found"
+        threading.Event().wait(0.005)
+    say("ready")
+    for heard, sample in enumerate(contacts.take_iter(timeout=duration(seconds=seconds)), 1):
+        say(json.dumps({"contact": asdict(sample), "at": time.time()}))
+        if heard == count:
+            break
+    for sample in wrenches.take(N=1000):
+        say(json.dumps({"wrench": asdict(sample)}))
     del contacts, wrenches, participant, own
+
+
+def say(line: str) -> None:
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from config.runtime.bundles import example, example_bundle
 from mcap.reader import make_reader
 from runtime.runtime_recordings import BEGIN, record, samples
 from typer.testing import CliRunner
+from waiting import until
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.commands import run as command_of_run
@@ -143,6 +144,9 @@ def test_an_unverified_bundle_is_refused_unless_asked_for(folder: Path, tmp_path
     ("arguments", "says"),
     [
         (("--udp", "192.0.2.1:9000"), "--allow-remote"),
+        (("--igtl", "0.0.0.0:18944"), "--allow-remote"),
+        (("--mqtt", "127.0.0.1:1883"), "give a topic"),
+        (("--dds", "1000"), "ROS domain"),
         (("--out", "/nowhere/at/all"), "/nowhere/at/all"),
         (("--seconds", "-1"), "--seconds"),
     ],
@@ -154,6 +158,69 @@ def test_what_cannot_be_is_refused_before_it_begins(
     assert done.exit_code == 2
     assert says in done.stderr
     assert done.stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("option", "address", "package"),
+    [
+        ("--foxglove", "127.0.0.1:0", "foxglove"),
+        ("--dds", "1", "cyclonedds"),
+        ("--mqtt", "127.0.0.1:1883/a", "paho"),
+    ],
+)
+def test_a_missing_package_names_its_extra(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, option: str, address: str, package: str
+) -> None:
+    for name in [
+        name for name in sys.modules if name.startswith((package, "contactbench.pipeline.runtime."))
+    ]:
+        if name.startswith(package) or name.endswith("_target"):
+            monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, package, None)
+    done = run(folder / "bundle", *BENCH, option, address)
+    assert done.exit_code == 2
+    assert f"this needs {package}, which is not installed: pip install 'contactbench[live]'" in " ".join(
+        done.stderr.split()
+    )
+
+
+def test_help_needs_none_of_the_packages() -> None:
+    code = (
+        "import sys; from contactbench.pipeline.cli import app\n"
+        "try: app(['run', '--help'])\n"
+        "except SystemExit: pass\n"
+        "sys.exit(bool({'foxglove', 'cyclonedds', 'paho', 'contactbench.pipeline.devices.protocols.igtl'}"
+        " & {*sys.modules}))"
+    )
+    assert (
+        subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, check=False).returncode == 0
+    )
+
+
+def test_contacts_are_served_while_it_runs(folder: Path) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        place = free.getsockname()
+    arguments = (*BENCH, "--igtl", f"{place[0]}:{place[1]}", "--seconds", "2")
+    with subprocess.Popen(command(folder / "bundle", *arguments), stderr=subprocess.PIPE) as process:
+        client = until(lambda: connected(place))
+        with client:
+            data = b""
+            while piece := client.recv(65_536):
+                data += piece
+        assert process.stderr is not None
+        said = process.stderr.read().decode()
+        assert process.wait(20) == ("could not be used" in said), said
+    assert data.count(b"SENSOR\0\0\0\0\0\0ContactWrench") > 50
+    assert b"STATUS\0\0\0\0\0\0ContactStatus" in data
+    assert f"OpenIGTLink 127.0.0.1:{place[1]}:" in said
+
+
+def connected(place: tuple[str, int]) -> socket.socket | None:
+    try:
+        return socket.create_connection(place, timeout=20)
+    except ConnectionRefusedError:
+        return None
 
 
 def test_no_bundle(tmp_path: Path) -> None:

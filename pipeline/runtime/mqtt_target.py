@@ -1,0 +1,110 @@
+"""Contacts to an MQTT broker."""
+
+from __future__ import annotations
+
+import json
+import socket
+import threading
+from typing import TYPE_CHECKING, Any
+
+from paho.mqtt.client import Client
+from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
+
+from contactbench.pipeline.runtime.contact_json import contact_message
+from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.places import resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.runtime.lines import Answer
+
+_KEEP_ALIVE_S = 10
+_RETRY_S = (1, 5)  # the shortest and longest wait before it connects again
+_MOST_WAITING = 1_000  # messages: a second at 1 kHz
+_LONGEST_TOPIC = 200
+
+
+class MqttTarget:
+    """
+    ``TOPIC/contact``: every contact as JSON. ``TOPIC/health``: what is wrong, retained, when it changes.
+
+    All with quality of service 0: what is not delivered is not sent again. Without a connection contacts are lost and
+    counted, and a new one is tried every few seconds. When the connection ends, the broker says ``offline`` as health.
+
+    Parameters
+    ----------
+    address : str
+        HOST:PORT/TOPIC; the topic may have levels.
+    about : RecordingInfo
+        Ties the samples' clock to the calendar.
+    remote : bool
+        Whether the broker may be on another machine: what is sent is neither encrypted nor signed.
+
+    Raises
+    ------
+    RunError
+        It is no address, or on another machine without leave.
+    """
+
+    pace = 0.0
+
+    def __init__(self, address: str, about: RecordingInfo, *, remote: bool = False) -> None:
+        where, _, topic = address.partition("/")
+        place = resolve("--mqtt", where, socket.SOCK_STREAM, remote=remote)
+        if not topic.isprintable() or not 0 < len(topic) <= _LONGEST_TOPIC or set(topic) & {"+", "#"}:
+            raise RunError(f"--mqtt {address}: give a topic after the port, such as 127.0.0.1:1883/bench.")
+        self.name, self._about = f"MQTT {address}", about
+        self._contact, self._health = f"{topic}/contact", f"{topic}/health"
+        self._said: int | None = None
+        self._fresh = threading.Event()  # it has connected
+        self._sent = self._gone = 0  # messages given to the client; those that are out, counted in its thread
+        self._client = Client(CallbackAPIVersion.VERSION2)
+        self._client.on_connect = self._connected
+        self._client.on_publish = self._published
+        self._client.will_set(self._health, json.dumps({"state": "offline"}), retain=True)
+        self._client.reconnect_delay_set(*_RETRY_S)
+        self._client.connect_async(place.host, place.port, _KEEP_ALIVE_S)
+        self._client.loop_start()
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """As `Target`: what does not go to the broker at once is not published."""
+        return sum(map(self._publish, answers))
+
+    def flush(self) -> None:
+        """As `Target`: nothing is held back."""
+
+    def close(self) -> None:
+        """As `Target`."""
+        if self._client.is_connected():
+            self._client.publish(self._health, json.dumps({"state": "offline"}), retain=True)
+        self._client.disconnect()
+        self._client.loop_stop()
+
+    def _publish(self, answer: Answer) -> bool:
+        if self._fresh.is_set():
+            self._fresh.clear()
+            self._sent, self._said = self._gone, None  # what waited for the last connection has gone with it
+        if not self._client.is_connected() or self._sent - self._gone >= _MOST_WAITING:
+            return False
+        try:
+            stamp = self._about.log_time(answer.time)
+        except ValueError:  # its time is no time
+            return False
+        if answer.health != self._said:
+            health = {"state": "online", "health": health_names(answer.health), "time": answer.time}
+            if self._send(self._health, json.dumps(health).encode(), retain=True):
+                self._said = answer.health
+        return self._send(self._contact, contact_message(answer, stamp))
+
+    def _send(self, topic: str, payload: bytes, *, retain: bool = False) -> bool:
+        self._sent += 1
+        return self._client.publish(topic, payload, retain=retain).rc == MQTTErrorCode.MQTT_ERR_SUCCESS
+
+    def _connected(self, *_: Any) -> None:
+        self._fresh.set()
+
+    def _published(self, *_: Any) -> None:
+        self._gone += 1

@@ -78,10 +78,10 @@ class DdsTarget:
         try:
             self._domain = None if remote else Domain(int(domain), _LOOPBACK)
             self._participant: Any = DomainParticipant(int(domain))
-            self._wrench, self._contact = (
+            self._writers: Any = [
                 DataWriter(self._participant, Topic(self._participant, name, kind, qos=qos), qos=qos)
                 for name, kind in ((WRENCH, ros.WrenchStamped), (CONTACT, ros.Contact))
-            )
+            ]
         except DDSException as error:
             raise RunError(f"--dds {domain}: DDS did not start ({error.msg}): check the network.") from error
 
@@ -112,9 +112,10 @@ class DdsTarget:
         seconds, rest = divmod(stamp, 1_000_000_000)
         header = ros.Header(ros.Time(seconds, rest), _FRAME)
         wrench = _wrench(contact.wrench)
+        to_wrench, to_contact = self._writers
         if contact.wrench is not None:
-            self._wrench.write(ros.WrenchStamped(header, wrench))
-        self._contact.write(
+            to_wrench.write(ros.WrenchStamped(header, wrench))
+        to_contact.write(
             ros.Contact(
                 header=header,
                 accepted=contact.accepted,

@@ -5,9 +5,15 @@ No ``from __future__ import annotations`` here: the IDL classes are made from th
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from cyclonedds.idl import IdlStruct
 from cyclonedds.idl.types import array, float64, int32, sequence, uint32
+
+if TYPE_CHECKING:
+    Texts, Nine = list[str], list[float]
+else:
+    Texts, Nine = sequence[str], array[float64, 9]
 
 
 @dataclass
@@ -67,11 +73,11 @@ class Contact(IdlStruct, typename="contactbench_msgs::msg::dds_::Contact_"):
     header: Header
     accepted: bool
     reason: str
-    health: sequence[str]
+    health: Texts
     point: Point
     normal: Vector3
     wrench: Wrench
-    covariance: array[float64, 9]
+    covariance: Nine
     confidence: float64
     region: uint32
     latency: float64

@@ -252,7 +252,7 @@ def test_what_cannot_be_made_is_refused():
         emulator("elfin", options={"tool": "0,0,0,0,0,0"})
     with pytest.raises(EmulatorError, match="Choose from: none"):
         emulator("bota", quirks=["older"])
-    assert len(emulated()) == 9
+    assert len(emulated()) == 10
 
 
 def opened(device: Emulator) -> Line:

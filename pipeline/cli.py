@@ -95,7 +95,6 @@ _EXTRAS = {
     **dict.fromkeys(("dask", "distributed", "pyarrow", "fast_simplification", "trimesh"), "study"),
     **dict.fromkeys(("pymeshlab", "igl"), "meshlab"),
     "embreex": "embree",
-    **dict.fromkeys(("foxglove", "cyclonedds", "paho"), "live"),
 }
 
 

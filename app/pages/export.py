@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
+from contactbench.app.pages.export_outputs import LiveOutputsPanel
 from contactbench.app.pages.export_settings import ExportSettingsPanel
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
@@ -88,6 +89,9 @@ class ExportPage(Page):
         self.settings = ExportSettingsPanel()
         self.settings.changed.connect(self._set)
         self.settings.failed.connect(partial(self.bench.tell, Weight.WARNING))
+        self.outputs = LiveOutputsPanel(
+            self.bench, lambda: self.unverified.isVisible() and self.unverified.isChecked()
+        )
         standing = row(space=8)
         standing.add(self.sign, 0, Qt.AlignmentFlag.AlignTop)
         standing.add(self.standing, 1)
@@ -96,7 +100,8 @@ class ExportPage(Page):
             inside, plain_label(self.tr("Export"), "title"), standing, self.checklist, self.unverified,
             row((self.report, 1), (self.show_folder, 1)),
             _boxed(self.tr("Contents"), self.figures, self.files, self.changes),
-            _boxed(self.tr("Settings"), self.settings), margins=(10, 8, 10, 8),
+            _boxed(self.tr("Settings"), self.settings),
+            _boxed(self.tr("Live outputs"), self.outputs), margins=(10, 8, 10, 8),
         ).addStretch(1)  # fmt: skip
         self.fill(PanelScroll(inside))
 
@@ -110,6 +115,7 @@ class ExportPage(Page):
     def enter(self) -> None:
         """Look at the session anew."""
         self._shown = True
+        self.outputs.show_session()
         self._look()
 
     def leave(self) -> None:
@@ -119,6 +125,7 @@ class ExportPage(Page):
     def close_page(self) -> None:
         """Show nothing any more; what is being written is written."""
         self._closed = True
+        self.outputs.close_panel()
 
     def show_state(self, status: StepStatus) -> None:  # noqa: ARG002 - the checklist says it line by line
         """Show how the step stands."""

@@ -821,6 +821,10 @@
         <translation>Im Ordner zeigen</translation>
     </message>
     <message>
+        <source>Live outputs</source>
+        <translation>Live-Ausgaben</translation>
+    </message>
+    <message>
         <source>Checking the bundle</source>
         <translation>Das Paket wird geprüft</translation>
     </message>
@@ -1876,6 +1880,69 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Outdated: check again</source>
         <translation>Veraltet: bitte neu prüfen</translation>
+    </message>
+</context>
+<context>
+    <name>LiveOutputsPanel</name>
+    <message>
+        <source>OpenIGTLink (3D Slicer)</source>
+        <translation>OpenIGTLink (3D Slicer)</translation>
+    </message>
+    <message>
+        <source>Foxglove</source>
+        <translation>Foxglove</translation>
+    </message>
+    <message>
+        <source>ROS 2, DDS domain</source>
+        <translation>ROS 2, DDS-Domäne</translation>
+    </message>
+    <message>
+        <source>MQTT broker and topic</source>
+        <translation>MQTT: Broker und Thema</translation>
+    </message>
+    <message>
+        <source>UDP</source>
+        <translation>UDP</translation>
+    </message>
+    <message>
+        <source>Address of {output}</source>
+        <translation>Adresse: {output}</translation>
+    </message>
+    <message>
+        <source>Allow other machines</source>
+        <translation>Andere Rechner erlauben</translation>
+    </message>
+    <message>
+        <source>Contacts are neither encrypted nor signed</source>
+        <translation>Kontakte sind weder verschlüsselt noch signiert</translation>
+    </message>
+    <message>
+        <source>Send contacts while devices are open, as contactbench run does.</source>
+        <translation>Sendet Kontakte, solange Geräte offen sind, wie contactbench run.</translation>
+    </message>
+    <message>
+        <source>{published:,} contacts sent, {lost:,} lost: the receiver is missing or too slow.</source>
+        <translation>{published:,} Kontakte gesendet, {lost:,} verloren: Der Empfänger fehlt oder ist zu langsam.</translation>
+    </message>
+    <message>
+        <source>{published:,} contacts sent.</source>
+        <translation>{published:,} Kontakte gesendet.</translation>
+    </message>
+    <message>
+        <source>Stop outputs</source>
+        <translation>Ausgaben beenden</translation>
+    </message>
+    <message>
+        <source>Start outputs</source>
+        <translation>Ausgaben starten</translation>
+    </message>
+    <message>
+        <source>Stopping outputs</source>
+        <translation>Ausgaben werden beendet</translation>
+    </message>
+    <message>
+        <source>Starting outputs</source>
+        <translation>Ausgaben werden gestartet</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import socket
 import threading
@@ -93,6 +94,7 @@ class FoxgloveTarget:
     def __init__(self, address: str, probe: Probe, about: RecordingInfo, *, remote: bool = False) -> None:
         place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=remote, listens=True)
         self._about = about
+        foxglove.set_log_level(logging.CRITICAL)  # a client that leaves is no news for a terminal
         context = self._context = foxglove.Context()  # the server holds no reference of its own
         contact = foxglove.Schema(name=CONTACT_SCHEMA, encoding="jsonschema", data=contact_schema())
         self._contact = foxglove.Channel(CONTACT, schema=contact, message_encoding="json", context=context)

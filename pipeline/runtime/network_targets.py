@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.installation import remedy
+from contactbench.pipeline.runtime.errors import RunError
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -36,11 +39,12 @@ def network_target(
     Raises
     ------
     RunError
-        It is no address, one on other machines without leave, or in use.
-    ModuleNotFoundError
-        The extra ``live`` is not installed.
+        It is no address, one on other machines without leave, or in use; or the extra ``live`` is not installed.
     """
-    return NETWORK_TARGETS[option](address, config, about, remote)
+    try:
+        return NETWORK_TARGETS[option](address, config, about, remote)
+    except ModuleNotFoundError as error:
+        raise RunError(f"--{option} needs {error.name}, which is not installed: {remedy('live')}.") from error
 
 
 def _udp(address: str, _config: RuntimeConfig, _about: RecordingInfo, remote: bool) -> OutletTarget:

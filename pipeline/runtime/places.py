@@ -59,11 +59,14 @@ def resolve(option: str, text: str, kind: socket.SocketKind, *, remote: bool, li
         raise RunError(
             f"{option} {text}: there is no such host ({error}): write its IP address, such as 127.0.0.1."
         ) from error
-    if not near and not remote:
-        what = "other machines could listen" if listens else "this is another machine"
-        verb = "listen on" if listens else "send to"
+    if not near and not remote and listens:
         raise RunError(
-            f"{option} {text}: {what}, and contacts are neither encrypted nor signed: {verb} 127.0.0.1, or add"
-            " --allow-remote."
+            f"{option} {text}: other machines could connect there, and contacts are neither encrypted nor signed:"
+            " listen on 127.0.0.1, or allow other machines (--allow-remote)."
+        )
+    if not near and not remote:
+        raise RunError(
+            f"{option} {text}: this is another machine, and contacts are neither encrypted nor signed: send to"
+            " 127.0.0.1, or allow other machines (--allow-remote)."
         )
     return Place(family, place)

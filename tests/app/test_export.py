@@ -2,10 +2,11 @@
 
 import json
 import shutil
+import socket
 
 import pytest
 from typer.testing import CliRunner
-from workbench.touch_session import make_session, verify
+from workbench.touch_session import STEPWISE, make_session, verify
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.export import ExportPage
@@ -137,3 +138,41 @@ def test_nothing_is_wider_than_the_page(window):
 
     area = window.page.findChild(QScrollArea)
     window.wait(lambda: area.widget().width() <= area.viewport().width())  # once the scroll bar has its room
+
+
+def test_contacts_go_out_while_devices_are_open(window):
+    page, outputs = window.page, window.page.outputs
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.settimeout(10)
+        place = f"127.0.0.1:{listener.getsockname()[1]}"
+        outputs.chosen["udp"].setChecked(True)
+        outputs.addresses["udp"].setText(place)
+        window.click(outputs.button)
+        window.wait(lambda: any("open them in step 1" in text for text in window.said()))
+        window.wait(outputs.button.isEnabled)
+        window.bench.live.open(STEPWISE, STEPWISE)
+        window.click(outputs.button)
+        window.wait(lambda: outputs.outputs.running and outputs.button.isEnabled())
+        assert "Stop" in outputs.button.text()
+        assert not outputs.addresses["udp"].isEnabled()
+        window.bench.live.pair.step(50)
+        assert b'"reason"' in listener.recv(65_536)
+        window.wait(lambda: "contacts sent." in outputs.states["udp"].text())
+    window.click(outputs.button)
+    window.wait(lambda: not outputs.outputs.running and outputs.button.isEnabled())
+    assert "Start" in outputs.button.text()
+    assert window.desk.state.setting("outputs.addresses") == {"udp": place}
+    outputs.chosen["udp"].setChecked(False)
+    page.enter()
+    assert outputs.chosen["udp"].isChecked()
+
+
+def test_closed_devices_end_the_outputs(window):
+    outputs = window.page.outputs
+    window.bench.live.open(STEPWISE, STEPWISE)
+    outputs.chosen["udp"].setChecked(True)
+    window.click(outputs.button)
+    window.wait(lambda: outputs.outputs.running)
+    window.bench.live.close()
+    window.wait(lambda: "Start" in outputs.button.text())

@@ -31,6 +31,7 @@ BENCHMARKS = {
     "live": "live.report:run",
     "mesh-fuzz": "mesh_fuzz.fuzz:run",
     "mistakes": "mistakes:run",
+    "outputs": "outputs:run",
     "painting": "painting:run",
     "prepared-meshes": "prepared_meshes:run",
     "protocols": "soak:run",

@@ -179,7 +179,7 @@ def test_a_missing_package_names_its_extra(
     monkeypatch.setitem(sys.modules, package, None)
     done = run(folder / "bundle", *BENCH, option, address)
     assert done.exit_code == 2
-    assert f"this needs {package}, which is not installed: pip install 'contactbench[live]'" in " ".join(
+    assert f"{option} needs {package}, which is not installed: pip install 'contactbench[live]'" in " ".join(
         done.stderr.split()
     )
 

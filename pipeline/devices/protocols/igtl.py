@@ -289,9 +289,8 @@ def poses_of(message: Message) -> list[BodyPose]:
 
 def _pose(kind: str, body: str, numbers: tuple[float, ...]) -> BodyPose:
     values = np.array(numbers)
-    wrong = f"{kind} of {body!r}: {{}}: check the tracker, and that the body is in sight."
     if not np.isfinite(values).all():
-        raise IgtlError(wrong.format("a number is not finite"))
+        raise IgtlError(f"{kind} of {body!r}: a number is not finite: check the tracker.")
     if _POSES[kind] is _MATRIX:
         R, p = values[:9].reshape(3, 3).T, values[9:] * _MM
         good = bool(np.abs(R @ R.T - np.eye(3)).max() <= _UNIT and np.linalg.det(R) > 0)
@@ -301,7 +300,9 @@ def _pose(kind: str, body: str, numbers: tuple[float, ...]) -> BodyPose:
         good = bool(abs(np.linalg.norm(values[3:]) - 1) <= _UNIT)
         R_TB = Rotation.from_quat(values[3:]).as_matrix() if good else np.eye(3)
     if not good:
-        raise IgtlError(wrong.format("its orientation is no rotation"))
+        raise IgtlError(f"{kind} of {body!r}: its orientation is no rotation: bring the body in sight.")
     if not (np.abs(p) <= _FARTHEST_M).all():
-        raise IgtlError(wrong.format(f"it is more than {_FARTHEST_M:g} m away"))
+        raise IgtlError(
+            f"{kind} of {body!r}: it is more than {_FARTHEST_M:g} m away: check that the tracker sends mm."
+        )
     return BodyPose(body, R_TB, p)

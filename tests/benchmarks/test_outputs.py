@@ -25,7 +25,7 @@ def test_short(output: str) -> None:
     assert figures["contacts"].measured > 300
     assert figures["contacts not received"].measured == 0
     # How late is for a machine that does nothing else.
-    assert figures["put to receipt, p99"].most == 10.0
+    assert figures["put to receipt, p99"].most == (60.0 if output == "foxglove" else 10.0)
     assert 0 < figures["put to receipt, median"].measured < 1_000
     assert figures["handing over, p99"].measured < 5
     assert figures["new reader: first contact after"].measured < 20

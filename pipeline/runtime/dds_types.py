@@ -11,9 +11,11 @@ from cyclonedds.idl import IdlStruct
 from cyclonedds.idl.types import array, float64, int32, sequence, uint32
 
 if TYPE_CHECKING:
-    Texts, Nine = list[str], list[float]
+    Texts = list[str]
+    Nine = list[float]
 else:
-    Texts, Nine = sequence[str], array[float64, 9]
+    Texts = sequence[str]
+    Nine = array[float64, 9]
 
 
 @dataclass

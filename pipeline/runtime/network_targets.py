@@ -44,7 +44,8 @@ def network_target(
     try:
         return NETWORK_TARGETS[option](address, config, about, remote)
     except ModuleNotFoundError as error:
-        raise RunError(f"--{option} needs {error.name}, which is not installed: {remedy('live')}.") from error
+        package = (error.name or "").partition(".")[0]
+        raise RunError(f"--{option} needs {package}, which is not installed: {remedy('live')}.") from error
 
 
 def _udp(address: str, _config: RuntimeConfig, _about: RecordingInfo, remote: bool) -> OutletTarget:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from runtime.contacts import touching
 from runtime.runtime_recordings import ABOUT
+from waiting import until
 
 from contactbench.pipeline.runtime import RunError
 
@@ -35,6 +36,11 @@ def target() -> Iterator[DdsTarget]:
     made.close()
 
 
+def matched(target: DdsTarget) -> list[bool]:
+    """Tell of each writer whether it knows of a reader: what it wrote before that, nobody gets."""
+    return [bool(writer.get_matched_subscriptions()) for writer in target._writers]
+
+
 def listener(count: int) -> subprocess.Popen[str]:
     words = [sys.executable, str(Path(__file__).with_name("dds_listener.py")), str(DOMAIN), str(count)]
     return subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
@@ -45,6 +51,7 @@ def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
     with listener(len(given)) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "ready\n"
+        until(lambda: all(matched(target)))
         assert target.write(given) == len(given)
         rows: list[dict[str, Any]] = [json.loads(line) for line in process.stdout]
     assert process.returncode == 0
@@ -79,9 +86,11 @@ def test_ros_types_arrive_in_another_process(target: DdsTarget) -> None:
 def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:
     given = touching(1)
     for _ in range(2):
+        until(lambda: not any(matched(target)))
         with listener(1) as process:
             assert process.stdout is not None
             assert process.stdout.readline() == "ready\n"
+            until(lambda: all(matched(target)))
             assert target.write(given) == 1
             assert any('"contact"' in line for line in process.stdout)
         assert target.write(given * 200) == 200

@@ -149,9 +149,9 @@ class LiveOutputsPanel(QWidget):
             from contactbench.pipeline.workbench.export import built
 
             config = built(session, unverified=True)
-            self.outputs.start(config, addresses, unverified=unverified, remote=remote)
             if session.state.settings.get(SETTING) is None or session.state.setting(SETTING) != addresses:
                 session.set_parameter(SETTING, addresses)
+            self.outputs.start(config, addresses, unverified=unverified, remote=remote)
 
         self._begin(self.tr("Starting outputs"), start)
 

@@ -51,7 +51,7 @@ class LiveOutputs:
         self._live, self._lock = live, threading.Lock()
         self._run: Run | None = None
         self._options: tuple[str, ...] = ()
-        self._end: Callable[[], None] = lambda: None
+        self._end: Callable[[], None] = _nothing
 
     @property
     def running(self) -> bool:
@@ -113,8 +113,9 @@ class LiveOutputs:
         """End; an output that hangs is left after 2 s."""
         with self._lock:
             run, self._run = self._run, None
+            end, self._end = self._end, _nothing  # it holds the run, and with it the kernel
+        end()
         if run is not None:
-            self._end()
             run.__exit__(None, None, None)
 
     def look(self) -> tuple[OutputState, ...]:
@@ -128,3 +129,7 @@ class LiveOutputs:
             OutputState(option, each.published, each.lost, "" if each.error is None else str(each.error))
             for option, each in zip(self._options, run.outlets, strict=True)
         )
+
+
+def _nothing() -> None:
+    """Nothing is tapped."""

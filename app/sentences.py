@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 # Rooms and files: what they say is seen in a terminal or in a document, not in a window.
 _NOT_SHOWN = {
-    *("commands", "study", "demo", "report", "page", "kernel"),
+    *("commands", "study", "demo", "report", "page", "kernel", "fleet"),
     *("calibration/report", "heatmap/page.py"),
 }
 _HOLE = re.compile(r"\{[^{}]*\}")

@@ -75,6 +75,11 @@ ENTRIES = {
     "session": Entry(
         "At the bench", f"{_COMMANDS}.session:session_app", "Keep everything about a probe in one folder"
     ),
+    "fleet": Entry(
+        "At the bench",
+        f"{_COMMANDS}.fleet:fleet_app",
+        "Many sessions in one table: drifts, due dates, outliers",
+    ),
     "locate": Entry("Use", f"{_COMMANDS}.locate:locate_app", "Locate the contact of each wrench in a file"),
     "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where the probe was touched"),
     "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare a robot's bundles"),
@@ -92,7 +97,8 @@ _EXTRAS = {
     **dict.fromkeys(("imageio", "imageio_ffmpeg"), "video"),
     "mujoco": "sim",
     "weasyprint": "pdf",
-    **dict.fromkeys(("dask", "distributed", "pyarrow", "fast_simplification", "trimesh"), "study"),
+    **dict.fromkeys(("dask", "distributed", "fast_simplification", "trimesh"), "study"),
+    "pyarrow": "fleet",
     **dict.fromkeys(("pymeshlab", "igl"), "meshlab"),
     "embreex": "embree",
 }

@@ -27,6 +27,7 @@ BENCHMARKS = {
     "control-speed": "control_speed:run",
     "day": "day:run",
     "faults": "faults:run",
+    "fleet": "fleet:run",
     "gravity": "gravity:run",
     "live": "live.report:run",
     "mesh-fuzz": "mesh_fuzz.fuzz:run",

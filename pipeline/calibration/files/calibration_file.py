@@ -159,7 +159,7 @@ def encode_calibration(
         raise CalibrationFileError(
             f"{name}: this calibration cannot be written ({error}): {REMEDY}"
         ) from error
-    _decode(data, name)  # what cannot be read is better refused now
+    decode_record(data, name)  # what cannot be read is better refused now
     return data
 
 
@@ -194,7 +194,7 @@ def load_record(file: Path) -> CalibrationRecord:
         raise CalibrationFileError(
             f"{file}: the file cannot be read ({error}): choose a calibration file."
         ) from error
-    return _decode(data, str(file))
+    return decode_record(data, str(file))
 
 
 def creation_time() -> datetime:
@@ -448,7 +448,7 @@ def _or_infinite(value: float | None) -> float:
 # ---- reading -----------------------------------------------------------------------------------
 
 
-def _decode(data: bytes, name: str) -> CalibrationRecord:
+def decode_record(data: bytes, name: str) -> CalibrationRecord:
     """Return what a file holds, after checking that its parts fit together."""
     if len(data) > SIZE_LIMIT:
         raise CalibrationFileError(f"{name}: larger than {SIZE_LIMIT >> 20} MiB: choose a calibration file.")

@@ -1,0 +1,133 @@
+"""A session's row of the table, from its journal, calibration and verification; no mesh and no recording is read."""
+
+from __future__ import annotations
+
+import hashlib
+from datetime import UTC, date, datetime
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contactbench.pipeline.calibration.files.calibration_file import decode_record
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
+from contactbench.pipeline.fleet.row import FleetRow, vector
+from contactbench.pipeline.report.verification_file import parse_verification
+from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.stale import stale_results
+from contactbench.pipeline.session.state import Result, State, fold
+
+if TYPE_CHECKING:
+    from contactbench.pipeline.fleet.source import SessionSource
+    from contactbench.pipeline.session.state import Input
+
+
+def hash_of(journal: bytes) -> str:
+    """Return what a session is known by: it changes with whatever is added to the session."""
+    return hashlib.sha256(journal).hexdigest()
+
+
+def summarize(source: SessionSource, journal: bytes) -> FleetRow:
+    """
+    Return a session's row.
+
+    Raises
+    ------
+    InputError
+        Its journal, its newest calibration or its newest verification is damaged.
+    """
+    state = fold(content_of(source.place, journal).records)
+    calibration, verification = state.newest("calibration"), state.newest("verification")
+    return FleetRow(
+        journal=hash_of(journal),
+        place=str(source.place),
+        session=state.id,
+        records=state.count,
+        sensor=_serial(state),
+        tool=_tool(state),
+        model=_text(state, "report.sensor"),
+        operator=_text(state, "report.operator"),
+        certificate=_text(state, "report.certificate"),
+        due=_date(_text(state, "report.due")),
+        **_calibration_facts(source, calibration),
+        stale=_is_stale(state, calibration),
+        **_verification_facts(source, verification),
+    )
+
+
+def _text(state: State, key: str) -> str:
+    value = state.setting(key)
+    return value.strip() if isinstance(value, str) else ""
+
+
+def _date(text: str) -> date | None:
+    try:
+        return date.fromisoformat(text)
+    except ValueError:
+        return None
+
+
+def _serial(state: State) -> str:
+    said = (each.sensor for each in reversed(state.inputs) if each.sensor)
+    return _text(state, "devices.serial") or next(said, "")
+
+
+def _tool(state: State) -> str:
+    """Return the name of the mesh file, or else of the probe."""
+    made_of = state.mesh or state.newest("probe")
+    if made_of is None:
+        return ""
+    return PurePath(made_of.action.name if isinstance(made_of, Result) else made_of.name).stem
+
+
+def _is_stale(state: State, calibration: Result | Input | None) -> bool:
+    return isinstance(calibration, Result) and bool(stale_results(state).get(calibration.slot))
+
+
+def _calibration_facts(source: SessionSource, found: Result | Input | None) -> dict[str, Any]:
+    if found is None:
+        return {"calibrated": None, "verdict": "", "poses": None, "temperature_C": None}
+    record = decode_record(source.read(found.file), f"{source.place}: {found.file.path}")
+    calibration, model = record.calibration, record.calibration.model
+    sigma = np.sqrt(np.diag(calibration.covariance))
+    degrees = [pose.temperature for pose in calibration.poses if pose.temperature is not None]
+    facts = {
+        "calibrated": record.created or _moment(found.at),
+        "verdict": calibration.verdict.level.value,
+        "poses": len(calibration.poses),
+        "temperature_C": float(np.mean(degrees)) if degrees else None,
+        "mass_kg": float(model.mass),
+        "mass_sigma_kg": float(model.mass_sigma),
+    }
+    for name, unit, part in (
+        ("force_bias", "N", FORCE_BIAS),
+        ("torque_bias", "Nm", TORQUE_BIAS),
+        ("centre", "m", CENTRE_OF_MASS),
+    ):
+        facts |= vector(name, unit, model.vector[part]) | vector(f"{name}_sigma", unit, sigma[part])
+    return facts
+
+
+def _verification_facts(source: SessionSource, found: Result | Input | None) -> dict[str, Any]:
+    if found is None:
+        return {}
+    verification = parse_verification(source.read(found.file), f"{source.place}: {found.file.path}")
+    overall = verification.overall
+    facts: dict[str, Any] = {
+        "verified": _moment(found.at),
+        "verification_passed": verification.verdict.passed,
+    }
+    if overall is not None:
+        facts |= {
+            f"error_{name}_m": 1e-3 * value
+            for name, value in (
+                ("mean", overall.mean_mm),
+                ("p95", overall.p95_mm),
+                ("max", overall.max_mm),
+            )
+        }
+    return facts
+
+
+def _moment(at: str) -> datetime:
+    return datetime.fromisoformat(at).astimezone(UTC).replace(microsecond=0)

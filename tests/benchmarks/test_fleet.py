@@ -1,0 +1,22 @@
+"""A small fleet: what was planted is found, and hardly anything else."""
+
+import pytest
+from benchmarks import fleet
+
+from contactbench.pipeline.errors import InputError
+
+pytest.importorskip("pyarrow")
+
+
+def test_what_was_planted_is_found() -> None:
+    report = fleet.run(sessions=2_000, folders=3)
+    figures = {each.name: each for each in report.figures}
+    assert figures["outliers found of those planted"].measured == 100
+    assert figures["drifts found of those planted"].measured == 100
+    assert figures["drifts told of none"].measured == 0
+    assert figures["outliers told of all others"].measured < 0.1
+
+
+def test_too_few_are_refused() -> None:
+    with pytest.raises(InputError, match="1,000 sessions"):
+        fleet.run(sessions=10)

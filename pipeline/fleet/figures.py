@@ -25,10 +25,10 @@ _STYLE: dict[str, Any] = {
 _MOST = 300  # points of a line: the newest
 # Title, factor and columns of each panel.
 _PANELS = (
-    ("Force bias, N", 1.0, tuple(f"force_bias_{axis}_N" for axis in "xyz")),
-    ("Torque bias, mN·m", 1e3, tuple(f"torque_bias_{axis}_Nm" for axis in "xyz")),
+    ("Force bias less its median, N", 1.0, tuple(f"force_bias_{axis}_N" for axis in "xyz")),
+    ("Torque bias less its median, mN·m", 1e3, tuple(f"torque_bias_{axis}_Nm" for axis in "xyz")),
     ("Mass, g", 1e3, ("mass_kg",)),
-    ("Centre of mass, mm", 1e3, tuple(f"centre_{axis}_m" for axis in "xyz")),
+    ("Centre of mass less its median, mm", 1e3, tuple(f"centre_{axis}_m" for axis in "xyz")),
     ("Verification error (mean), mm", 1e3, ("error_mean_m",)),
     ("Temperature, °C", 1.0, ("temperature_C",)),
 )
@@ -49,7 +49,7 @@ def draw_group(table: Any, outliers: Sequence[bool], prefix: str) -> str:
     """
     table = table.slice(max(0, table.num_rows - _MOST))
     marked = np.array(outliers[-table.num_rows :], dtype=bool)
-    when = np.array(table["calibrated"].to_pylist(), dtype="datetime64[s]")
+    when = np.asarray(table["calibrated"].cast("timestamp[s]").to_numpy())
     with page_style(**_STYLE):
         figure = Figure(figsize=(WIDTH, 4.6), layout="constrained")
         for panel, (title, scale, columns) in zip(
@@ -63,6 +63,10 @@ def draw_group(table: Any, outliers: Sequence[bool], prefix: str) -> str:
 def _draw(panel: Axes, table: Any, when: Any, marked: Any, scale: float, columns: Sequence[str]) -> None:
     for column, colour, axis in zip(columns, _COLOURS, "xyz", strict=False):
         values = scale * np.asarray(table[column].to_numpy(), dtype=np.float64)
+        if (
+            columns[1:] and np.isfinite(values).any()
+        ):  # axes that are far apart would look like straight lines
+            values -= np.nanmedian(values)
         panel.plot(
             when,
             values,

@@ -284,7 +284,7 @@ def _due(columns: _Columns, rows: NDArray[np.intp], rules: DueRules) -> DueCalib
     newest = int(dated[-1]) if len(dated) else int(rows[-1])
     who = (columns.sensor[newest], columns.tool[newest], columns.place[newest])
     if not len(dated):
-        return DueCalibration(*who, "", 0, "It was never calibrated.")
+        return DueCalibration(*who, "", 0, "Never calibrated.")
     calibrated = datetime.fromtimestamp(columns.time[newest], UTC).date()
     age = calibrated + timedelta(days=rules.max_age)
     certificate = columns.due[newest] or age
@@ -296,7 +296,7 @@ def _due(columns: _Columns, rows: NDArray[np.intp], rules: DueRules) -> DueCalib
     what = (
         f"The sensor's certificate {'ran out' if days < 0 else 'runs out'} on {due}."
         if by_certificate
-        else f"It was calibrated on {calibrated}: {rules.max_age} days {'were' if days < 0 else 'are'} over on {due}."
+        else f"Calibrated on {calibrated}; due after {rules.max_age} days, on {due}."
     )
     return DueCalibration(*who, due.isoformat(), days, what)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from contactbench.pipeline.commands.options import SensorAtArgument, SensorBodyOption, payload_told
 from contactbench.pipeline.console import Noun, answer, as_json, numbers, say, show_tables
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
@@ -213,17 +214,8 @@ def payload(
     bundle: BundleArgument,
     turned: MountSettings,
     robot: Annotated[RobotMaker, typer.Option(help="Whose controller is to be told.")],
-    sensor_at: Annotated[
-        str, typer.Option(metavar="X,Y,Z", help="The sensor's origin in the flange's frame, mm.")
-    ],
-    sensor_body: Annotated[
-        str | None,
-        typer.Option(
-            metavar="KG,X,Y,Z",
-            help="Mass of the sensor with its adapters, kg, and its centre of mass in the flange's frame, mm: the"
-            " sensor does not feel it [nothing].",
-        ),
-    ] = None,
+    sensor_at: SensorAtArgument,
+    sensor_body: SensorBodyOption = None,
     index: Annotated[int, typer.Option(min=1, max=16, help="Number of the tool, for KUKA and ABB.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Text file to write [standard output].")] = None,
 ) -> None:
@@ -233,7 +225,6 @@ def payload(
 
     Exit code 1: the mass is not known within 10 %, or the centre of mass not within 10 mm (one standard deviation).
     """
-    from contactbench.pipeline.config.payload import payload_of
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.values import rotation_ES
     from contactbench.pipeline.durable import write_file
@@ -244,18 +235,8 @@ def payload(
         raise typer.BadParameter(
             f"{bundle} does not say how the sensor is turned on the flange: give --mount, 0,0,0 if it is not."
         )
-    at = numbers(sensor_at, 3, "--sensor-at")
-    mass, *centre = (0.0, 0.0, 0.0, 0.0) if sensor_body is None else numbers(sensor_body, 4, "--sensor-body")
-    made = payload_of(
-        found.gravity, R_ES, [1e-3 * each for each in at], mass, [1e-3 * each for each in centre]
-    )
+    made = payload_told(found.gravity, R_ES, sensor_at, sensor_body)
     text = made.text(robot, index)
-    if sensor_body is None:
-        say(
-            "The sensor's own body and its adapters are not in it: give --sensor-body, unless the robot counts them as"
-            " part of its arm.",
-            "yellow",
-        )
     spread = " ± ".join(
         ", ".join(f"{1e3 * each:.1f}" for each in part) for part in (made.centre_E, made.centre_sigma_E)
     )

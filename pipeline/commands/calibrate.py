@@ -14,7 +14,10 @@ import typer
 from contactbench.pipeline.commands.check import check_app
 from contactbench.pipeline.commands.options import (
     RobotPosesOption,
+    SensorAtOption,
+    SensorBodyOption,
     SerialOption,
+    payload_told,
     refuse_overwriting,
     serials_of,
     write_file,
@@ -89,6 +92,8 @@ def fit(
     ] = None,
     serial: SerialOption = None,
     robot_poses: RobotPosesOption = None,
+    sensor_at: SensorAtOption = None,
+    sensor_body: SensorBodyOption = None,
 ) -> None:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
 
@@ -101,6 +106,8 @@ def fit(
     POSES may be a recording instead, MCAP or CSV with the column t: its still poses are found as by
     contactbench calibrate captures. With --robot-poses, sensor and robot may be in two separate CSV files.
 
+    With --sensor-at, and a mount, the report has the robot's payload in the words of its controller.
+
     Exit code 1: the calibration must not be used; the reasons and remedies are printed. The file is written
     anyway, so that calibrate next can suggest a pose.
     """
@@ -109,6 +116,10 @@ def fit(
     if report is not None and report.suffix.lower() not in (".html", ".pdf"):
         raise typer.BadParameter(f"--report {report}: name a file that ends in .html or .pdf.")
     R_ES, serials = given.R_ES, serials_of(serial)
+    if sensor_at is not None and (report is None or (R_ES is None and not given.estimate_mount)):
+        raise typer.BadParameter("--sensor-at needs --report, and --mount or --estimate-mount.")
+    if sensor_body is not None and sensor_at is None:
+        raise typer.BadParameter("--sensor-body needs --sensor-at.")
     from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.assumptions import assumed
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
@@ -130,13 +141,17 @@ def fit(
         calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
     source = SourceFile.of(poses)
-    save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
+    mount = _mount_record(mounted, R_ES)
+    payload = None
+    if sensor_at is not None and mount is not None:
+        payload = payload_told(calibration.model, mount.R_SE.T, sensor_at, sensor_body)
+    save_calibration(calibration, out, source=source, created=created, mount=mount)
     if report:
         from contactbench.pipeline.calibration.report.page import write_report
         from contactbench.pipeline.page.details import ReportDetails
 
         details = ReportDetails(**said_of.model_dump(), serials=serials)
-        write_report(calibration, report, source=source, created=created, details=details)
+        write_report(calibration, report, source=source, created=created, details=details, payload=payload)
     _show(calibration, mounted)
     answer(_facts(calibration, mounted, out, report, table))
     if calibration.verdict.level == "refuse":

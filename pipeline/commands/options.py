@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import say
+from contactbench.pipeline.console import numbers, say
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration.payload import Payload
     from contactbench.pipeline.settings import OrientationSettings
 
 RobotPosesOption = Annotated[
@@ -43,6 +45,24 @@ RealityOption = Annotated[
     ),
 ]
 
+_SENSOR_AT = typer.Option(
+    "--sensor-at",
+    metavar="X,Y,Z",
+    help="The sensor's origin in the flange's frame, mm: for the robot's payload.",
+)
+SensorAtArgument = Annotated[str, _SENSOR_AT]
+SensorAtOption = Annotated[str | None, _SENSOR_AT]
+
+SensorBodyOption = Annotated[
+    str | None,
+    typer.Option(
+        "--sensor-body",
+        metavar="KG,X,Y,Z",
+        help="Mass of the sensor with its adapters, kg, and its centre of mass in the flange's frame, mm: the"
+        " sensor does not feel it [nothing].",
+    ),
+]
+
 PatchOption = Annotated[
     str | None,
     typer.Option(
@@ -53,6 +73,32 @@ PatchOption = Annotated[
         " along S's x and y, mm, 0 for flat.",
     ),
 ]
+
+
+def payload_told(model: GravityModel, R_ES: Any, sensor_at: str, sensor_body: str | None) -> Payload:
+    """
+    Return what hangs on the flange, by these options; InputError or typer.BadParameter.
+
+    Parameters
+    ----------
+    model : GravityModel
+    R_ES : (3, 3)
+        Orientation of the sensor on the flange.
+    sensor_at, sensor_body : str
+        As they were given; without a body the caller is told that there is none in it.
+    """
+    from contactbench.pipeline.calibration.payload import payload_of
+
+    at = numbers(sensor_at, 3, "--sensor-at")
+    mass, *centre = (0.0, 0.0, 0.0, 0.0) if sensor_body is None else numbers(sensor_body, 4, "--sensor-body")
+    made = payload_of(model, R_ES, [1e-3 * each for each in at], mass, [1e-3 * each for each in centre])
+    if sensor_body is None:
+        say(
+            "The sensor's own body and its adapters are not in it: give --sensor-body, unless the robot counts them as"
+            " part of its arm.",
+            "yellow",
+        )
+    return made
 
 
 def serials_of(pairs: Sequence[str] | None) -> dict[str, str]:

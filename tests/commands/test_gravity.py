@@ -1,6 +1,7 @@
 """calibrate, diagnose, verify-still and compensate, as a person at a terminal uses them."""
 
 import csv
+import html
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,8 @@ from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quate
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration, load_record
+from contactbench.pipeline.calibration.payload import payload_of
+from contactbench.pipeline.settings import RobotMaker
 from contactbench.pipeline.simulation.loads import bump, weigh
 
 EULER = ("--euler", "xyz")
@@ -215,6 +218,41 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
     assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
     assert "Gravity calibration" in (tmp_path / "a.html").read_text(encoding="utf-8")
+
+
+def test_a_report_has_the_robots_payload_where_the_sensor_s_place_is_known(
+    tmp_path: Path, poses: Path
+) -> None:
+    fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--report", tmp_path / "r.html")
+    assert invoke(*fit, "--mount", "0,0,0").exit_code == 0
+    assert "payload" not in (tmp_path / "r.html").read_text("utf-8")
+    where = ("--sensor-at", "1,2,40")
+    result = invoke(*fit, "--mount", "0,0,90", *where)
+    assert "own body and its adapters are not in it" in said(result)
+    # A mount that these poses contradict: the payload is turned by it all the same.
+    result = invoke(*fit, "--mount", "0,0,90", *where, "--sensor-body", "0.3,0,0,20")
+    assert "not in it" not in said(result)
+    record = load_record(tmp_path / "c.json")
+    assert record.mount is not None
+    told = payload_of(
+        record.calibration.model, record.mount.R_SE.T, [0.001, 0.002, 0.04], 0.3, [0.0, 0.0, 0.02]
+    )
+    page = html.unescape((tmp_path / "r.html").read_text("utf-8")).replace("\N{NO-BREAK SPACE}", " ")
+    for maker in RobotMaker:
+        assert f"<code>{told.text(maker)}</code>" in page
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [("--sensor-at", "0,0,40"), ("--mount", "0,0,0", "--sensor-body", "0.3,0,0,20"), ("--sensor-at", "a")],
+)
+def test_a_payload_without_mount_or_place_is_refused(
+    tmp_path: Path, poses: Path, wrong: tuple[str, ...]
+) -> None:
+    fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--report", tmp_path / "r.html")
+    result = invoke(*fit, *wrong)
+    assert result.exit_code == 2
+    assert "--sensor-" in said(result)
 
 
 def test_a_report_says_who_and_with_which_sensor(tmp_path: Path, poses: Path) -> None:

@@ -20,6 +20,7 @@ from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
 from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
+from contactbench.pipeline.calibration.payload import MAKERS
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration.calibrate import Calibration
     from contactbench.pipeline.calibration.files.calibration_file import SourceFile
+    from contactbench.pipeline.calibration.payload import Payload
 
 __all__ = ["report_html", "write_report"]
 
@@ -74,6 +76,7 @@ def write_report(
     source: SourceFile | None = None,
     created: datetime | None = None,
     details: ReportDetails | None = None,
+    payload: Payload | None = None,
 ) -> None:
     """Write a calibration's report as one HTML file that needs nothing beside itself, or as PDF.
 
@@ -89,13 +92,17 @@ def write_report(
         When the calibration was made, with a time zone.
     details : ReportDetails, optional
         Who, and with which sensor.
+    payload : Payload, optional
+        What the robot carries: the lines that its controller takes.
 
     Raises
     ------
     InputError
         The file cannot be written, `created` has no time zone, or a PDF needs what is not installed.
     """
-    page = report_html(calibration, title=title, source=source, created=created, details=details)
+    page = report_html(
+        calibration, title=title, source=source, created=created, details=details, payload=payload
+    )
     write_file(file, print_pdf(page) if file.suffix.lower() == ".pdf" else page.encode())
 
 
@@ -106,6 +113,7 @@ def report_html(
     source: SourceFile | None = None,
     created: datetime | None = None,
     details: ReportDetails | None = None,
+    payload: Payload | None = None,
 ) -> str:
     """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""
     when = moment(created)
@@ -151,7 +159,22 @@ def report_html(
         figures=figures,
         empty=f"{EMPTY:g}",
         steepest=STEEPEST,
+        payload=None if payload is None else _payload(payload),
     )
+
+
+def _payload(payload: Payload) -> dict[str, Any]:
+    """Return what the page says of the robot's payload."""
+    mass = with_sigma(payload.mass, payload.mass_sigma)
+    pairs = zip((1e3 * payload.centre_E).tolist(), (1e3 * payload.centre_sigma_E).tolist(), strict=True)
+    return {
+        "mass": f"{mass[0]} ± {mass[1]} kg",
+        "centre": ", ".join(
+            f"{axis} {' ± '.join(with_sigma(*pair))}" for axis, pair in zip("xyz", pairs, strict=True)
+        ),
+        "known": payload.is_known,
+        "lines": [(name, payload.text(maker)) for maker, name in MAKERS.items()],
+    }
 
 
 _NO_PART = {

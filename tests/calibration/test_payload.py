@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.config.payload import payload_of
+from contactbench.pipeline.calibration.payload import payload_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import RobotMaker
 

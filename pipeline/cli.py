@@ -124,7 +124,7 @@ class _Commands(Nouns):
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write a screen of 80 by 24: no blank line that is not needed."""
-        formatter.write(f"Usage: {ctx.command_path} [OPTIONS] COMMAND [ARGS]...\n\n{self.help}\n")
+        formatter.write(f"Usage: {ctx.command_path} [OPTIONS] COMMAND [ARGS]...\n{self.help}\n")
         widest = max(map(len, ENTRIES))
         for section in _SECTIONS:
             formatter.write(f"{section}:\n")

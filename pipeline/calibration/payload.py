@@ -31,16 +31,6 @@ if TYPE_CHECKING:
 _LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 0.01
 
 
-MAKERS = {
-    RobotMaker.UR: "Universal Robots (URScript)",
-    RobotMaker.FRANKA: "Franka (SetLoad)",
-    RobotMaker.KUKA: "KUKA ($config.dat)",
-    RobotMaker.ABB: "ABB (RAPID)",
-    RobotMaker.DOOSAN: "Doosan (tool weight)",
-}
-"""Whose controller, and where its line goes."""
-
-
 @dataclass(frozen=True, eq=False)
 class Payload:
     """

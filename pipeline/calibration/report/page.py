@@ -20,7 +20,6 @@ from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
 from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
-from contactbench.pipeline.calibration.payload import MAKERS
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
@@ -30,6 +29,7 @@ from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.page import moment, render
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.page.printed import print_pdf
+from contactbench.pipeline.settings import RobotMaker
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,6 +65,15 @@ _WORDS = {
     Level.GOOD: ("Good", "Use this calibration."),
     Level.USABLE: ("Usable", "You can work with this calibration; it could be better."),
     Level.REFUSE: ("Refused", "Do not use this calibration."),
+}
+
+# Whose controller, and where its line goes.
+_MAKERS = {
+    RobotMaker.UR: "Universal Robots (URScript)",
+    RobotMaker.FRANKA: "Franka (SetLoad)",
+    RobotMaker.KUKA: "KUKA ($config.dat)",
+    RobotMaker.ABB: "ABB (RAPID)",
+    RobotMaker.DOOSAN: "Doosan (tool weight)",
 }
 
 
@@ -173,7 +182,7 @@ def _payload(payload: Payload) -> dict[str, Any]:
             f"{axis} {' ± '.join(with_sigma(*pair))}" for axis, pair in zip("xyz", pairs, strict=True)
         ),
         "known": payload.is_known,
-        "lines": [(name, payload.text(maker)) for maker, name in MAKERS.items()],
+        "lines": [(name, payload.text(maker)) for maker, name in _MAKERS.items()],
     }
 
 

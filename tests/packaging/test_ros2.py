@@ -14,6 +14,8 @@ from config.runtime.bundles import example_bundle
 from native import cmake, installed, needs_cmake, run
 from scipy.spatial.transform import Rotation
 
+from contactbench import __version__
+
 ROOT = Path(__file__).parents[2]
 PACKAGES, HERE = ROOT / "packaging/ros2", Path(__file__).parent / "ros2"
 FIELDS = """std_msgs/Header header
@@ -100,6 +102,7 @@ def test_every_package_declares_what_it_finds() -> None:
         told = ET.parse(PACKAGES / folder / "package.xml").getroot()  # noqa: S314 - our own file
         assert told.findtext("name") == folder
         assert told.findtext("license") == "Apache-2.0"
+        assert told.findtext("version") == __version__
         depends = {each.text for each in told if each.tag.endswith("depend")}
         wanted = re.findall(r"find_package\((\w+)", (PACKAGES / folder / "CMakeLists.txt").read_text("utf-8"))
         assert set(wanted) <= depends

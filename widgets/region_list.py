@@ -10,6 +10,7 @@ from PySide6.QtCore import (
     QMimeData,
     QModelIndex,
     QPersistentModelIndex,
+    QSignalBlocker,
     QSize,
     Qt,
     Signal,
@@ -340,7 +341,7 @@ class RegionListWidget(QWidget):
             )
         )
         self.untouchable.setMinimumHeight(36)
-        self.untouchable.clicked.connect(self._mark)
+        self.untouchable.toggled.connect(self._mark)  # by the accessibility bus it is never clicked
         return self.untouchable
 
     def _tool(self, picture: str, tip: str, action: Callable[[], None]) -> QToolButton:
@@ -396,7 +397,8 @@ class RegionListWidget(QWidget):
         self.colour_button.setEnabled(rank > 0)
         self.remove_button.setEnabled(rank > 0)
         self.untouchable.setEnabled(rank > 0)
-        self.untouchable.setChecked(rank > 0 and self.rows.rows[rank - 1].untouchable)
+        with QSignalBlocker(self.untouchable):
+            self.untouchable.setChecked(rank > 0 and self.rows.rows[rank - 1].untouchable)
 
     def _fit_height(self) -> None:
         count = min(max(len(self.rows.rows), _SHORTEST), _TALLEST)

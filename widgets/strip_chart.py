@@ -109,7 +109,7 @@ class StripChart(QWidget):
             "pause", self.tr("Pause"), self.tr("Freeze the charts; recording continues")
         )
         self.pause_button.setCheckable(True)
-        self.pause_button.clicked.connect(self._pause)
+        self.pause_button.toggled.connect(self._pause)  # by the accessibility bus it is never clicked
         self.live_button = self._button(
             "play", self.tr("Resume live view"), self.tr("Show current measurements")
         )

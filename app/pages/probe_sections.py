@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QFormLayout,
     QGroupBox,
@@ -180,7 +180,9 @@ class FacetsSection(QGroupBox):
         self.target.activated.connect(self._target_changed)
         for spin in (self.value, self.ratio):
             spin.valueChanged.connect(lambda _value: self.changed.emit())
-        self.painted.clicked.connect(lambda _checked: self.changed.emit())
+        self.painted.toggled.connect(
+            lambda _on: self.changed.emit()
+        )  # by the accessibility bus it is never clicked
         return rows
 
     def _target_changed(self, index: int) -> None:
@@ -209,7 +211,8 @@ class FacetsSection(QGroupBox):
         name = next(iter(target), "max_contact_error")
         self._show_target(_TARGETS.index(name), target.get(name, 0.1))
         show_quietly(self.ratio, ratio)
-        self.painted.setChecked(painted)
+        with QSignalBlocker(self.painted):
+            self.painted.setChecked(painted)
         for each in (self.ratio, self.ratio_label, self.painted):
             each.setVisible(regions)
 

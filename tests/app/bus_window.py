@@ -54,7 +54,7 @@ def main(session):
     window.show()
     pages = {"start": look(window)}
     window.sessions.open(Path(session))
-    until(lambda: window.bench is not None and window.bench.connected, lambda: "the session to be opened")
+    until(lambda: window.bench is not None and window.pages.made, lambda: "the session to be opened")
     window.scene.setUpdatesEnabled(False)  # nobody sees it, and without a graphics card it takes long
     for timer in (window._tick, window._slow):
         timer.stop()  # numbers that change all the time: each is told on the bus, and answers have to wait

@@ -142,6 +142,14 @@ def test_pause_holds_the_picture_until_back_to_live(chart, qtbot):
     assert "Fx 6.00" in chart.panes[0].read_out
 
 
+def test_pause_can_be_used_by_the_accessibility_bus_which_toggles_and_never_clicks(chart):
+    chart.refresh(history())
+    chart.pause_button.toggle()
+    assert chart.held
+    chart.pause_button.toggle()
+    assert not chart.held
+
+
 def test_the_wheel_zooms_all_panes_and_holds(chart):
     chart.refresh(history())
     before = chart.panes[0]._view.viewRange()[0]

@@ -309,12 +309,18 @@ def _command(library: Library) -> list[str]:
 
 
 def _environment() -> dict[str, str]:
-    """Leave out what would lead the Qt inside pymeshlab to this program's plugins, and turn warnings fatal."""
-    return {
+    """
+    Leave out what would lead the Qt inside pymeshlab to this program's plugins, and turn warnings fatal.
+
+    libigl cuts crossings in one thread: with more, the order in which they happen to look at a number decides how its
+    last bit is rounded, and the same mesh gave other bytes in one run of four.
+    """
+    kept = {
         key: value
         for key, value in os.environ.items()
         if not key.startswith(("QT_", "QML")) and key != "PYTHONWARNINGS"
     }
+    return kept | {"IGL_NUM_THREADS": "1"}
 
 
 def _cause(code: int) -> str:

@@ -91,13 +91,11 @@ class Departure(QObject):
         ends = bench is not None and not bench.live.taped
         box.setInformativeText(
             self.tr(
-                "If you stop, everything chosen or recorded so far is kept. The computation runs again when you"
-                " reopen the session."
+                "Stopping keeps all settings and recordings. The computation starts again when you reopen the"
+                " session."
             )
             if ends
-            else self.tr(
-                "If you stop, everything recorded so far is kept. You can continue from there next time."
-            )
+            else self.tr("Stopping keeps everything recorded so far. You can continue from there next time.")
         )
         self.wait = box.addButton(self.tr("Wait until done"), role.AcceptRole) if ends else None
         self.stop = box.addButton(self.tr("Stop and keep results"), role.DestructiveRole)

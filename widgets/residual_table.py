@@ -73,18 +73,15 @@ class PoseModel(QAbstractTableModel):
             return None
         if role == Qt.ItemDataRole.DisplayRole:
             return (
-                self.tr("pose"),
-                self.tr("tilt"),
-                self.tr("residual"),
-                self.tr(
-                    "Deviation of the reading from the fit to all poses, in standard deviations. About 1 is"
-                    " normal; check poses above 3."
-                ),
+                self.tr("Pose"),
+                self.tr("Tilt"),
+                self.tr("Residual"),
+                self.tr("State"),
             )[section]
         if role == Qt.ItemDataRole.ToolTipRole and section == SIGMAS:
             return self.tr(
-                "How far the reading is from what all poses together predict, in standard deviations: 1 is usual, above"
-                " 3 is worth a look."
+                "Deviation of the reading from the fit to all poses, in standard deviations. About 1 is"
+                " normal; check poses above 3."
             )
         return None
 

@@ -507,11 +507,11 @@
         <translation>Laufende Arbeit</translation>
     </message>
     <message>
-        <source>If you stop, everything chosen or recorded so far is kept. The computation runs again when you reopen the session.</source>
-        <translation>Beim Stoppen bleibt alles bisher Gewählte und Aufgezeichnete erhalten. Beim nächsten Öffnen der Sitzung wird neu gerechnet.</translation>
+        <source>Stopping keeps all settings and recordings. The computation starts again when you reopen the session.</source>
+        <translation>Beim Stoppen bleiben alle Einstellungen und Aufzeichnungen erhalten. Beim nächsten Öffnen der Sitzung wird neu gerechnet.</translation>
     </message>
     <message>
-        <source>If you stop, everything recorded so far is kept. You can continue from there next time.</source>
+        <source>Stopping keeps everything recorded so far. You can continue from there next time.</source>
         <translation>Beim Stoppen bleibt alles bisher Aufgezeichnete erhalten. Sie können beim nächsten Mal dort weitermachen.</translation>
     </message>
     <message>
@@ -2947,24 +2947,24 @@ oder einen Sitzungsordner, der alles enthält.</translation>
 <context>
     <name>PoseModel</name>
     <message>
-        <source>pose</source>
-        <translation>Pose</translation>
-    </message>
-    <message>
-        <source>tilt</source>
-        <translation>Neigung</translation>
-    </message>
-    <message>
-        <source>residual</source>
-        <translation>Abw. (σ)</translation>
-    </message>
-    <message>
         <source>Deviation of the reading from the fit to all poses, in standard deviations. About 1 is normal; check poses above 3.</source>
         <translation>Restabweichung: Abstand des Messwerts von der Anpassung an alle Posen, in Standardabweichungen. Etwa 1 ist normal; über 3 lohnt ein Blick.</translation>
     </message>
     <message>
-        <source>How far the reading is from what all poses together predict, in standard deviations: 1 is usual, above 3 is worth a look.</source>
-        <translation>Restabweichung: wie weit der Messwert von dem entfernt ist, was alle Posen zusammen vorhersagen, in Standardabweichungen. 1 ist üblich, über 3 lohnt ein Blick.</translation>
+        <source>Pose</source>
+        <translation>Pose</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Neigung</translation>
+    </message>
+    <message>
+        <source>Residual</source>
+        <translation>Abw. (σ)</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Zustand</translation>
     </message>
     <message>
         <source>{name}, {words}, residual {sigmas} sigma, {state}</source>

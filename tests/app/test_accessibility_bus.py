@@ -75,7 +75,7 @@ EXPECTED = {
     ],
     "probe": [("push button", "Next: Regions")],
     "regions": [("push button", "Add")],
-    "verify": [("push button", "Next: Export")],
+    "verify": [("push button", "Distribute evenly"), ("table", "Markers")],
     "export": [("push button", "Export file")],
 }
 

@@ -85,6 +85,8 @@ def test_from_start_to_a_checked_calibration_by_clicks(window):
     assert w.scene.R_WS is not None
     assert panel.figures.error.text().endswith(" mm")
     assert panel.figures.count.text() == "5 poses: enough"
+    assert page.primary.property("primary"), "what is next is to finish"
+    assert not panel.turn.property("primary")
     assert [row.state for row in panel.table.rows] == [PoseState.TAKEN] * 5
     w.finish()
     assert page.run.outcome.calibration.verdict.level is Level.GOOD

@@ -214,7 +214,11 @@ QDockWidget {{ titlebar-close-icon: url({pictures}/close-{which}.svg);
 QDockWidget::title {{ background: {background}; padding: 6px 8px 2px 8px; border-bottom: 1px solid {line}; }}
 QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; border: 1px solid transparent; border-radius: 4px; }}
 QCheckBox:focus, QRadioButton:focus {{ border-color: {accent}; }}
-QCheckBox::indicator, QRadioButton::indicator {{ width: 18px; height: 18px; }}
+QRadioButton::indicator {{ width: 18px; height: 18px; }}
+QCheckBox::indicator {{ width: 16px; height: 16px; border: 1px solid {muted}; border-radius: 3px;
+  background: {panel}; }}
+QCheckBox::indicator:disabled {{ border-color: {line}; }}
+QCheckBox::indicator:checked {{ image: url({pictures}/check-{which}.svg); }}
 QTabWidget::pane {{ border: none; border-top: 1px solid {line}; }}
 QTabBar {{ qproperty-drawBase: 0; }}
 QTabBar::tab {{ min-height: 26px; padding: 4px 5px; border: none; border-bottom: 3px solid transparent;

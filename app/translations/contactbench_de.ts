@@ -3455,7 +3455,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Mark the areas meant to be touched, most important first. If a reading fits several places, these areas are preferred. Regions are optional.</source>
-        <translation>Markieren Sie die Flächen, die berührt werden sollen, die wichtigsten zuerst. Passt ein Messwert zu mehreren Stellen, werden diese Flächen bevorzugt. Regionen sind freiwillig.</translation>
+        <translation>Markieren Sie die Flächen, die berührt werden sollen, die wichtigsten zuerst. Passt ein Messwert zu mehreren Stellen, werden diese Flächen bevorzugt. Regionen sind optional.</translation>
     </message>
     <message>
         <source>Open Probe</source>
@@ -3487,7 +3487,7 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     </message>
     <message>
         <source>Next: Verify</source>
-        <translation>Weiter zu Prüfen</translation>
+        <translation>Weiter: Prüfen</translation>
     </message>
     <message>
         <source>Next: Verify, without regions</source>

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QWidget
 from contactbench.widgets.theme import use_theme
 
 LONG = 180.0  # s: on a machine with other work
+_MOST_ACTIONS = 40  # clicks, keys and fields, with what is tried on the way
 
 
 @pytest.mark.window
@@ -31,6 +32,7 @@ def test_from_the_first_start_to_a_checked_bundle(make_window, tmp_path):
     window.close()
     hand.until(lambda: not window.isVisible(), "the window to close", LONG)
     assert not (tmp_path / "pictures").exists(), "nothing was in the way"
+    assert len(hand.log) <= _MOST_ACTIONS, hand.log
 
     (session,) = (tmp_path / "home" / "sessions").iterdir()
     checked = json.loads(contactbench("bundle", "check", bundle, "--json"))

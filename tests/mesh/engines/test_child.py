@@ -323,3 +323,8 @@ engines.alpha_wrap(corners, faces, 50.0, 5.0)
 assert _CHILDREN[Library.MESHLAB].pid == pid
 """
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+
+
+def test_crossings_are_cut_in_one_thread_so_that_the_last_bit_is_the_same_each_time(monkeypatch) -> None:
+    monkeypatch.setenv("IGL_NUM_THREADS", "8")
+    assert child_module._environment()["IGL_NUM_THREADS"] == "1"

@@ -119,6 +119,20 @@ class RobotMaker(StrEnum):
     DOOSAN = "doosan"
 
 
+class PayloadSettings(Settings):
+    """What a calibration does not know of the load on a robot's flange E; mm and kg."""
+
+    robot: RobotMaker = knob(RobotMaker.UR, "Whose controller is to be told.")
+    sensor_at: Three = knob(
+        (0.0, 0.0, 0.0), "The sensor's origin in the flange's frame, mm.", metavar="X,Y,Z"
+    )
+    sensor_body: tuple[NotNegative, Number, Number, Number] = knob(
+        (0.0, 0.0, 0.0, 0.0),
+        "Mass of the sensor with its adapters, kg, and its centre of mass in the flange's frame, mm.",
+        metavar="KG,X,Y,Z",
+    )
+
+
 class MountSettings(Settings):
     """How the sensor is mounted."""
 

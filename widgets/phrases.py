@@ -35,6 +35,7 @@ class _Phrase:
         self.meaning, self.holes = meaning, tuple(pieces[1::2])
         self._own = pieces[0::2]
         self._anchor = max(self._own, key=len)
+        self._leads = self._own[0].endswith(": ")  # "Passed: {0}." is no chance, however long the rest
         self.letters = sum(_letters(piece) for piece in self._own)
 
     @cached_property
@@ -47,7 +48,7 @@ class _Phrase:
         """Return what was filled in to make a text, by hole; None: it was not made of this."""
         if self._anchor not in text:
             return None
-        if self.letters < _ENOUGH and self.letters < _SHARE * _letters(text):
+        if self.letters < _ENOUGH and self.letters < _SHARE * _letters(text) and not self._leads:
             return None
         match = self._pattern.fullmatch(text)
         return None if match is None else dict(zip(self.holes, match.groups(), strict=True))

@@ -55,7 +55,7 @@ class DevicesPage(Page):
         self.serial.setPlaceholderText(self.tr("see the sensor's label"))
         self.serial.setAccessibleName(self.tr("Sensor serial number"))
         self.certificate, self.due = QLineEdit(maxLength=200), QLineEdit(maxLength=10)
-        self.certificate.setPlaceholderText(self.tr("number, for the report"))
+        self.certificate.setPlaceholderText(self.tr("for the report"))
         self.certificate.setAccessibleName(self.tr("Number of the sensor's calibration certificate"))
         self.due.setPlaceholderText(self.tr("YYYY-MM-DD"))
         self.due.setAccessibleName(self.tr("Date until which the certificate is valid, YYYY-MM-DD"))

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.export_outputs import LiveOutputsPanel
+from contactbench.app.pages.export_payload import PayloadPanel
 from contactbench.app.pages.export_settings import ExportSettingsPanel
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
@@ -92,6 +93,7 @@ class ExportPage(Page):
         self.outputs = LiveOutputsPanel(
             self.bench, lambda: self.unverified.isVisible() and self.unverified.isChecked()
         )
+        self.payload = PayloadPanel(self.bench)
         standing = row(space=8)
         standing.add(self.sign, 0, Qt.AlignmentFlag.AlignTop)
         standing.add(self.standing, 1)
@@ -101,6 +103,7 @@ class ExportPage(Page):
             row((self.report, 1), (self.show_folder, 1)),
             _boxed(self.tr("Contents"), self.figures, self.files, self.changes),
             _boxed(self.tr("Settings"), self.settings),
+            _boxed(self.tr("Robot payload"), self.payload),
             _boxed(self.tr("Live outputs"), self.outputs), margins=(10, 8, 10, 8),
         ).addStretch(1)  # fmt: skip
         self.fill(PanelScroll(inside))
@@ -164,6 +167,7 @@ class ExportPage(Page):
         self.checklist.show_items(view.items)
         finish(self)  # its buttons are new: the tabulator key comes to them where they are
         preview = view.preview
+        self.payload.show_config(None if preview is None else preview.config)
         if preview is None:
             problem = self._problem(view)
             self._stand("failed", "bad", problem)

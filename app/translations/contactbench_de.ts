@@ -664,8 +664,8 @@
         <translation>Geräte</translation>
     </message>
     <message>
-        <source>number, for the report</source>
-        <translation>Nummer, für den Bericht</translation>
+        <source>for the report</source>
+        <translation>für den Bericht</translation>
     </message>
     <message>
         <source>Number of the sensor&apos;s calibration certificate</source>
@@ -819,6 +819,10 @@
     <message>
         <source>Show in folder</source>
         <translation>Im Ordner zeigen</translation>
+    </message>
+    <message>
+        <source>Robot payload</source>
+        <translation>Nutzlast des Roboters</translation>
     </message>
     <message>
         <source>Live outputs</source>
@@ -2862,6 +2866,77 @@ oder einen Sitzungsordner, der alles enthält.</translation>
     <message>
         <source>Checking session</source>
         <translation>Die Sitzung wird geprüft</translation>
+    </message>
+</context>
+<context>
+    <name>PayloadPanel</name>
+    <message>
+        <source>Robot</source>
+        <translation>Roboter</translation>
+    </message>
+    <message>
+        <source>Sensor origin on the flange, {axis}</source>
+        <translation>Ursprung des Sensors am Flansch, {axis}</translation>
+    </message>
+    <message>
+        <source>Mass of the sensor</source>
+        <translation>Masse des Sensors</translation>
+    </message>
+    <message>
+        <source>With its adapters; the sensor does not feel its own weight</source>
+        <translation>Mit seinen Adaptern; der Sensor spürt sein eigenes Gewicht nicht</translation>
+    </message>
+    <message>
+        <source>Centre of mass of the sensor, {axis}</source>
+        <translation>Schwerpunkt des Sensors, {axis}</translation>
+    </message>
+    <message>
+        <source>Payload for the robot&apos;s controller</source>
+        <translation>Nutzlast für die Robotersteuerung</translation>
+    </message>
+    <message>
+        <source>Copy payload</source>
+        <translation>Nutzlast kopieren</translation>
+    </message>
+    <message>
+        <source>Sensor at</source>
+        <translation>Sensor bei</translation>
+    </message>
+    <message>
+        <source>Sensor mass</source>
+        <translation>Sensormasse</translation>
+    </message>
+    <message>
+        <source>Its centre</source>
+        <translation>Schwerpunkt</translation>
+    </message>
+    <message>
+        <source>Calibrate first.</source>
+        <translation>Kalibrieren Sie zuerst.</translation>
+    </message>
+    <message>
+        <source>Too unsure to tell a robot: calibrate with poses that tilt farther.</source>
+        <translation>Zu ungenau für einen Roboter: Kalibrieren Sie mit stärker geneigten Posen.</translation>
+    </message>
+    <message>
+        <source>Standard deviation {mass:.1f} g and at most {centre:.1f} mm.</source>
+        <translation>Standardabweichung {mass:.1f} g und höchstens {centre:.1f} mm.</translation>
+    </message>
+    <message>
+        <source>The sensor&apos;s own mass is not included.</source>
+        <translation>Die Masse des Sensors selbst ist nicht enthalten.</translation>
+    </message>
+    <message>
+        <source>The sensor is taken as not turned on the flange.</source>
+        <translation>Der Sensor gilt als nicht gegen den Flansch gedreht.</translation>
+    </message>
+    <message>
+        <source>The payload is in the clipboard.</source>
+        <translation>Die Nutzlast ist in der Zwischenablage.</translation>
+    </message>
+    <message>
+        <source>Payload</source>
+        <translation>Nutzlast</translation>
     </message>
 </context>
 <context>

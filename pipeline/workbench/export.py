@@ -15,6 +15,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.runtime.run import known
 from contactbench.pipeline.session.check import file_problem
 from contactbench.pipeline.workbench.standings import (
     RESULTS,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from contactbench.pipeline.config.runtime.differ import Differences
+    from contactbench.pipeline.config.runtime.model import SensorPart
     from contactbench.pipeline.session import Session
 
 SHA256, PLACE = "export.sha256", "export.place"
@@ -52,6 +54,7 @@ class ExportPreview:
     unchecked: str
     # What differs from the bundle that was exported before, in sentences; None: there is none, or it is gone
     changes: tuple[str, ...] | None
+    config: RuntimeConfig
 
 
 @dataclass(frozen=True)
@@ -178,6 +181,7 @@ def _preview(session: Session, config: RuntimeConfig) -> ExportPreview:
         tuple(reasons),
         unchecked(config.model.checks),
         changes,
+        config,
     )
 
 
@@ -185,10 +189,10 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     model = config.model
     regions = sorted(set(config.probe.region[config.probe.region > 0].tolist()))
     found = [
-        ("Sensor", f"{model.sensor.model}, serial number {model.sensor.serial}"),
-        ("Readings", f"{model.sensor.rate_Hz:g} a second"),
+        ("Sensor", _sensor(model.sensor)),
+        ("Readings", f"{model.sensor.rate_Hz:g} readings per second"),
         ("Payload", f"{config.gravity.mass:.3f} kg"),
-        ("Probe", f"{model.probe.name}, {model.probe.facets:,} facets, {_regions(len(regions))}"),
+        ("Probe", f"{model.probe.name} with {model.probe.facets:,} facets and {_regions(len(regions))}"),
         (
             "Limits",
             f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
@@ -217,7 +221,20 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
 
 
 def _regions(count: int) -> str:
-    return "no regions" if not count else "1 region" if count == 1 else f"{count} regions"
+    return (
+        "no priority regions"
+        if not count
+        else "one priority region"
+        if count == 1
+        else f"{count} priority regions"
+    )
+
+
+def _sensor(part: SensorPart) -> str:
+    if not known(part.serial):
+        return part.model if known(part.model) else "model and serial number missing"
+    number = f"serial number {part.serial}"
+    return f"{part.model}, {number}" if known(part.model) else number
 
 
 # ---- against the one before --------------------------------------------------------------------

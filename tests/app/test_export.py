@@ -5,6 +5,7 @@ import shutil
 import socket
 
 import pytest
+from PySide6.QtGui import QGuiApplication
 from typer.testing import CliRunner
 from workbench.touch_session import STEPWISE, make_session, verify
 
@@ -75,6 +76,29 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     window.bench.undo.undo()
     window.bench.undo.undo()
     window.wait(lambda: "limits.max_force_N: 20 → 30" in page.changes.text())
+
+
+def test_the_robots_payload_is_the_line_of_the_command(window, tmp_path):
+    panel = window.page.payload
+    assert "set_target_payload(" in panel.line.text()
+    assert "The sensor's own mass is not included." in panel.note.text()
+    panel.at[2].setValue(37.5)
+    panel.mass.setValue(0.29)
+    panel.centre[2].setValue(18.0)
+    panel.robot.setCurrentIndex(panel.robot.findText("KUKA"))
+    panel.robot.activated.emit(panel.robot.currentIndex())
+    window.wait(lambda: panel.line.text().startswith("LOAD_DATA[1]="))
+    assert "not included" not in panel.note.text()
+    panel.copy.click()
+    assert QGuiApplication.clipboard().text() == panel.line.text()
+    window.page.write(tmp_path / "runtime.zip")
+    window.wait(lambda: window.page.exported is not None)
+    words = ["--robot", "kuka", "--mount", "0,0,0", "--sensor-at", "0,0,37.5", "--sensor-body", "0.29,0,0,18"]
+    done = CliRunner().invoke(cli.app, ["bundle", "payload", str(tmp_path / "runtime.zip"), *words])
+    assert done.exit_code == 0, done.stderr
+    assert panel.line.text() in done.stdout
+    window.bench.undo.undo()
+    window.wait(lambda: panel.line.text().startswith("set_target_payload("))
 
 
 @pytest.mark.parametrize("window", ["calibrated"], indirect=True)

@@ -125,7 +125,7 @@ def test_all_that_is_done_is_said_to_be_done(verified):
         assert view.preview.reasons == ()
         assert view.preview.changes is None
         assert {name for name, _ in view.preview.files} >= {"contactbench.json", "probe.ply", "report.html"}
-        assert ("Readings", "200 a second") in view.preview.figures
+        assert ("Readings", "200 readings per second") in view.preview.figures
         session.rezeroed("VB-1", "bumped")
         assert states(session)["Verification"] == "stale"
         assert survey(session).preview.reasons

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.errors import InputError
 
@@ -31,7 +32,7 @@ def fleet(
             metavar="FILE", help="Parquet table to write; sessions that it already has are not read again."
         ),
     ] = None,
-    report: Annotated[Path | None, typer.Option(metavar="FILE", help="HTML page to write.")] = None,
+    report: Annotated[Path | None, typer.Option(metavar="FILE", help="HTML or PDF page to write.")] = None,
     max_age: Annotated[
         int, typer.Option(min=1, max=36_500, help="Age at which a calibration is due, days.")
     ] = 365,
@@ -43,8 +44,10 @@ def fleet(
 
     Of each session the newest calibration and verification count; meshes and recordings are not read. A calibration
     is due when the sensor's certificate runs out (report.due of the session), or at --max-age. What is damaged
-    or no session is named and left out. Exit code 1: a calibration is overdue, or a session stands out.
+    or no session is named and left out; a sensor whose serial number is missing is judged alone. Exit code 1: a
+    calibration is overdue, a session stands out, or one is damaged.
     """
+    _refuse_outputs(out, report)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.fleet.judge import DueRules, judge
     from contactbench.pipeline.fleet.source import find
@@ -63,8 +66,10 @@ def fleet(
     if report is not None:
         from contactbench.pipeline.durable import write_file
         from contactbench.pipeline.fleet.page import fleet_html
+        from contactbench.pipeline.page.printed import print_pdf
 
-        write_file(report, fleet_html(found.table, findings, found.skipped, now).encode())
+        page = fleet_html(found.table, findings, found.skipped, now)
+        write_file(report, print_pdf(page) if report.suffix.lower() == ".pdf" else page.encode())
     _tell(found, findings)
     answer(
         {
@@ -78,8 +83,24 @@ def fleet(
             "skipped": [asdict(each) for each in found.skipped],
         }
     )
-    if findings.outliers or any(each.days < 0 or not each.due for each in findings.due):
+    overdue = any(each.days < 0 or not each.due for each in findings.due)
+    if overdue or findings.outliers or any(each.damaged for each in found.skipped):
         raise typer.Exit(1)
+
+
+def _refuse_outputs(out: Path | None, report: Path | None) -> None:
+    """Refuse outputs that could take the place of something else; typer.BadParameter."""
+    from contactbench.pipeline.fleet.source import session_around
+
+    for name, file, endings in (("--out", out, (".parquet",)), ("--report", report, (".html", ".pdf"))):
+        if file is None:
+            continue
+        if file.suffix.lower() not in endings:
+            raise typer.BadParameter(f"{name} {file}: name a file that ends in {' or '.join(endings)}.")
+        if (session := session_around(file)) is not None:
+            raise typer.BadParameter(f"{name} {file}: this is inside the session {session}: write elsewhere.")
+    if out is not None:
+        refuse_overwriting(report, [out])
 
 
 def _tell(found: Fleet, findings: FleetFindings) -> None:
@@ -105,7 +126,7 @@ def _tell(found: Fleet, findings: FleetFindings) -> None:
 
 
 def _who(each: Any) -> str:
-    return f"{each.sensor or 'unknown sensor'}, {each.tool or 'unknown tool'}"
+    return f"{each.sensor or 'serial number missing'}, {each.tool or 'unknown tool'}"
 
 
 def _lines(sentences: list[str], style: str) -> None:

@@ -11,6 +11,7 @@ import typer
 
 from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
 from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
@@ -497,6 +498,7 @@ def set_parameters(
     Results computed with another value become stale.
     """
     given = dict(_setting(text) for text in settings)
+    _refuse_report(given)
     with _writing(folder) as session:
         before = _stale_titles(session)
         records = [session.set_parameter(key, value) for key, value in given.items()]
@@ -505,6 +507,21 @@ def set_parameters(
     for title in newly:
         say(f"{title} is now stale: `contactbench session info` says why.", "yellow")
     answer({"records": [record.number for record in records], "stale": newly})
+
+
+def _refuse_report(given: dict[str, Any]) -> None:
+    """Refuse what no report could say, such as a date that is none; InputError."""
+    from contactbench.pipeline.settings import ReportSettings
+
+    said = {
+        name: given[f"report.{name}"]
+        for name in ReportSettings.model_fields
+        if given.get(f"report.{name}") is not None
+    }
+    try:
+        ReportSettings.checked(said)
+    except InputError as error:
+        raise InputError(str(error).replace("parameter ", "parameter report.", 1)) from error
 
 
 @session_app.command(example="session rezero bench-1 --serial M8128-0042 --reason 'new cable'")

@@ -9,7 +9,7 @@ these slopes, with Bonferroni's correction for the number of trends that are loo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, date, datetime, timedelta
+from datetime import UTC, date, datetime, time, timedelta
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -87,7 +87,7 @@ class DueCalibration:
     sensor: str
     tool: str
     place: str
-    due: str  # ISO 8601; empty: it was never calibrated
+    due: str  # ISO 8601; empty: it was never calibrated, or nobody can tell
     days: int  # until then; below 0: since
     sentence: str
 
@@ -99,7 +99,7 @@ class Outlier:
     place: str
     sensor: str
     tool: str
-    reason: str  # the quantity; or refused, failed, stale
+    reason: str  # the quantity; or refused, failed, stale, future
     sentence: str
 
 
@@ -150,7 +150,7 @@ def judge(table: Any, rules: DueRules) -> FleetFindings:
     return FleetFindings(
         trends,
         tuple(sorted(due, key=lambda each: (each.days, each.sensor, each.tool))),
-        (*_facts(columns), *outliers),
+        (*_facts(columns, rules), *outliers),
     )
 
 
@@ -159,7 +159,9 @@ class _Columns:
 
     def __init__(self, table: Any) -> None:
         self._table = table
-        self.sensor, self.tool, self.place = (self.texts(name) for name in ("sensor", "tool", "place"))
+        self.sensor, self.tool, self.place, self.session, self.due_unreadable = (
+            self.texts(name) for name in ("sensor", "tool", "place", "session", "due_unreadable")
+        )
         self._numbers: dict[str, Array] = {}
         self.time = self.numbers("calibrated")
         self.due: list[date | None] = table["due"].to_pylist()
@@ -182,8 +184,17 @@ class _Columns:
         return self._numbers[name]
 
     def groups(self) -> list[NDArray[np.intp]]:
-        """Return the rows of each sensor with each tool, by time; rows without a time come last."""
-        names = np.array([f"{sensor}\0{tool}" for sensor, tool in zip(self.sensor, self.tool, strict=True)])
+        """
+        Return the rows of each sensor with each tool, by time; rows without a time come last.
+
+        Without a serial number nobody knows whether two sessions are of one sensor: each is alone.
+        """
+        names = np.array(
+            [
+                f"{sensor or chr(0) + session}\0{tool}"
+                for sensor, session, tool in zip(self.sensor, self.session, self.tool, strict=True)
+            ]
+        )
         if not len(names):
             return []
         order = np.lexsort((self.time, names))
@@ -280,11 +291,17 @@ class _Series:
 
 def _due(columns: _Columns, rows: NDArray[np.intp], rules: DueRules) -> DueCalibration | None:
     """Say whether a sensor with a tool is due, by its newest calibration and its certificate."""
-    dated = rows[np.isfinite(columns.time[rows])]
+    dated = rows[columns.time[rows] < _tomorrow(rules)]
     newest = int(dated[-1]) if len(dated) else int(rows[-1])
     who = (columns.sensor[newest], columns.tool[newest], columns.place[newest])
+    alone = "" if columns.sensor[newest] else " Serial number missing: set devices.serial."
     if not len(dated):
-        return DueCalibration(*who, "", 0, "Never calibrated.")
+        never = not np.isfinite(columns.time[rows]).any()
+        what = "Never calibrated." if never else "Its only calibration has a date in the future."
+        return DueCalibration(*who, "", 0, what + alone)
+    if unreadable := columns.due_unreadable[newest]:
+        what = f"Its certificate's date is unreadable: {unreadable[:40]!r}: set report.due as 2027-03-31."
+        return DueCalibration(*who, "", 0, what + alone)
     calibrated = datetime.fromtimestamp(columns.time[newest], UTC).date()
     age = calibrated + timedelta(days=rules.max_age)
     certificate = columns.due[newest] or age
@@ -298,18 +315,26 @@ def _due(columns: _Columns, rows: NDArray[np.intp], rules: DueRules) -> DueCalib
         if by_certificate
         else f"Calibrated on {calibrated}; due after {rules.max_age} days, on {due}."
     )
-    return DueCalibration(*who, due.isoformat(), days, what)
+    return DueCalibration(*who, due.isoformat(), days, what + alone)
 
 
-def _facts(columns: _Columns) -> Iterator[Outlier]:
+def _tomorrow(rules: DueRules) -> float:
+    """Return when the day after today begins, s: what has a later date has a wrong one."""
+    return datetime.combine(rules.today + timedelta(days=1), time.min, UTC).timestamp()
+
+
+def _facts(columns: _Columns, rules: DueRules) -> Iterator[Outlier]:
     """Yield the sessions whose own judgement is bad."""
     verdicts, stale, passed = (
         columns.texts("verdict"),
         columns.flags("stale"),
         columns.flags("verification_passed"),
     )
+    tomorrow = _tomorrow(rules)
     for row, place in enumerate(columns.place):
         who = (place, columns.sensor[row], columns.tool[row])
+        if columns.time[row] >= tomorrow:
+            yield Outlier(*who, "future", "Its calibration has a date in the future: check the clock.")
         if verdicts[row] == "refuse":
             yield Outlier(*who, "refused", "Its calibration is refused.")
         if stale[row]:

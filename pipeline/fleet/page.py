@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 _MOST_ROWS, _MOST_GROUPS = 100, 6
 _NOBODY = "unknown"
+_UNNAMED = "serial number missing"
 
 
 def fleet_html(
@@ -48,7 +49,7 @@ def fleet_html(
         meaning=meaning,
         tiles=[
             (f"{table.num_rows:,}", "sessions in the table", False),
-            (f"{len(set(_names(table))):,}", "sensors with a tool", False),
+            (f"{_sensors(table):,}", "sensors with a tool", False),
             (f"{overdue:,}", "are due for recalibration", overdue > 0),
             (f"{len(unusual):,}", "sessions stand out", bool(unusual)),
             (f"{len(drifting):,}", "quantities drift", bool(drifting)),
@@ -70,6 +71,7 @@ def fleet_html(
         },
         groups=_groups(table, findings),
         nobody=_NOBODY,
+        unnamed=_UNNAMED,
     )
 
 
@@ -87,6 +89,12 @@ def _names(table: Any) -> list[tuple[str, str]]:
     return list(zip(table["sensor"].to_pylist(), table["tool"].to_pylist(), strict=True))
 
 
+def _sensors(table: Any) -> int:
+    """Count sensors with a tool; without a serial number, each session is one."""
+    names = _names(table)
+    return len({name for name in names if name[0]}) + sum(not name[0] for name in names)
+
+
 def _groups(table: Any, findings: FleetFindings) -> list[dict[str, str]]:
     """Return the pictures: first of groups with something unusual, then of those with many sessions."""
     import pyarrow.compute as pc
@@ -101,7 +109,8 @@ def _groups(table: Any, findings: FleetFindings) -> list[dict[str, str]]:
     for row, name in enumerate(_names(table)):
         rows.setdefault(name, []).append(row)
     shown = sorted(
-        (name for name in rows if len(rows[name]) > 1), key=lambda n: (n not in notable, -len(rows[n]), n)
+        (name for name in rows if name[0] and len(rows[name]) > 1),
+        key=lambda n: (n not in notable, -len(rows[n]), n),
     )
     found = []
     for number, name in enumerate(shown[:_MOST_GROUPS]):
@@ -109,7 +118,7 @@ def _groups(table: Any, findings: FleetFindings) -> list[dict[str, str]]:
         marked = [place in unusual for place in part["place"].to_pylist()]
         found.append(
             {
-                "sensor": name[0] or _NOBODY,
+                "sensor": name[0],
                 "tool": name[1] or _NOBODY,
                 "sessions": f"{part.num_rows:,}",
                 "svg": draw_group(part, marked, f"g{number}-"),

@@ -18,6 +18,7 @@ class FleetRow:
     """
 
     journal: str  # SHA-256: it changes with whatever is in the session
+    files: str  # JSON: size and time of each other file that was read
     place: str  # Of the folder or archive
     session: str  # Its id; a copy has the same
     records: int  # Of its journal
@@ -27,6 +28,7 @@ class FleetRow:
     operator: str
     certificate: str
     due: date | None  # Until when the sensor's certificate is valid
+    due_unreadable: str  # What is said in place of that date, and is none
     calibrated: datetime | None
     verdict: str
     stale: bool  # Whether the calibration no longer follows from what the session holds

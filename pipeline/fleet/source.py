@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import hashlib
+import lzma
+import os
 import zipfile
 import zlib
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.errors import ArchiveError, SessionError
-from contactbench.pipeline.session.files import own_file
+from contactbench.pipeline.session.files import FOLDERS, own_file
 from contactbench.pipeline.session.journal import JOURNAL, LARGEST, read_journal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-    from pathlib import Path
 
     from contactbench.pipeline.session.actions import FileRef
 
 ENDINGS = (".zip", ".contactbench")
 _LARGEST_FILE = 64 * 2**20
+
+
+class NoSessionError(SessionError):
+    """A folder or archive that is no session, and no damaged one."""
 
 
 class SessionSource(Protocol):
@@ -34,17 +40,25 @@ class SessionSource(Protocol):
     def read(self, ref: FileRef) -> bytes:
         """Return a file as the journal says it is; InputError."""
 
+    def stamp(self, path: str) -> str:
+        """Return size and time of what holds a file, which tell that it was changed; OSError, InputError."""
+
 
 class _Folder:
     def __init__(self, place: Path) -> None:
         self.place = place
 
     def journal(self) -> bytes:
+        if not (os.path.lexists(self.place / JOURNAL) or _is_session(self.place)):
+            raise NoSessionError(f"{self.place}: this folder is not a session: check the path.")
         return read_journal(self.place)
 
     def read(self, ref: FileRef) -> bytes:
         with own_file(self.place / ref.path).open("rb") as stream:
             return _as_told(stream.read(_LARGEST_FILE + 1), ref, self.place)
+
+    def stamp(self, path: str) -> str:
+        return _stamp(own_file(self.place / path))
 
 
 class _Archive:
@@ -60,12 +74,23 @@ class _Archive:
     def read(self, ref: FileRef) -> bytes:
         return _as_told(self._member(ref.path, _LARGEST_FILE), ref, self.place)
 
+    def stamp(self, path: str) -> str:  # noqa: ARG002 - an archive is one file
+        return _stamp(self.place)
+
     def _member(self, name: str, most: int) -> bytes:
         try:
             with self._packed.open(name) as stream:
                 return stream.read(most + 1)
         except KeyError:
-            raise ArchiveError(f"{self.place}: it contains no {name}: this is not a session.") from None
+            begins = {each.partition("/")[0] for each in self._packed.namelist()}
+            if begins & set(FOLDERS):
+                raise ArchiveError(f"{self.place}: it contains no {name}: copy it again.") from None
+            raise NoSessionError(f"{self.place}: it contains no {name}: this is not a session.") from None
+
+
+def _stamp(file: Path) -> str:
+    found = file.stat()
+    return f"{found.st_size} {found.st_mtime_ns}"
 
 
 def _as_told(data: bytes, ref: FileRef, place: Path) -> bytes:
@@ -92,7 +117,14 @@ def opened(place: Path) -> Iterator[SessionSource]:
             return
         with zipfile.ZipFile(place) as packed:
             yield _Archive(place, packed)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        lzma.LZMAError,
+        EOFError,
+        NotImplementedError,
+        RuntimeError,
+    ) as error:
         # RuntimeError: it is encrypted
         raise ArchiveError(f"{place}: not an intact archive ({error}): copy it again.") from error
     except (OSError, ValueError) as error:
@@ -107,6 +139,8 @@ def find(places: Iterable[Path]) -> Iterator[Path]:
     """
     Yield sessions, and what looks as if it should be one, in a fixed order; links are not followed below `places`.
 
+    Each is yielded once, however often it is given.
+
     A place that is given, and a folder just below it, in which there is no session is yielded too: reading it says so.
 
     Raises
@@ -114,19 +148,33 @@ def find(places: Iterable[Path]) -> Iterator[Path]:
     InputError
         A place that is given is not there.
     """
+    seen: set[str] = set()
+    for place in _found(places):
+        real = os.path.realpath(place)
+        if real not in seen:
+            seen.add(real)
+            yield place
+
+
+def _found(places: Iterable[Path]) -> Iterator[Path]:
     for place in places:
         if not place.exists():
             raise InputError(f"{place}: there is no such folder or archive: check the path.")
-        if not place.is_dir() or _has_journal(place):
+        if not place.is_dir() or _is_session(place):
             yield place
             continue
         inside = [session for child in _children(place) for session in _below(child) or [child]]
         yield from inside or [place]
 
 
+def session_around(file: Path) -> Path | None:
+    """Return the session's folder that a file lies in, or would; None: in none."""
+    return next((folder for folder in Path(os.path.realpath(file)).parents if _is_session(folder)), None)
+
+
 def _below(place: Path) -> list[Path]:
     """Return what is a session, or should be, at a place and below it."""
-    if not place.is_dir() or _has_journal(place):
+    if not place.is_dir() or _is_session(place):
         return [place]
     return [session for child in _children(place) for session in _below(child)]
 
@@ -150,6 +198,11 @@ def _has_journal(folder: Path) -> bool:
         return (folder / JOURNAL).is_file()
     except OSError:  # nobody may look into it
         return False
+
+
+def _is_session(folder: Path) -> bool:
+    """Tell whether a folder is a session, or was one: its journal is gone, and its own folders are there."""
+    return _has_journal(folder) or all((folder / name).is_dir() for name in FOLDERS)
 
 
 def _is_archive(file: Path) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from datetime import UTC, date, datetime
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
@@ -11,15 +12,21 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import decode_record
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.row import FleetRow, vector
 from contactbench.pipeline.report.verification_file import parse_verification
 from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.stale import stale_results
 from contactbench.pipeline.session.state import Result, State, fold
+from contactbench.pipeline.settings import ReportSettings
 
 if TYPE_CHECKING:
     from contactbench.pipeline.fleet.source import SessionSource
     from contactbench.pipeline.session.state import Input
+
+
+_FIRST_YEAR, _LAST_YEAR = 1970, 2200  # Of a calibration that can be: the last is not included
 
 
 def hash_of(journal: bytes) -> str:
@@ -38,8 +45,11 @@ def summarize(source: SessionSource, journal: bytes) -> FleetRow:
     """
     state = fold(content_of(source.place, journal).records)
     calibration, verification = state.newest("calibration"), state.newest("verification")
+    due, due_unreadable = _due(state)
+    read = [each.file.path for each in (calibration, verification) if each is not None]
     return FleetRow(
         journal=hash_of(journal),
+        files=json.dumps({path: source.stamp(path) for path in read}),
         place=str(source.place),
         session=state.id,
         records=state.count,
@@ -48,7 +58,8 @@ def summarize(source: SessionSource, journal: bytes) -> FleetRow:
         model=_text(state, "report.sensor"),
         operator=_text(state, "report.operator"),
         certificate=_text(state, "report.certificate"),
-        due=_date(_text(state, "report.due")),
+        due=due,
+        due_unreadable=due_unreadable,
         **_calibration_facts(source, calibration),
         stale=_is_stale(state, calibration),
         **_verification_facts(source, verification),
@@ -60,11 +71,22 @@ def _text(state: State, key: str) -> str:
     return value.strip() if isinstance(value, str) else ""
 
 
-def _date(text: str) -> date | None:
+def unchanged(source: SessionSource, files: str) -> bool:
+    """Tell whether the files that a row was made of have the size and time of then."""
     try:
-        return date.fromisoformat(text)
-    except ValueError:
-        return None
+        return all(source.stamp(path) == stamp for path, stamp in json.loads(files).items())
+    except (OSError, ValueError, AttributeError):  # a file is gone, or the table was changed by somebody
+        return False
+
+
+def _due(state: State) -> tuple[date | None, str]:
+    """Return until when the certificate is valid, or what is said of it and is no date."""
+    said = state.setting("report.due")
+    try:
+        due = ReportSettings.checked({"due": said}).due
+    except InputError:
+        return None, str(said)
+    return (date.fromisoformat(due), "") if due else (None, "")
 
 
 def _serial(state: State) -> str:
@@ -89,10 +111,16 @@ def _calibration_facts(source: SessionSource, found: Result | Input | None) -> d
         return {"calibrated": None, "verdict": "", "poses": None, "temperature_C": None}
     record = decode_record(source.read(found.file), f"{source.place}: {found.file.path}")
     calibration, model = record.calibration, record.calibration.model
+    calibrated = record.created or _moment(found.at)
+    if not _FIRST_YEAR <= calibrated.year < _LAST_YEAR:
+        raise SessionError(
+            f"{source.place}: {found.file.path}: created in {calibrated.year}, which cannot be: set the clock of the"
+            " computer and calibrate again."
+        )
     sigma = np.sqrt(np.diag(calibration.covariance))
     degrees = [pose.temperature for pose in calibration.poses if pose.temperature is not None]
     facts = {
-        "calibrated": record.created or _moment(found.at),
+        "calibrated": calibrated,
         "verdict": calibration.verdict.level.value,
         "poses": len(calibration.poses),
         "temperature_C": float(np.mean(degrees)) if degrees else None,

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.fleet.row import FleetRow, column_types
-from contactbench.pipeline.fleet.source import opened
-from contactbench.pipeline.fleet.summary import hash_of, summarize
+from contactbench.pipeline.fleet.source import NoSessionError, opened
+from contactbench.pipeline.fleet.summary import hash_of, summarize, unchanged
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-_META, _VERSION = b"contactbench.fleet", b"1"
+_META, _VERSION = b"contactbench.fleet", b"2"
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,7 @@ class Skipped:
 
     place: str
     reason: str
+    damaged: bool = False  # Not merely a copy, or no session
 
 
 @dataclass(frozen=True)
@@ -72,8 +73,13 @@ def table_of(rows: Sequence[FleetRow]) -> Any:
     import pyarrow as pa
 
     form = schema()
-    columns = [pa.array([getattr(row, each.name) for row in rows], each.type) for each in form]
+    columns = [pa.array([_plain(getattr(row, each.name)) for row in rows], each.type) for each in form]
     return pa.Table.from_arrays(columns, schema=form)
+
+
+def _plain(value: Any) -> Any:
+    """Return a text that UTF-8 can hold, as names of files may not be; anything else as it is."""
+    return value.encode("utf-8", "backslashreplace").decode() if isinstance(value, str) else value
 
 
 def read_fleet(
@@ -87,13 +93,15 @@ def read_fleet(
     places : sequence of Path
         Folders and archives, as `find` yields them.
     known : pyarrow.Table, optional
-        An earlier table: a session whose journal is in it is not read again.
+        An earlier table: a session whose journal is in it, and whose files have the size and time of then,
+        is not read again.
     progress : callable
         Gets how many are through, and of how many.
     """
     import pyarrow as pa
 
     index = {} if known is None else {sha: row for row, sha in enumerate(known["journal"].to_pylist())}
+    files = [] if known is None else known["files"].to_pylist()
     rows: list[FleetRow] = []
     kept: list[tuple[int, str]] = []
     skipped = []
@@ -103,12 +111,13 @@ def read_fleet(
             with opened(place) as source:
                 journal = source.journal()
                 row = index.get(hash_of(journal))
-                if row is None:
+                if row is None or not unchanged(source, files[row]):
                     rows.append(summarize(source, journal))
                 else:
-                    kept.append((row, str(place)))
+                    kept.append((row, _plain(str(place))))
         except InputError as error:
-            skipped.append(Skipped(str(place), str(error)))
+            damaged = not isinstance(error, NoSessionError)
+            skipped.append(Skipped(_plain(str(place)), _plain(str(error)), damaged))
     table = table_of(rows)
     if known is not None and kept:
         rows_kept, where = zip(*kept, strict=True)

@@ -137,6 +137,7 @@ def _row(
         force[0] += _DRIFT * 3.0 * nth / 365.25
     return FleetRow(
         journal=f"{number:064x}",
+        files="{}",
         place=f"/sessions/{number:06d}",
         session=f"{number:032x}",
         records=20,
@@ -146,6 +147,7 @@ def _row(
         operator="",
         certificate="",
         due=date(2027, 3, 31),
+        due_unreadable="",
         calibrated=when.replace(microsecond=0),
         verdict="good",
         stale=False,

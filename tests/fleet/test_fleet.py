@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import sys
 import zipfile
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
@@ -15,7 +17,7 @@ import pytest
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
-from contactbench.pipeline.calibration.files.calibration_file import load_record
+from contactbench.pipeline.calibration.files.calibration_file import decode_record, load_record
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
@@ -126,6 +128,8 @@ def test_an_archive_is_read_as_its_folder(sessions: Path, tmp_path: Path) -> Non
     (one,), (two,) = table_in(tmp_path / "1.parquet"), table_in(tmp_path / "2.parquet")
     assert two.pop("place") == str(tmp_path / "x" / "a.contactbench")
     one.pop("place")
+    for each in (one, two):
+        assert each.pop("files") != "{}"
     assert one == two
 
 
@@ -195,6 +199,87 @@ def test_a_damaged_session_is_named_and_the_others_are_read(sessions: Path, dama
     (skipped,) = found["skipped"]
     assert skipped["place"] == str(sessions / "a")
     assert str(sessions / "a") in skipped["reason"]
+    assert skipped["damaged"]
+
+
+def test_damage_alone_is_exit_code_1_and_no_session_or_a_copy_is_not(sessions: Path) -> None:
+    shutil.copytree(sessions / "b", sessions / "c")
+    (sessions / "holiday").mkdir()
+    where = [sessions / name for name in "abc"]
+    assert not any(each["damaged"] for each in fleet(*where, sessions / "holiday")["skipped"])
+    (sessions / "a" / "journal").unlink()  # its folders tell that it was one
+    assert [each["damaged"] for each in fleet(*where, code=1)["skipped"]] == [True, False]
+
+
+@pytest.mark.parametrize("damage", [_edit_as_long, _remove_calibration])
+def test_damage_behind_an_unchanged_journal_is_noticed_by_a_second_run(
+    sessions: Path, tmp_path: Path, damage: Any
+) -> None:
+    words = (sessions / "a", sessions / "b", "--out", tmp_path / "f.parquet")
+    fleet(*words)
+    assert fleet(*words)["read"] == 0
+    damage(sessions / "a")
+    for file in (sessions / "a" / "results").glob("*c.json"):
+        os.utime(file, (1, 1))  # whatever the resolution of the file system's clock
+    assert [each["damaged"] for each in fleet(*words, code=1)["skipped"]] == [True]
+
+
+def test_a_damaged_lzma_archive_is_named(sessions: Path, tmp_path: Path) -> None:
+    file = tmp_path / "x.zip"
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_LZMA) as packed:
+        packed.writestr("journal", b"abc" * 1000)
+        info = packed.infolist()[0]
+    data = bytearray(file.read_bytes())
+    begin = 30 + len(info.filename) + 9  # behind the local header and the properties of LZMA
+    data[begin : begin + 20] = b"\xff" * 20
+    file.write_bytes(data)
+    (skipped,) = fleet(sessions / "a", file, code=1)["skipped"]
+    assert "not an intact archive" in skipped["reason"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
+def test_a_name_that_is_no_utf_8_is_kept_readable(sessions: Path, tmp_path: Path) -> None:
+    odd = sessions / os.fsdecode(b"a\xff")
+    (sessions / "a").rename(odd)
+    shutil.copytree(odd, sessions / "copy")
+    (sessions / os.fsdecode(b"no\xfe")).mkdir()
+    words = (sessions, "--out", tmp_path / "f.parquet", "--report", tmp_path / "f.html")
+    fleet(*words, code=1)
+    assert fleet(*words, code=1)["read"] == 0
+    assert any(row["place"].endswith("a\\udcff") for row in table_in(tmp_path / "f.parquet"))
+    assert "no\\udcfe" in (tmp_path / "f.html").read_text("utf-8")
+
+
+def test_a_path_that_is_given_twice_is_read_once(sessions: Path) -> None:
+    found = fleet(sessions / "a", sessions / "a", sessions / "sub" / ".." / "a")
+    assert (found["sessions"], found["read"], found["skipped"]) == (1, 1, [])
+
+
+@pytest.mark.parametrize("year", ["9999", "2200", "1900"])
+def test_a_year_that_cannot_be_is_unreadable(
+    sessions: Path, monkeypatch: pytest.MonkeyPatch, year: str
+) -> None:
+    def aged(data: bytes, name: str) -> Any:
+        record = decode_record(data, name)
+        assert record.created is not None
+        return replace(record, created=record.created.replace(year=int(year)))
+
+    monkeypatch.setattr("contactbench.pipeline.fleet.summary.decode_record", aged)
+    found = fleet(sessions, code=1)
+    assert found["sessions"] == 1
+    assert f"created in {year}, which cannot be" in found["skipped"][0]["reason"]
+
+
+def test_an_unreadable_date_of_the_certificate_is_due(sessions: Path) -> None:
+    word = ["set", str(sessions / "a"), "report.due=31.03.2020"]
+    result = CliRunner().invoke(session_app, word)
+    assert result.exit_code != 0
+    assert "report.due" in str(result.exception)
+    with Session.open(sessions / "a") as session:
+        assert session.state.setting("report.due") == "2199-03-31"
+        session.set_parameter("report.due", "31.03.2020")  # as earlier versions let it
+    found = fleet(sessions / "a", code=1)
+    assert "'31.03.2020'" in found["due"][0]["sentence"]
 
 
 def test_what_is_no_session_is_named(sessions: Path) -> None:
@@ -223,7 +308,7 @@ def test_a_lying_size_in_an_archive_is_noticed(sessions: Path, tmp_path: Path) -
         for name in packed.namelist():
             data = packed.read(name)
             other.writestr(name, data + b" " if name.endswith("c.json") else data)
-    found = fleet(tmp_path / "b.zip", sessions / "b")
+    found = fleet(tmp_path / "b.zip", sessions / "b", code=1)
     assert "does not match the journal" in found["skipped"][0]["reason"]
 
 
@@ -242,9 +327,9 @@ def test_a_file_of_somebody_else_is_not_written_over(sessions: Path, tmp_path: P
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    (tmp_path / "text").write_text("mine", encoding="utf-8")
+    (tmp_path / "text.parquet").write_text("mine", encoding="utf-8")
     pq.write_table(pa.table({"a": [1]}), tmp_path / "other.parquet")
-    for name in ("text", "other.parquet"):
+    for name in ("text.parquet", "other.parquet"):
         before = (tmp_path / name).read_bytes()
         assert "is no table of a fleet" in fleet(sessions, "--out", tmp_path / name, code=2)["error"]
         assert (tmp_path / name).read_bytes() == before
@@ -254,12 +339,31 @@ def test_a_file_of_somebody_else_is_not_written_over(sessions: Path, tmp_path: P
     assert fleet(sessions, "--out", tmp_path / "old.parquet", code=1)["read"] == 3
 
 
+def test_outputs_take_the_place_of_nothing_else(sessions: Path, tmp_path: Path) -> None:
+    journal = (sessions / "a" / "journal").read_bytes()
+    for words, said in (
+        (["--report", sessions / "a" / "journal"], "ends in .html or .pdf"),
+        (["--out", tmp_path / "f.html"], "ends in .parquet"),
+        (["--report", sessions / "a" / "new.html"], "inside the session"),
+        (["--out", sessions / "b" / "results" / "f.parquet"], "inside the session"),
+    ):
+        assert said in " ".join(fleet(sessions, *words, code=2)["error"].split())
+    assert (sessions / "a" / "journal").read_bytes() == journal
+    assert not (sessions / "a" / "new.html").exists()
+    fleet(sessions, "--out", tmp_path / "f.parquet", code=1)
+    (tmp_path / "f.html").symlink_to(tmp_path / "f.parquet")
+    words = ["--out", tmp_path / "f.parquet", "--report", tmp_path / "f.html"]
+    assert "choose another name" in " ".join(fleet(sessions, *words, code=2)["error"].split())
+    assert len(table_in(tmp_path / "f.parquet")) == 3
+
+
 # ---- judging -------------------------------------------------------------------------------------
 
 
 def row(number: int, **more: Any) -> FleetRow:
     blank = FleetRow(
         journal=f"{number:064x}",
+        files="{}",
         place=f"/s/{number}",
         session=f"{number:032x}",
         records=3,
@@ -269,6 +373,7 @@ def row(number: int, **more: Any) -> FleetRow:
         operator="",
         certificate="",
         due=None,
+        due_unreadable="",
         calibrated=BEGIN + timedelta(days=10 * number),
         verdict="good",
         stale=False,
@@ -321,7 +426,7 @@ def test_a_drift_is_told_with_its_slope(count: int) -> None:
     values = 5 + 0.2 * np.arange(count) * 10 / 365.25 + rng.normal(0, 0.02, count)
     rows = [row(n, force_bias_x_N=float(value)) for n, value in enumerate(values)]
     rows[7] = replace(rows[7], force_bias_x_N=9.0)
-    found = judged(rows)
+    found = judged(rows, date(2050, 1, 1))
     (trend,) = found.trends
     assert trend.drifts
     assert trend.per_year == pytest.approx(0.2, abs=0.05)
@@ -361,6 +466,31 @@ def test_the_newest_calibration_and_the_certificate_say_what_is_due() -> None:
     assert words == "The sensor's certificate ran out on 2026-05-31."
     assert due(row(0, due=date(2026, 6, 1)))[0][1] == 0
     assert due(row(0, calibrated=None)) == [("", 0, "Never calibrated.")]
+
+
+def test_a_sensor_without_a_number_hides_no_other() -> None:
+    old, new = row(0, sensor=""), row(15, sensor="")
+    (due,) = judged([old, new], max_age=100).due
+    assert due.place == "/s/0"
+    assert "Serial number missing" in due.sentence
+    assert judged(masses(*STEADY)).trends
+    unnamed = [replace(each, sensor="") for each in masses(*STEADY, 0.65)]
+    found = judged(unnamed)
+    assert found.trends == found.outliers == ()
+    page = fleet_html(table_of(unnamed), found, (), BEGIN)
+    assert ">13</" in page.replace("\n", "")  # sensors, as many as sessions
+    assert page.count("<svg") == 1
+
+
+def test_a_date_in_the_future_hides_nothing_and_is_told() -> None:
+    today = date(2026, 6, 1)
+    later = row(1, calibrated=datetime(2026, 6, 2, tzinfo=UTC))
+    found = judged([row(0), later], today, max_age=100)
+    assert [(each.place, each.days) for each in found.due] == [("/s/0", -51)]
+    assert [(each.place, each.reason) for each in found.outliers] == [("/s/1", "future")]
+    (due,) = judged([later], today).due
+    assert "date in the future" in due.sentence
+    assert not judged([replace(later, calibrated=datetime(2026, 6, 1, 23, 59, tzinfo=UTC))], today).outliers
 
 
 def test_what_a_session_says_of_itself_is_told() -> None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QWidget
 
 from contactbench.app.bench import Weight
 from contactbench.app.undo import SetParameters
+from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import PayloadSettings, RobotMaker
 from contactbench.pipeline.workbench.payload import KIND, payload_text, stored_payload
@@ -113,6 +114,8 @@ class PayloadPanel(QWidget):
             words.append(self.tr("The sensor's own mass is not included."))
         if not found.mount_known:
             words.append(self.tr("The sensor is taken as not turned on the flange."))
+        if caution := CAUTIONS.get(settings.robot):
+            words.append(said(caution))
         self._say(found.line, " ".join(words))
 
     def _say(self, line: str, note: str) -> None:

@@ -30,6 +30,14 @@ if TYPE_CHECKING:
 # A payload less certain than this is not worth telling a robot: it weighs the tool as well by itself.
 _LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 0.01
 
+CAUTIONS = {
+    RobotMaker.UR: "Setting the payload also zeroes the robot's own force and torque readings: set it with the robot at"
+    " rest and nothing touching the tool.",
+    RobotMaker.ABB: "Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use"
+    " them as a loaddata for GripLoad, which is in the tool frame.",
+}
+"""What must be known before a maker's line is used."""
+
 
 @dataclass(frozen=True, eq=False)
 class Payload:
@@ -38,12 +46,15 @@ class Payload:
 
     Attributes
     ----------
+    load : float
+        Mass that the calibration has weighed, kg.
     mass, mass_sigma : float
-        kg.
+        With the body in between, which is taken as known, kg.
     centre_E, centre_sigma_E : (3,)
         Centre of mass and its standard deviations by axis, flange frame E, m.
     """
 
+    load: float
     mass: float
     mass_sigma: float
     centre_E: Array
@@ -51,8 +62,8 @@ class Payload:
 
     @property
     def is_known(self) -> bool:
-        """Whether the mass is known within 10 % and the centre of mass within 10 mm, one standard deviation."""
-        return self.mass_sigma <= _LARGEST_SHARE * self.mass and bool(
+        """Whether the load is known within 10 % and the centre of mass within 10 mm, one standard deviation."""
+        return self.mass_sigma <= _LARGEST_SHARE * self.load and bool(
             np.all(self.centre_sigma_E <= _LARGEST_OFFSET_M)
         )
 
@@ -64,7 +75,7 @@ class Payload:
         ----------
         maker : RobotMaker
         index : int
-            Number of the tool, where the controller counts tools (KUKA 1 to 16), or of the variable (ABB).
+            Number of the tool, where the controller counts tools (KUKA 1 to 16), or in the name of the tool (ABB).
         """
         kg = f"{self.mass:.3f}"
         m, mm = (
@@ -72,7 +83,7 @@ class Payload:
             for scale, places in ((1, 4), (1e3, 1))
         )
         return {
-            # URScript: kg and m in the tool flange's frame; the inertia is left as it is.
+            # URScript: kg and m in the tool flange's frame; an inertia that is left out becomes zero.
             RobotMaker.UR: f"set_target_payload({kg}, [{', '.join(m)}])",
             # The service franka_msgs/srv/SetLoad, or Robot::setLoad of libfranka: kg, m, kg·m².
             RobotMaker.FRANKA: f"{{mass: {kg}, center_of_mass: [{', '.join(m)}],"
@@ -80,8 +91,9 @@ class Payload:
             # KRL, in $config.dat: kg, mm, kg·m².
             RobotMaker.KUKA: f"LOAD_DATA[{index}]={{M {kg},CM {{X {mm[0]},Y {mm[1]},Z {mm[2]},A 0.0,B 0.0,C 0.0}},"
             "J {X 0.0,Y 0.0,Z 0.0}}",
-            # RAPID: kg, mm, axes of inertia as a quaternion, kg·m².
-            RobotMaker.ABB: f"PERS loaddata probe_load{index}:=[{kg},[{','.join(mm)}],[1,0,0,0],0,0,0];",
+            # RAPID: kg, mm, axes of inertia as a quaternion, kg·m². The load of a tool is in the frame of the wrist; a
+            # loaddata for GripLoad would be in that of the tool.
+            RobotMaker.ABB: f"probe_tool{index}.tload:=[{kg},[{','.join(mm)}],[1,0,0,0],0,0,0];",
             # Tool weight in the pendant, field by field.
             RobotMaker.DOOSAN: f"Weight {kg} kg, Cx {mm[0]} mm, Cy {mm[1]} mm, Cz {mm[2]} mm",
         }[maker]
@@ -131,4 +143,4 @@ def payload_of(
     J[:, GRAVITY] = np.outer((arm - centre) / total, by_weight)
     J[:, CENTRE_OF_MASS] = load / total * R
     sigma = np.sqrt(np.maximum(np.diag(J @ model.covariance @ J.T), 0.0))
-    return Payload(total, model.mass_sigma, centre, sigma)
+    return Payload(load, total, model.mass_sigma, centre, sigma)

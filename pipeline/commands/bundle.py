@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import SensorAtArgument, SensorBodyOption, payload_told
+from contactbench.pipeline.commands.options import (
+    SensorAtArgument,
+    SensorBodyOption,
+    doubt_degrees,
+    payload_told,
+)
 from contactbench.pipeline.console import Noun, answer, as_json, numbers, say, show_tables
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
@@ -221,38 +226,52 @@ def payload(
 ) -> None:
     """Print mass and centre of mass of the payload as a robot's own controller takes them.
 
-    Poses at rest do not show the inertia, which is written as zero, or left out for UR. Nothing is sent to the robot.
+    Poses at rest do not show the inertia, which is written as zero; UR takes zero where it is left out. Nothing is sent
+    to the robot. UR: setting the payload zeroes the robot's own force and torque readings, so set it with nothing
+    touching the tool. ABB: the line is the load of a tooldata, in the wrist frame.
 
-    Exit code 1: the mass is not known within 10 %, or the centre of mass not within 10 mm (one standard deviation).
+    Exit code 1, and no line: the calibration was refused, the mass of the load is not known within 10 %, or the centre
+    of mass not within 10 mm (one standard deviation).
     """
+    from contactbench.pipeline.calibration.payload import CAUTIONS
     from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.build import calibration_refused
     from contactbench.pipeline.config.runtime.values import rotation_ES
     from contactbench.pipeline.durable import write_file
 
     found = RuntimeConfig.load(bundle)
+    if calibration_refused(found.model):
+        reason = "The calibration was refused, so its payload is not for a robot: calibrate again."
+        say(f"{bundle}: {reason}", "red")
+        answer({"error": f"{bundle}: {reason}"})
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    doubt_degrees(turned.mount)
     R_ES = rotation_ES(found.model.frames.quaternion_ES) if turned.R_ES is None else turned.R_ES
     if R_ES is None:
         raise typer.BadParameter(
             f"{bundle} does not say how the sensor is turned on the flange: give --mount, 0,0,0 if it is not."
         )
     made = payload_told(found.gravity, R_ES, sensor_at, sensor_body)
-    text = made.text(robot, index)
+    text = made.text(robot, index) if made.is_known else None
     spread = " ± ".join(
         ", ".join(f"{1e3 * each:.1f}" for each in part) for part in (made.centre_E, made.centre_sigma_E)
     )
     say(
         f"{made.mass:.3f} ± {made.mass_sigma:.3f} kg at ({spread}) mm in the flange's frame (one standard deviation)."
     )
-    if out is not None:
-        write_file(out, f"{text}\n".encode())
-        say(f"{out}: {robot}.")
-    elif not as_json():
-        typer.echo(text)
+    if text is not None:
+        if caution := CAUTIONS.get(robot):
+            say(caution, "yellow")
+        if out is not None:
+            write_file(out, f"{text}\n".encode())
+            say(f"{out}: {robot}.")
+        elif not as_json():
+            typer.echo(text)
     answer({
         "robot": str(robot), "text": text, "mass_kg": made.mass, "mass_sigma_kg": made.mass_sigma,
         "centre_E_m": made.centre_E.tolist(), "centre_sigma_E_m": made.centre_sigma_E.tolist(),
     })  # fmt: skip
-    if not made.is_known:
+    if text is None:
         say("That is too unsure to tell a robot: calibrate with poses that tilt farther.", "red")
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 

@@ -17,6 +17,7 @@ from contactbench.pipeline.commands.options import (
     SensorAtOption,
     SensorBodyOption,
     SerialOption,
+    doubt_degrees,
     payload_told,
     refuse_overwriting,
     serials_of,
@@ -106,7 +107,8 @@ def fit(
     POSES may be a recording instead, MCAP or CSV with the column t: its still poses are found as by
     contactbench calibrate captures. With --robot-poses, sensor and robot may be in two separate CSV files.
 
-    With --sensor-at, and a mount, the report has the robot's payload in the words of its controller.
+    With --sensor-at, and a mount, the report has the robot's payload in the words of its controller, unless the
+    calibration must not be used or leaves it too unsure.
 
     Exit code 1: the calibration must not be used; the reasons and remedies are printed. The file is written
     anyway, so that calibrate next can suggest a pose.
@@ -142,15 +144,18 @@ def fit(
     created = creation_time()
     source = SourceFile.of(poses)
     mount = _mount_record(mounted, R_ES)
+    doubt_degrees(given.mount)
     payload = None
     if sensor_at is not None and mount is not None:
         payload = payload_told(calibration.model, mount.R_SE.T, sensor_at, sensor_body)
     save_calibration(calibration, out, source=source, created=created, mount=mount)
     if report:
-        from contactbench.pipeline.calibration.report.page import write_report
+        from contactbench.pipeline.calibration.report.page import unusable, write_report
         from contactbench.pipeline.page.details import ReportDetails
 
         details = ReportDetails(**said_of.model_dump(), serials=serials)
+        if payload is not None and (why := unusable(calibration, payload)):
+            say(f"{report}: {why}", "yellow")
         write_report(calibration, report, source=source, created=created, details=details, payload=payload)
     _show(calibration, mounted)
     answer(_facts(calibration, mounted, out, report, table))

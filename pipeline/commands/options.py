@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -63,6 +64,8 @@ SensorBodyOption = Annotated[
     ),
 ]
 
+_ALMOST = 0.01  # of a quarter turn, as 1.57 is
+
 PatchOption = Annotated[
     str | None,
     typer.Option(
@@ -73,6 +76,14 @@ PatchOption = Annotated[
         " along S's x and y, mm, 0 for flat.",
     ),
 ]
+
+
+def doubt_degrees(angles: Sequence[float] | None) -> None:
+    """Ask on stderr whether angles of --mount are radians: quarter turns, as far as they are not 0."""
+    quarter = math.pi / 2
+    turned = [abs(each) / quarter for each in angles or () if each]
+    if turned and all(1 <= round(each) <= 4 and abs(each / round(each) - 1) <= _ALMOST for each in turned):
+        say("Is --mount in radians? Degrees are expected: 90 for a quarter turn.", "yellow")
 
 
 def payload_told(model: GravityModel, R_ES: Any, sensor_at: str, sensor_body: str | None) -> Payload:

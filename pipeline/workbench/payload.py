@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.calibration.payload import payload_of
+from contactbench.pipeline.config.runtime.build import calibration_refused
 from contactbench.pipeline.config.runtime.values import rotation_ES
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import PayloadSettings
 
 if TYPE_CHECKING:
@@ -48,8 +50,10 @@ def payload_text(config: RuntimeConfig, settings: PayloadSettings) -> PayloadTex
     Raises
     ------
     InputError
-        The calibration has no load.
+        The calibration was refused, or has no load.
     """
+    if calibration_refused(config.model):
+        raise InputError("The calibration is refused: calibrate again before you tell a robot its payload.")
     R_ES = rotation_ES(config.model.frames.quaternion_ES)
     mass, *centre = settings.sensor_body
     made = payload_of(

@@ -82,6 +82,7 @@ def test_the_robots_payload_is_the_line_of_the_command(window, tmp_path):
     panel = window.page.payload
     assert "set_target_payload(" in panel.line.text()
     assert "The sensor's own mass is not included." in panel.note.text()
+    assert "nothing touching the tool" in panel.note.text()
     panel.at[2].setValue(37.5)
     panel.mass.setValue(0.29)
     panel.centre[2].setValue(18.0)
@@ -89,6 +90,7 @@ def test_the_robots_payload_is_the_line_of_the_command(window, tmp_path):
     panel.robot.activated.emit(panel.robot.currentIndex())
     window.wait(lambda: panel.line.text().startswith("LOAD_DATA[1]="))
     assert "not included" not in panel.note.text()
+    assert "nothing touching the tool" not in panel.note.text()
     panel.copy.click()
     assert QGuiApplication.clipboard().text() == panel.line.text()
     window.page.write(tmp_path / "runtime.zip")

@@ -229,8 +229,13 @@ def test_a_report_has_the_robots_payload_where_the_sensor_s_place_is_known(
     where = ("--sensor-at", "1,2,40")
     result = invoke(*fit, "--mount", "0,0,90", *where)
     assert "own body and its adapters are not in it" in said(result)
-    # A mount that these poses contradict: the payload is turned by it all the same.
+    # Of a flange on which the sensor is turned: the payload is turned by it.
+    turn = Rotation.from_euler("z", -90, degrees=True).as_matrix()
+    weighing = weighed()
+    turned = tuple(replace(pose, R_WS=pose.R_WS @ turn) for pose in weighing.poses)
+    write_euler(poses, replace(weighing, poses=turned))
     result = invoke(*fit, "--mount", "0,0,90", *where, "--sensor-body", "0.3,0,0,20")
+    assert result.exit_code == 0
     assert "not in it" not in said(result)
     record = load_record(tmp_path / "c.json")
     assert record.mount is not None
@@ -240,6 +245,40 @@ def test_a_report_has_the_robots_payload_where_the_sensor_s_place_is_known(
     page = html.unescape((tmp_path / "r.html").read_text("utf-8")).replace("\N{NO-BREAK SPACE}", " ")
     for maker in RobotMaker:
         assert f"<code>{told.text(maker)}</code>" in page
+    assert "nothing touching the tool" in page
+
+
+def test_a_report_of_a_refused_or_unsure_calibration_has_no_line_to_copy(
+    tmp_path: Path, poses: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--report", tmp_path / "r.html")
+    where = ("--mount", "0,0,0", "--sensor-at", "0,0,40", "--sensor-body", "0.3,0,0,20")
+    blind = write_euler(tmp_path / "blind.csv", spun())
+    result = invoke("calibrate", "fit", blind, *fit[3:], *where)
+    assert result.exit_code == 1
+    assert "No payload for the robot: the calibration is refused." in said(result)
+    page = html.unescape((tmp_path / "r.html").read_text("utf-8"))
+    assert "the calibration is refused" in page
+    assert "set_target_payload" not in page
+    assert "tload" not in page
+    monkeypatch.setattr("contactbench.pipeline.calibration.payload._LARGEST_SHARE", 0.0)
+    assert "it is too unsure" in said(invoke(*fit, *where))
+    assert "set_target_payload" not in (tmp_path / "r.html").read_text("utf-8")
+
+
+def test_a_mount_that_looks_like_radians_is_asked_about(tmp_path: Path, poses: Path) -> None:
+    fit = ("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--mount")
+    for mount, asked in (
+        ("0,0,1.5708", True),
+        ("3.14,0,-1.57", True),
+        ("6.2832,0,0", True),
+        ("0,0,0", False),
+        ("0,0,90", False),
+        ("0,1,1.5708", False),
+        ("0,0,0.01", False),
+        ("0,0,7.854", False),
+    ):
+        assert ("--mount in radians?" in said(invoke(*fit, mount))) is asked, mount
 
 
 @pytest.mark.parametrize(

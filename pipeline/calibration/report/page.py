@@ -20,6 +20,7 @@ from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
 from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
 from contactbench.pipeline.calibration.observability import WEAK
 from contactbench.pipeline.calibration.outliers import FEWEST, limit
+from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reachable import describe
 from contactbench.pipeline.calibration.report.beside import taken_off
@@ -168,21 +169,32 @@ def report_html(
         figures=figures,
         empty=f"{EMPTY:g}",
         steepest=STEEPEST,
-        payload=None if payload is None else _payload(payload),
+        payload=None if payload is None else _payload(calibration, payload),
     )
 
 
-def _payload(payload: Payload) -> dict[str, Any]:
+def unusable(calibration: Calibration, payload: Payload) -> str:
+    """Return why there is no payload for a robot; empty: there is one."""
+    if calibration.verdict.level is Level.REFUSE:
+        return "No payload for the robot: the calibration is refused."
+    if not payload.is_known:
+        return "No payload for the robot: it is too unsure; calibrate with poses that tilt farther."
+    return ""
+
+
+def _payload(calibration: Calibration, payload: Payload) -> dict[str, Any]:
     """Return what the page says of the robot's payload."""
+    if why := unusable(calibration, payload):
+        return {"why": why}
     mass = with_sigma(payload.mass, payload.mass_sigma)
     pairs = zip((1e3 * payload.centre_E).tolist(), (1e3 * payload.centre_sigma_E).tolist(), strict=True)
     return {
+        "why": "",
         "mass": f"{mass[0]} ± {mass[1]} kg",
         "centre": ", ".join(
             f"{axis} {' ± '.join(with_sigma(*pair))}" for axis, pair in zip("xyz", pairs, strict=True)
         ),
-        "known": payload.is_known,
-        "lines": [(name, payload.text(maker)) for maker, name in _MAKERS.items()],
+        "lines": [(name, payload.text(maker), CAUTIONS.get(maker, "")) for maker, name in _MAKERS.items()],
     }
 
 

@@ -211,6 +211,11 @@ def build_config(
     return with_self_test(RuntimeConfig(checked, probe, MappingProxyType(files)))
 
 
+def calibration_refused(model: RuntimeModel) -> bool:
+    """Tell whether a config, made for trials, has a calibration that must not be used: see `reasons_against`."""
+    return any(reason.startswith("The calibration was refused: ") for reason in model.provenance.stale)
+
+
 def reasons_against(
     calibration: Calibration,
     probe_file: ProbeFile,

@@ -7,23 +7,28 @@ import shutil
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
-from weighing_files import weighed
+from weighing_files import spun, weighed
 
 from contactbench import assets
 from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
+from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.canonical import json_schema
 from contactbench.pipeline.config.runtime.checks import read_verification
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.settings import PayloadSettings
+from contactbench.pipeline.workbench.payload import payload_text
 
 RATE = ("--rate", 1000)
 
@@ -446,6 +451,32 @@ def test_a_robot_is_told_its_payload_in_the_mount_of_the_bundle(bench, tmp_path)
     assert with_body.exit_code == 0
     assert "not in it" not in with_body.stderr
     assert file.read_text() != f"{answer['text']}\n"
+
+
+@pytest.mark.parametrize("maker", ["ur", "abb"])
+def test_a_payload_too_unsure_or_of_a_refused_calibration_is_not_printed(bench, monkeypatch, maker):
+    mounted(bench, (0, 0, 90))
+    verification(bench)
+    invoke("export", *files_of(bench), "--out", bench / "b")
+    out = bench / "p.txt"
+    asked = ("payload", bench / "b", "--robot", maker, "--sensor-at", "0,0,40", "--sensor-body", "0.3,0,0,20")
+    assert CAUTIONS[maker] in words(invoke(*asked))
+    with monkeypatch.context() as patch:
+        patch.setattr("contactbench.pipeline.calibration.payload._LARGEST_SHARE", 0.0)
+        made = invoke(*asked, "--out", out)
+        assert made.exit_code == 1
+        assert "too unsure" in words(made)
+        assert invoke(*asked).stdout == ""
+    mount = Mount.of(np.eye(3))
+    save_calibration(calibrate(spun().poses), bench / "calibration.json", mount=mount)
+    assert invoke("export", *files_of(bench), "--unverified", "--out", bench / "b").exit_code == 0
+    made = invoke(*asked, "--json", "--out", out)
+    assert made.exit_code == 1
+    assert "The calibration was refused" in json.loads(made.stdout)["error"]
+    assert not out.exists()
+    settings = PayloadSettings(robot=maker)
+    with pytest.raises(InputError, match="The calibration is refused"):
+        payload_text(RuntimeConfig.load(bench / "b"), settings)
 
 
 def test_a_bundle_without_a_mount_asks_for_one(bench):

@@ -126,7 +126,7 @@ def _tell(found: Fleet, findings: FleetFindings) -> None:
 
 
 def _who(each: Any) -> str:
-    return f"{each.sensor or 'serial number missing'}, {each.tool or 'unknown tool'}"
+    return f"{each.sensor or 'unnamed sensor'}, {each.tool or 'unknown tool'}"
 
 
 def _lines(sentences: list[str], style: str) -> None:

@@ -497,8 +497,7 @@ def set_parameters(
 
     Results computed with another value become stale.
     """
-    given = dict(_setting(text) for text in settings)
-    _refuse_report(given)
+    given = _report_checked(dict(_setting(text) for text in settings), settings)
     with _writing(folder) as session:
         before = _stale_titles(session)
         records = [session.set_parameter(key, value) for key, value in given.items()]
@@ -509,19 +508,21 @@ def set_parameters(
     answer({"records": [record.number for record in records], "stale": newly})
 
 
-def _refuse_report(given: dict[str, Any]) -> None:
-    """Refuse what no report could say, such as a date that is none; InputError."""
+def _report_checked(given: dict[str, Any], settings: list[str]) -> dict[str, Any]:
+    """Return parameters with those of a report as text, as they were typed; InputError: no report could say one."""
     from contactbench.pipeline.settings import ReportSettings
 
+    typed = {text.partition("=")[0]: text.partition("=")[2] for text in settings}
     said = {
-        name: given[f"report.{name}"]
+        name: value if isinstance(value, str) else typed[f"report.{name}"]
         for name in ReportSettings.model_fields
-        if given.get(f"report.{name}") is not None
+        if (value := given.get(f"report.{name}")) is not None
     }
     try:
         ReportSettings.checked(said)
     except InputError as error:
         raise InputError(str(error).replace("parameter ", "parameter report.", 1)) from error
+    return given | {f"report.{name}": value for name, value in said.items()}
 
 
 @session_app.command(example="session rezero bench-1 --serial M8128-0042 --reason 'new cable'")

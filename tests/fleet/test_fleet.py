@@ -271,13 +271,21 @@ def test_a_year_that_cannot_be_is_unreadable(
 
 
 def test_an_unreadable_date_of_the_certificate_is_due(sessions: Path) -> None:
-    word = ["set", str(sessions / "a"), "report.due=31.03.2020"]
-    result = CliRunner().invoke(session_app, word)
+    words = ["set", str(sessions / "a"), "report.certificate=0815"]
+    assert CliRunner().invoke(session_app, words).exit_code == 0
+    words = ["set", str(sessions / "a"), "report.certificate=4711", "report.due=31.03.2020"]
+    result = CliRunner().invoke(session_app, words)
     assert result.exit_code != 0
     assert "report.due" in str(result.exception)
     with Session.open(sessions / "a") as session:
         assert session.state.setting("report.due") == "2199-03-31"
+        assert session.state.setting("report.certificate") == "0815"  # nothing of a command that is refused
         session.set_parameter("report.due", "31.03.2020")  # as earlier versions let it
+    words = ["set", str(sessions / "b"), "report.certificate=4711", "report.due=null"]
+    assert CliRunner().invoke(session_app, words).exit_code == 0
+    with Session.open(sessions / "b", write=False) as session:
+        assert session.state.setting("report.certificate") == "4711"
+        assert session.state.setting("report.due") is None
     found = fleet(sessions / "a", code=1)
     assert "'31.03.2020'" in found["due"][0]["sentence"]
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.state import Input
 
 
-_FIRST_YEAR, _LAST_YEAR = 1970, 2200  # Of a calibration that can be: the last is not included
+_FIRST_YEAR, _LAST_YEAR = 1970, 2200  # Of what can have been made: the last is not included
 
 
 def hash_of(journal: bytes) -> str:
@@ -111,16 +111,10 @@ def _calibration_facts(source: SessionSource, found: Result | Input | None) -> d
         return {"calibrated": None, "verdict": "", "poses": None, "temperature_C": None}
     record = decode_record(source.read(found.file), f"{source.place}: {found.file.path}")
     calibration, model = record.calibration, record.calibration.model
-    calibrated = record.created or _moment(found.at)
-    if not _FIRST_YEAR <= calibrated.year < _LAST_YEAR:
-        raise SessionError(
-            f"{source.place}: {found.file.path}: created in {calibrated.year}, which cannot be: set the clock of the"
-            " computer and calibrate again."
-        )
     sigma = np.sqrt(np.diag(calibration.covariance))
     degrees = [pose.temperature for pose in calibration.poses if pose.temperature is not None]
     facts = {
-        "calibrated": calibrated,
+        "calibrated": _moment(record.created or found.at, source, found),
         "verdict": calibration.verdict.level.value,
         "poses": len(calibration.poses),
         "temperature_C": float(np.mean(degrees)) if degrees else None,
@@ -142,7 +136,7 @@ def _verification_facts(source: SessionSource, found: Result | Input | None) -> 
     verification = parse_verification(source.read(found.file), f"{source.place}: {found.file.path}")
     overall = verification.overall
     facts: dict[str, Any] = {
-        "verified": _moment(found.at),
+        "verified": _moment(found.at, source, found),
         "verification_passed": verification.verdict.passed,
     }
     if overall is not None:
@@ -157,5 +151,13 @@ def _verification_facts(source: SessionSource, found: Result | Input | None) -> 
     return facts
 
 
-def _moment(at: str) -> datetime:
-    return datetime.fromisoformat(at).astimezone(UTC).replace(microsecond=0)
+def _moment(at: datetime | str, source: SessionSource, found: Result | Input) -> datetime:
+    """Return when a result was made, UTC; SessionError: then it cannot have been."""
+    made = datetime.fromisoformat(at) if isinstance(at, str) else at
+    # Before it is turned into UTC, which the year 9999 may not be.
+    if not _FIRST_YEAR <= made.year < _LAST_YEAR:
+        raise SessionError(
+            f"{source.place}: {found.file.path}: created in {made.year}, which cannot be: set the clock of the"
+            " computer and make it again."
+        )
+    return made.astimezone(UTC).replace(microsecond=0)

@@ -255,19 +255,25 @@ def test_a_path_that_is_given_twice_is_read_once(sessions: Path) -> None:
     assert (found["sessions"], found["read"], found["skipped"]) == (1, 1, [])
 
 
-@pytest.mark.parametrize("year", ["9999", "2200", "1900"])
+@pytest.mark.parametrize(
+    "at",
+    [
+        "9999-12-31T23:59:59-05:00",
+        "0001-01-01T00:00:00+05:00",
+        "2200-01-01T00:00:00Z",
+        "1969-01-01T00:00:00Z",
+    ],
+)
 def test_a_year_that_cannot_be_is_unreadable(
-    sessions: Path, monkeypatch: pytest.MonkeyPatch, year: str
+    sessions: Path, monkeypatch: pytest.MonkeyPatch, at: str
 ) -> None:
     def aged(data: bytes, name: str) -> Any:
-        record = decode_record(data, name)
-        assert record.created is not None
-        return replace(record, created=record.created.replace(year=int(year)))
+        return replace(decode_record(data, name), created=datetime.fromisoformat(at))
 
     monkeypatch.setattr("contactbench.pipeline.fleet.summary.decode_record", aged)
     found = fleet(sessions, code=1)
-    assert found["sessions"] == 1
-    assert f"created in {year}, which cannot be" in found["skipped"][0]["reason"]
+    assert (found["sessions"], [each["damaged"] for each in found["skipped"]]) == (1, [True, True])
+    assert f"created in {int(at[:4])}, which cannot be" in found["skipped"][0]["reason"]
 
 
 def test_an_unreadable_date_of_the_certificate_is_due(sessions: Path) -> None:

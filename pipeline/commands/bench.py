@@ -172,7 +172,7 @@ def _address(
     probe: str, mesh: Path | None, sensor: str, seed: int, rate: float, script: Path | None, reality: str
 ) -> DeviceAddress:
     """Return the address of the bench: its door checks what was given."""
-    from urllib.parse import urlencode
+    from urllib.parse import quote, urlencode
 
     from contactbench.pipeline.devices.url import DeviceAddress
 
@@ -185,7 +185,7 @@ def _address(
         **({} if script is None else {"script": str(script)}),
         **({} if reality == "ideal" else {"reality": reality}),
     }
-    return DeviceAddress.parse(f"virtual://bench?{urlencode(options)}")
+    return DeviceAddress.parse(f"virtual://bench?{urlencode(options, quote_via=quote)}")
 
 
 def _without_paths(where: DeviceAddress) -> DeviceAddress:

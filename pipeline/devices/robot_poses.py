@@ -272,6 +272,9 @@ class ParsedPoses(ReconnectingStream[FlangeSample]):
     def _counters(self) -> Counters:
         return self._parser.counters
 
+    def _troubles(self) -> dict[str, str]:
+        return self._parser.troubles()
+
 
 def poses_from(
     address: DeviceAddress | str, on_samples: OnFlanges, on_change: OnChange = None

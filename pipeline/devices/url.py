@@ -258,7 +258,7 @@ class DeviceAddress:
         driver = self._driver
         if driver is not None:
             given |= _written(driver, self.options)
-        query = urlencode(given, safe=",/:")
+        query = urlencode(given, safe=",/:", quote_via=quote)
         scheme = self.protocol if driver is None else f"{self.protocol}+{self.carrier}"
         return f"{scheme}://{where}" + (f"?{query}" if query else "")
 
@@ -296,7 +296,7 @@ def read_options(driver: Driver, key: str, text: str) -> Any:
 
 def options_query(driver: Driver, options: Mapping[str, Any]) -> str:
     """Return a driver's own options as the end of an address; empty: there are none."""
-    query = urlencode(_written(driver, options), safe=",/:")
+    query = urlencode(_written(driver, options), safe=",/:", quote_via=quote)
     return f"?{query}" if query else ""
 
 
@@ -340,7 +340,10 @@ def _given(query: str, kind: _Kind) -> dict[str, Any]:
     """Return the options of a query, each of which must be known."""
     found: dict[str, str] = {}
     try:
-        pairs = parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query), errors="strict")
+        # A plus is one, as in start=AT+RUN, and not a blank.
+        pairs = parse_qsl(
+            query.replace("+", "%2B"), keep_blank_values=True, strict_parsing=bool(query), errors="strict"
+        )
     except ValueError as error:
         raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
     for key, value in pairs:

@@ -1,15 +1,14 @@
 """
 Lines of text from any sensor or robot: columns, or JSON objects, as the address declares.
 
-A line has no checksum. One with another number of columns, without a key, or with a number that is none is dropped
-and counted; a digit that changed on the way is not seen.
+A line has no checksum. One with another number of columns, without a key, or with a number that is none or cannot be
+is dropped and counted; a digit that changed on the way is not seen.
 """
 
 from __future__ import annotations
 
 import json
 import math
-import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
@@ -54,14 +53,15 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.url import DeviceAddress
 
     Numbers = Mapping[str, float]
-    Made = Callable[[Numbers, float, Status, float | None], Sample | None]
+    Made = Callable[[Numbers, float, Status, float | None], Sample | str]
 
 _LONGEST_LINE = 8192
 _ABSURD = 1e9  # in SI; times may be seconds since 1970
 _ABSURD_TIME = 1e12
 # Datagrams that overtake each other are a few apart, or less than this, s.
 _REORDER, _OVERTAKEN_S = 16, 1.0
-_BETWEEN = re.compile(r"[,;\s]+")
+_SEPARATORS = ",;\t"
+_SHOWN_S = 2.0  # how long after a line was dropped its reason is told
 
 
 class LineParser(Parser[Sample], Generic[Sample]):
@@ -73,7 +73,7 @@ class LineParser(Parser[Sample], Generic[Sample]):
     layout : Layout
     made : callable
         Gets the numbers in SI by their roles, the arrival, the status and the device's time; returns a sample, or
-        None where the numbers cannot be.
+        why the numbers cannot be; empty: no more is known.
     datagrams : bool
         The end of a datagram ends a line.
     """
@@ -88,6 +88,10 @@ class LineParser(Parser[Sample], Generic[Sample]):
         self._newest = -math.inf
         self._ordered = bool(layout.roles & {TIME, COUNT})
         self._last = b""
+        self._now = 0.0
+        self._reasons: dict[
+            str, tuple[int, float]
+        ] = {}  # why lines were dropped: how many, and when the last was
         self._frames = self._bad = self._skipped = self._duplicates = 0
 
     @property
@@ -116,8 +120,17 @@ class LineParser(Parser[Sample], Generic[Sample]):
         self._buffer.clear()
         self._mid_line = not self._datagrams
 
+    def troubles(self) -> dict[str, str]:
+        """As `Parser`: why lines were dropped of late."""
+        return {
+            why: f"Lines dropped: {count}, because {why}."
+            for why, (count, last) in self._reasons.items()
+            if self._now - last < _SHOWN_S
+        }
+
     def feed(self, data: bytes, time: float) -> list[Sample]:
         """As `Parser`."""
+        self._now = time
         self._buffer += data
         *lines, rest = bytes(self._buffer).split(b"\n")
         if self._datagrams:
@@ -155,24 +168,26 @@ class LineParser(Parser[Sample], Generic[Sample]):
             self._duplicates += 1
             return None
         texts = self._texts(line)
-        numbers = None if texts is None else self._numbers(texts)
-        if texts is None or numbers is None:
-            self._drop(line)
+        numbers = None if isinstance(texts, str) else self._numbers(texts)
+        if isinstance(texts, str) or numbers is None:
+            self._drop(line, texts if isinstance(texts, str) else "")
             return None
         status = Status.OK
-        if STATUS in texts and str(texts[STATUS]) != self._layout.ok:
+        if STATUS in texts and not _is_well(texts[STATUS], self._layout.ok):
             status = Status.ERROR | Status.INVALID
         sample = self._made(numbers, time, status, numbers.get(TIME))
-        if sample is None:
-            self._drop(line)
+        if isinstance(sample, str):
+            self._drop(line, sample)
             return None
         self._frames += 1
         self._last = line
         return self._in_order(sample, numbers)
 
-    def _drop(self, line: bytes) -> None:
+    def _drop(self, line: bytes, why: str = "") -> None:
         self._bad += 1
         self._skipped += len(line)
+        if why:
+            self._reasons[why] = self._reasons.get(why, (0, 0.0))[0] + 1, self._now
 
     def _in_order(self, sample: Sample, numbers: Numbers) -> Sample | None:
         """Return a sample with its count; None where a later datagram has overtaken it."""
@@ -188,32 +203,44 @@ class LineParser(Parser[Sample], Generic[Sample]):
             self._newest = numbers[TIME]
         return sample
 
-    def _texts(self, line: bytes) -> dict[str, Any] | None:
-        """Return what stands in each field; None: it is not such a line."""
+    def _texts(self, line: bytes) -> dict[str, Any] | str:
+        """Return what stands in each field, or why it is no such line; empty: no more is known."""
         try:
-            text = line.decode("ascii" if not self._layout.is_json else "utf-8").strip()
+            text = line.decode("ascii" if not self._layout.is_json else "utf-8")
         except UnicodeDecodeError:
-            return None
+            return ""
         if len(text) > _LONGEST_LINE:
-            return None
-        return self._looked_up(text) if self._layout.is_json else self._columns(text)
+            return ""
+        # A tab at an end separates an empty column.
+        return self._looked_up(text) if self._layout.is_json else self._columns(text.strip(" \r"))
 
-    def _columns(self, text: str) -> dict[str, Any] | None:
+    def _columns(self, text: str) -> dict[str, Any] | str:
         separator, fields = self._layout.separator, self._layout.fields
-        parts = _BETWEEN.split(text) if separator is None else text.split(separator)
+        if separator is None:
+            used = [each for each in _SEPARATORS if each in text]
+            if len(used) > 1:
+                return (
+                    "they have more than one of comma, semicolon and tab: send decimal points, or name the"
+                    " separator, as in separator=semicolon"
+                )
+            separator = used[0] if used else None  # None: runs of blanks
+        parts = [part.strip() for part in text.split(separator)]
         if fields[-1][0] == REST:
             fields = fields[:-1]
             parts = parts[: len(fields)]
+        elif len(parts) == len(fields) + 1 and not parts[-1]:
+            parts.pop()  # the separator at the end of a line
         if len(parts) != len(fields):
-            return None
-        return {role: part.strip() for (role, _), part in zip(fields, parts, strict=True) if role != IGNORED}
+            return ""
+        found = {role: part for (role, _), part in zip(fields, parts, strict=True) if role != IGNORED}
+        return found if all(found.values()) else ""
 
-    def _looked_up(self, text: str) -> dict[str, Any] | None:
+    def _looked_up(self, text: str) -> dict[str, Any] | str:
         try:
             root = json.loads(text)
             return {role: _at(root, path) for role, path in self._layout.fields}
         except (ValueError, LookupError, TypeError, RecursionError):
-            return None
+            return ""
 
     def _numbers(self, texts: Mapping[str, Any]) -> dict[str, float] | None:
         found = {}
@@ -246,6 +273,13 @@ def _number(value: Any) -> float:
         return float(value)
     except (ValueError, OverflowError):
         return math.nan
+
+
+def _is_well(status: Any, ok: str) -> bool:
+    """Tell whether a status is the declared one; numbers by their value, and JSON's true is ``true`` and 1."""
+    if isinstance(status, bool):
+        return ok.lower() == str(status).lower() or _number(ok) == status
+    return str(status) == ok or _number(status) == _number(ok)
 
 
 class LineWrenches(LineParser[WrenchSample], SensorParser):
@@ -411,12 +445,14 @@ class LineDriver(Driver):
         if not layout.gives_wrenches:
             raise AddressError(f"address {str(address)!r}: fields: give fx,fy,fz,mx,my,mz of a sensor.")
         start, stop = _talk(address)
+        parser = LineWrenches(layout, datagrams=address.carrier is Carrier.UDP)
         return SensorDriver(
-            LineWrenches(layout, datagrams=address.carrier is Carrier.UDP),
+            parser,
             tuple(Command(data) for data in (start,) if data),
             tuple(Command(data) for data in (stop,) if data),
             address.rate or ASSUMED_RATE_HZ,
             rate_known=address.rate is not None,
+            troubles=parser.troubles,
         )
 
     def poses(

@@ -74,7 +74,9 @@ def _unit(units: dict[str, float], what: str) -> Callable[[str], str]:
 
     def read(text: str) -> str:
         if _factor(units, text) is None:
-            raise ValueError(f"give a unit ({', '.join(units)}) or how many {what} one is")
+            raise ValueError(
+                f"give a unit ({', '.join(units)}) or how many {what} one is, such as -1 to change the sign"
+            )
         return text
 
     return read
@@ -157,6 +159,8 @@ def with_file(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _read_file(where: str) -> dict[str, Any]:
+    if not Path(where).is_file():  # a pipe would wait for its writer
+        raise ValueError(f"layout {where!r}: there is no such file: give a TOML or JSON file")
     try:
         with Path(where).open("rb") as file:
             data = file.read(_LARGEST_FILE + 1)
@@ -196,7 +200,7 @@ class Layout:
 
     fields: Fields
     is_json: bool
-    separator: str | None  # None: commas, semicolons and white space
+    separator: str | None  # None: whichever of commas, semicolons and tabs a line has, else blanks
     factors: Mapping[str, float]  # from the number in the line to SI, by role
     bits: int
     ok: str
@@ -252,6 +256,11 @@ class Layout:
     def gives_poses(self) -> bool:
         """Whether a line tells an orientation, or the joints of a robot."""
         return any(self.roles.issuperset(each) for each in (QUATERNION, TURN)) or bool(self.joints)
+
+    @property
+    def angle_declared(self) -> bool:
+        """Whether angles have another unit than radians, which may be a mistake where none was declared."""
+        return abs(self.factors[TURN[0]]) != 1
 
     @property
     def joints(self) -> tuple[str, ...]:

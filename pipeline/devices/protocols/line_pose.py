@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _FARTHEST_M = 1e3
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
+_TURN = 2 * math.pi + 0.01  # no controller tells more than a turn, but it rounds
+_BEYOND = 0.02  # an arm that stands at a limit tells a bit more than that, rad
 
 
 def pose_maker(layout: Layout) -> Made[FlangeSample]:
@@ -34,33 +36,47 @@ def pose_maker(layout: Layout) -> Made[FlangeSample]:
     """
     turned = _by_joints(layout) if layout.joints else _by_rotation(layout)
 
-    def made(numbers: Numbers, time: float, status: Status, device_time: float | None) -> FlangeSample | None:
+    def made(numbers: Numbers, time: float, status: Status, device_time: float | None) -> FlangeSample | str:
         pose = turned(numbers)
-        if pose is None or status is not Status.OK:
-            return None
+        if isinstance(pose, str):
+            return pose
+        if status is not Status.OK:
+            return ""
         R_BE, p_BE_B, joints = pose
         return FlangeSample(time, R_BE, p_BE_B, joints, device_time)
 
     return made
 
 
-def _by_rotation(layout: Layout) -> Callable[[Numbers], Turned | None]:
+def _unit_doubt(layout: Layout) -> str:
+    return (
+        "check angle= in the address"
+        if layout.angle_declared
+        else "if they are degrees, add angle=deg to the address"
+    )
+
+
+def _by_rotation(layout: Layout) -> Callable[[Numbers], Turned | str]:
     import numpy as np
     from scipy.spatial.transform import Rotation  # a third of a second to import
 
     positioned = layout.roles.issuperset(POSITION)
+    too_far = f"their angles are more than one turn in radians: {_unit_doubt(layout)}"
 
-    def turned(numbers: Numbers) -> Turned | None:
+    def turned(numbers: Numbers) -> Turned | str:
         position = np.array([numbers[role] if positioned else math.nan for role in POSITION])
         if (np.abs(position) > _FARTHEST_M).any():
-            return None
+            return ""
         if layout.rotation is None:
             w, x, y, z = (numbers[role] for role in QUATERNION)
             if not abs(math.sqrt(w * w + x * x + y * y + z * z) - 1) <= _UNIT:
-                return None
+                return ""
             rotation = Rotation.from_quat([x, y, z, w])
         else:
             turn = [numbers[role] for role in TURN]
+            largest = math.hypot(*turn) if layout.rotation == "vector" else max(map(abs, turn))
+            if largest > _TURN:
+                return too_far
             # Lower case: about the fixed axes, one after the other.
             rotation = (
                 Rotation.from_rotvec(turn)
@@ -72,7 +88,7 @@ def _by_rotation(layout: Layout) -> Callable[[Numbers], Turned | None]:
     return turned
 
 
-def _by_joints(layout: Layout) -> Callable[[Numbers], Turned | None]:
+def _by_joints(layout: Layout) -> Callable[[Numbers], Turned | str]:
     import numpy as np
 
     from contactbench.pipeline.robot import Robot
@@ -85,11 +101,15 @@ def _by_joints(layout: Layout) -> Callable[[Numbers], Turned | None]:
         )
     robot.flange_pose(np.zeros(len(robot.lower)))  # says at once where MuJoCo is missing
 
-    def turned(numbers: Numbers) -> Turned | None:
+    beyond = f"their joints are beyond the limits of {robot.description.name}: {_unit_doubt(layout)}"
+
+    def turned(numbers: Numbers) -> Turned | str:
         joints = np.array([numbers[role] for role in layout.joints])
+        if (joints < robot.lower - _BEYOND).any() or (joints > robot.upper + _BEYOND).any():
+            return beyond
         try:
             return *robot.flange_pose(joints), joints
         except InputError:
-            return None
+            return ""
 
     return turned

@@ -81,6 +81,10 @@ class Parser(ABC, Generic[Sample]):
     def reset(self) -> None:
         """Forget half a frame, after the line was lost. Counters and numbering go on."""
 
+    def troubles(self) -> dict[str, str]:
+        """Return what the parser knows to be wrong now, by kind."""
+        return {}
+
 
 class SensorParser(Parser["WrenchSample"]):
     """Turns the bytes of one sensor into wrenches."""

@@ -46,5 +46,9 @@ TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
 
 def unit_factor(units: dict[str, float], text: str) -> float | None:
-    """Return a unit in SI, however it is spelt (``N-m``, ``Nm``, ``N·m``); None: it is none of these."""
-    return units.get(re.sub(r"[ .·-]", "", text).lower())
+    """
+    Return a unit in SI, however it is spelt (``N-m``, ``Nm``, ``N·m``); None: it is none of these.
+
+    A hyphen counts only between letters: one at an end may be meant as a sign, which no unit has.
+    """
+    return units.get(re.sub(r"(?<=[a-z])-(?=[a-z])", "", re.sub(r"[ .·]", "", text.lower())))

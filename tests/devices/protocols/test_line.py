@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import socket
 import threading
 from itertools import pairwise
@@ -16,7 +17,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.emulate import Fault, Script, emulator, sine
-from contactbench.pipeline.devices.protocols.line import LineWrenches
+from contactbench.pipeline.devices.protocols.line import LineParser, LineWrenches
 from contactbench.pipeline.devices.protocols.line_layout import OPTIONS, Layout, unescaped, with_file
 from contactbench.pipeline.devices.protocols.line_pose import pose_maker
 from contactbench.pipeline.devices.protocols.registry import driver_for
@@ -79,7 +80,10 @@ def test_a_number_of_newtons_may_stand_for_a_unit():
 @pytest.mark.parametrize(
     ("separator", "line"),
     [
-        ("auto", b" 1, -2;3.5\t0.1  -0.2,0.05\r\n"),
+        ("auto", b" 1, -2 ,3.5,  0.1,-0.2,0.05\r\n"),
+        ("auto", b" 1  -2 3.5   0.1 -0.2 0.05 \r\n"),
+        ("auto", b"1; -2 ;3.5;0.1;-0.2;0.05;\r\n"),
+        ("auto", b"1\t-2\t 3.5\t0.1\t-0.2\t0.05\t\n"),
         ("comma", b"1, -2 ,3.5,0.1,-0.2,0.05\r\n"),
         ("semicolon", b"1;-2;3.5;0.1;-0.2;0.05\n"),
         ("tab", b"1\t-2\t3.5\t0.1\t-0.2\t0.05\n"),
@@ -91,9 +95,51 @@ def test_separators(separator: str, line: bytes):
     assert sample.force + sample.torque == (1.0, -2.0, 3.5, 0.1, -0.2, 0.05)
 
 
-def test_a_status_that_is_not_well_is_no_measurement():
-    samples, _ = read(b"1,2,3,4,5,6,OK\n1,2,3,4,5,6,E7\n", fields=f"{WRENCH},status", ok="OK")
+@pytest.mark.parametrize(
+    ("ok", "well", "ill"),
+    [("OK", b"OK", b"E7"), ("0", b"0.0", b"1"), ("0", b"00", b"nan"), ("0x10", b"0x10", b"16")],
+)
+def test_a_status_that_is_not_well_is_no_measurement(ok: str, well: bytes, ill: bytes):
+    lines = b"1,2,3,4,5,6,%b\n1,2,3,4,5,6,%b\n" % (well, ill)
+    samples, _ = read(lines, fields=f"{WRENCH},status", ok=ok)
     assert [each.status for each in samples] == [Status.OK, Status.ERROR | Status.INVALID]
+
+
+@pytest.mark.parametrize(
+    ("ok", "well", "ill"),
+    [("true", "true", "false"), ("False", "false", "true"), ("1", "true", "0"), ("0", "false", "null")],
+)
+def test_a_status_of_json_may_be_true_or_false(ok: str, well: str, ill: str):
+    fields = ",".join(f"{role}:f.{place}" for place, role in enumerate(WRENCH.split(","))) + ",status:s"
+    lines = "".join(f'{{"f": [1, 2, 3, 4, 5, 6], "s": {each}}}\n' for each in (well, ill))
+    samples, _ = read(lines.encode(), fields=fields, ok=ok)
+    assert [each.status for each in samples] == [Status.OK, Status.ERROR | Status.INVALID]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"1,,2,3,4,5,6", b",1,2,3,4,5,6", b"1\t\t2\t3\t4\t5\t6", b"\t1\t2\t3\t4\t5\t6", b"1,2,3,4,5,6,,7"],
+)
+def test_an_empty_column_drops_the_line_and_shifts_nothing(line: bytes):
+    samples, counters = read(line + b"\n7,7,7,7,7,7,7,x\n", fields=f"t,{WRENCH},*")
+    assert [each.force for each in samples] == [(7, 7, 7)]
+    assert counters.bad_checksums == 1
+
+
+@pytest.mark.parametrize("line", [b"1,5;1,02;2,03", b"1,5\t1,02\t2,03", b"1;2;3\t4;5;6"])
+def test_a_line_with_two_separators_is_dropped_and_the_remedy_told(line: bytes):
+    parser = LineWrenches(layout(fields=WRENCH), datagrams=True)
+    assert parser.feed(line, 5.0) == []
+    (what,) = parser.troubles().values()
+    assert what.startswith("Lines dropped: 1, because they have more than one of comma, semicolon and tab")
+    assert "separator=semicolon" in what
+    assert len(parser.feed(b"1,2,3,4,5,6", 8.0)) == 1
+    assert parser.troubles() == {}
+
+
+def test_decimal_commas_between_blanks_are_no_columns():
+    samples, counters = read(b"1,5 1,02 2,03\n", fields=WRENCH)
+    assert (samples, counters.bad_checksums) == ([], 1)
 
 
 @pytest.mark.parametrize(
@@ -232,17 +278,17 @@ def test_poses_in_any_way(rotation: str | None):
         vector = turned.as_rotvec() if rotation == "vector" else [0.3, -0.4, 1.1]
         numbers = dict(zip(("rx", "ry", "rz"), vector, strict=True))
     sample = made({"x": 0.1, "y": 0.2, "z": 0.3, **numbers}, 5.0, Status.OK, None)
-    assert sample is not None
+    assert not isinstance(sample, str)
     assert pytest.approx(turned.as_matrix()) == sample.R_BE
     assert sample.p_BE_B == pytest.approx([0.1, 0.2, 0.3])
-    assert made({"x": 1e6, "y": 0.2, "z": 0.3, **numbers}, 5.0, Status.OK, None) is None
+    assert made({"x": 1e6, "y": 0.2, "z": 0.3, **numbers}, 5.0, Status.OK, None) == ""
 
 
 def test_a_quaternion_of_another_length_is_dropped():
     made = pose_maker(layout(fields="qw,qx,qy,qz"))
-    assert made({"qw": 1.0, "qx": 1.0, "qy": 0.0, "qz": 0.0}, 0.0, Status.OK, None) is None
+    assert made({"qw": 1.0, "qx": 1.0, "qy": 0.0, "qz": 0.0}, 0.0, Status.OK, None) == ""
     sample = made({"qw": 1.0, "qx": 0.0, "qy": 0.0, "qz": 0.0}, 0.0, Status.OK, None)
-    assert sample is not None
+    assert not isinstance(sample, str)
     assert np.isnan(sample.p_BE_B).all()
 
 
@@ -272,6 +318,34 @@ def test_a_robot_of_lines_tells_the_flange_of_its_joints(carrier: str, options: 
         assert enough.wait(WAIT_S)
     assert pytest.approx(R_BE, abs=1e-6) == heard[0].R_BE
     assert heard[0].p_BE_B == pytest.approx(p_BE_B, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("options", "good", "bad"),
+    [
+        ({"fields": "rx,ry,rz", "rotation": "rpy"}, (3.0, -6.28, 0.1), (30.0, 0.1, 0.2)),
+        ({"fields": "rx,ry,rz", "rotation": "vector"}, (3.0, -3.0, 0.1), (5.0, 5.0, 0.2)),
+        ({"fields": "q1,q2,q3,q4,q5,q6", "robot": "elfin3"}, (0.3,) * 6, (0.3, 30.0, 0.3, 0.3, 0.3, 0.3)),
+    ],
+)
+def test_degrees_that_were_not_declared_are_dropped_and_asked_for(options, good, bad):
+    declared = layout(**options)
+    parser = LineParser(declared, pose_maker(declared), datagrams=True)
+    assert len(parser.feed(",".join(map(str, good)).encode(), 1.0)) == 1
+    assert parser.troubles() == {}
+    assert parser.feed(",".join(map(str, bad)).encode(), 1.0) == []
+    assert parser.counters.bad_checksums == 1
+    (what,) = parser.troubles().values()
+    assert what.endswith("if they are degrees, add angle=deg to the address.")
+    in_degrees = layout(**options, angle="deg")
+    assert (
+        len(
+            LineParser(in_degrees, pose_maker(in_degrees), datagrams=True).feed(
+                ",".join(map(str, bad)).encode(), 1.0
+            )
+        )
+        == 1
+    )
 
 
 def test_joints_need_as_many_as_the_robot_has():
@@ -358,6 +432,9 @@ def test_a_device_that_sends_by_itself_is_listened_to():
         ({"fields": "rx,ry,rz,q1", "rotation": "rpy", "robot": "elfin3"}, "give one of a quaternion"),
         ({"fields": WRENCH, "force": "stone"}, "give a unit"),
         ({"fields": WRENCH, "force": "0"}, "give a unit"),
+        ({"fields": WRENCH, "force": "-N"}, "such as -1 to change the sign"),
+        ({"fields": WRENCH, "torque": "Nm-"}, "such as -1 to change the sign"),
+        ({"fields": "rx,ry,rz", "rotation": "rpy", "angle": "-deg"}, "such as -1 to change the sign"),
         ({"fields": WRENCH, "flip": "t"}, "give some of"),
         ({"fields": WRENCH, "separator": "bar"}, "choose one of"),
         ({"fields": WRENCH, "bits": "0"}, "from 1 to 53"),
@@ -389,6 +466,18 @@ def test_a_layout_may_stand_in_a_file_that_the_address_overrules(tmp_path, name:
     assert DeviceAddress.parse(str(address)) == address
     assert address.gives_wrenches
     assert not address.gives_poses
+
+
+def test_a_pipe_is_no_layout(tmp_path):
+    os.mkfifo(tmp_path / "a.toml")
+    with pytest.raises(AddressError, match="there is no such file"):
+        DeviceAddress.parse(f"line+tcp://h?layout={tmp_path}/a.toml")
+
+
+def test_a_plus_in_an_option_is_a_plus():
+    address = DeviceAddress.parse(f"line+tcp://h?fields={WRENCH}&start=AT+GO%20NOW\\r\\n&ok=A%2B")
+    assert (address.options["start"], address.options["ok"]) == ("AT+GO NOW\\r\\n", "A+")
+    assert DeviceAddress.parse(str(address)) == address
 
 
 @pytest.mark.parametrize(

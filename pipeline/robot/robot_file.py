@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,10 @@ _MARGIN_M = 0.05  # more than what a clearance keeps free
 _TURNS = 2 * np.pi  # to either side, of a joint without an end
 _SPEED, _TORQUE = 1.0, 100.0  # rad/s, N·m, where the file tells none
 _LEAST_MASS = 1e-3
+_LONGEST_M = 100.0  # from one frame to the next; beyond, its unit is another one
+_MOST_TURNED = 4 * np.pi  # rad, of a limit
+_NAMES = ("name", "link", "class", "childclass")  # attributes that may read like a number and are none
+_MULTIPLIED = ("replicate", "composite")  # one element makes any number of bodies
 # What neither kinematics nor limits need, and what would make MuJoCo look for other files.
 _NEEDLESS = {
     "urdf": ("visual", "collision", "transmission", "gazebo", "ros2_control", "mujoco"),
@@ -68,6 +73,8 @@ def read_robot(name: str) -> RobotDescription:
         about = path.stat()
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}: give a URDF or MJCF file.") from error
+    if not path.is_file():  # a pipe would wait for its writer
+        raise InputError(f"{path}: it is no file: give a URDF or MJCF file.")
     return _read(path, flange, about.st_mtime_ns, about.st_size)
 
 
@@ -88,7 +95,7 @@ def _read(path: Path, flange: str, changed: int, size: int) -> RobotDescription:
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}: check the file.") from error
     root = _parsed(path, data)
-    speeds = _speeds(root)
+    told = _Told.of(root)
     mujoco = import_mujoco()
     try:
         model: Any = mujoco.MjModel.from_xml_string(_bare(path, root))
@@ -96,15 +103,19 @@ def _read(path: Path, flange: str, changed: int, size: int) -> RobotDescription:
         raise InputError(f"{path}: it is no robot that MuJoCo can read ({str(error).strip()}).") from error
     if model.nbody > _MOST_BODIES:
         raise InputError(f"{path}: it has {model.nbody} bodies: give the file of one arm alone.")
-    return _Arm(mujoco, model, path).description(flange, speeds)
+    return _Arm(mujoco, model, path, told).description(flange)
 
 
 def _parsed(path: Path, data: bytes) -> ET.Element:
+    text = data.decode("utf-8-sig", errors="replace")
+    # Zeros: UTF-16 without a mark, which a parser of XML reads all the same.
+    if "\ufffd" in text or "\0" in text:
+        raise InputError(f"{path}: it is not UTF-8 text: save it as UTF-8.")
     # Without a document type there are no entities, so nothing is expanded and nothing fetched.
-    if b"<!DOCTYPE" in data.upper() or b"<!ENTITY" in data.upper():
+    if "<!DOCTYPE" in text.upper() or "<!ENTITY" in text.upper():
         raise InputError(f"{path}: it has a document type, which no robot's description needs: remove it.")
     try:
-        root = ET.fromstring(data)  # noqa: S314 - without a document type there is nothing to expand
+        root = ET.fromstring(text)  # noqa: S314 - without a document type there is nothing to expand
     except (ET.ParseError, LookupError, ValueError) as error:
         raise InputError(f"{path}: it is not XML ({error}): give a URDF or MJCF file.") from error
     if root.tag not in ("robot", "mujoco"):
@@ -113,13 +124,35 @@ def _parsed(path: Path, data: bytes) -> ET.Element:
         )
     if root.tag == "mujoco" and root.find(".//include") is not None:
         raise InputError(f"{path}: it includes other files: give the file that has the arm itself.")
+    if root.tag == "mujoco" and any(root.find(f".//{each}") is not None for each in _MULTIPLIED):
+        raise InputError(
+            f"{path}: it multiplies bodies (<{'>, <'.join(_MULTIPLIED)}>): give the file of one arm alone."
+        )
     return root
+
+
+def _refuse_infinite(path: Path, root: ET.Element) -> None:
+    for element in root.iter():
+        for key, value in element.attrib.items():
+            if key not in _NAMES and not all(map(_finite, value.split())):
+                raise InputError(
+                    f"{path}: <{element.tag}> has {key}={value[:40]!r}: every number must be finite. Correct it."
+                )
+
+
+def _finite(word: str) -> bool:
+    """Tell whether a word is a finite number, or none at all, which is for MuJoCo to judge."""
+    try:
+        return bool(np.isfinite(float(word)))
+    except ValueError:
+        return True
 
 
 def _bare(path: Path, root: ET.Element) -> str:
     """Return the file's kinematics alone, as XML: no meshes, so that their files need not be there."""
     needless = _NEEDLESS["urdf" if root.tag == "robot" else "mjcf"]
     _remove(root, needless)
+    _refuse_infinite(path, root)
     limits = {"boundmass": "0.001", "boundinertia": "1e-6", "balanceinertia": "true"}
     if root.tag == "robot":
         extension = ET.SubElement(root, "mujoco")
@@ -145,50 +178,88 @@ def _remove(element: ET.Element, tags: tuple[str, ...]) -> None:
             _remove(child, tags)
 
 
-def _speeds(root: ET.Element) -> dict[str, float]:
-    """Return the largest speeds that a URDF tells, rad/s, by joint: MuJoCo has none."""
-    found = {}
-    for joint in root.iter("joint"):
-        limit = joint.find("limit")
-        try:
-            speed = float((limit.get("velocity") if limit is not None else None) or 0.0)
-        except ValueError:
-            speed = 0.0
-        if 0 < speed < np.inf:
-            found[joint.get("name") or ""] = speed
-    return found
+@dataclass(frozen=True)
+class _Told:
+    """What a file tells and MuJoCo does not keep."""
+
+    speeds: dict[str, float]  # the largest ones that a URDF tells, by joint, rad/s
+    limits: dict[
+        str, tuple[float, float]
+    ]  # of a URDF's revolute joints, rad: MuJoCo has no end where they are wrong
+    coupled: frozenset[str]  # joints that others move
+    bound: frozenset[str]  # bodies that are held by others
+
+    @classmethod
+    def of(cls, root: ET.Element) -> "_Told":
+        speeds, limits = {}, {}
+        for joint in root.iter("joint"):
+            limit, name = joint.find("limit"), joint.get("name") or ""
+            if limit is None:
+                continue
+            speed = _float(limit.get("velocity"))
+            if 0 < speed < np.inf:
+                speeds[name] = speed
+            if joint.get("type") == "revolute":
+                limits[name] = _float(limit.get("lower")), _float(limit.get("upper"))
+        held = [
+            each
+            for group in root.findall("equality")
+            for each in group
+            if each.get("active") not in ("false", "0")
+        ]
+        mimics = {
+            joint.get("name") or "" for joint in root.findall("joint") if joint.find("mimic") is not None
+        }
+        return cls(
+            speeds,
+            limits,
+            frozenset(mimics | {each.get("joint1", "") for each in held if each.tag == "joint"}),
+            frozenset(each.get(key, "") for each in held for key in ("body1", "body2")) - {"", "world"},
+        )
 
 
-def _only_named(usual: str, names: Iterable[str]) -> str | None:
-    """Return the only one of that name, which may follow the arm's own; None: there is none, or several are."""
-    found = [name for name in names if name == usual or name.endswith(f"_{usual}")]
-    return found[0] if len(found) == 1 else None
+def _float(text: str | None) -> float:
+    try:
+        return float(text or 0.0)
+    except ValueError:
+        return 0.0
+
+
+def _named(usual: str, names: Iterable[str]) -> list[str]:
+    """Return those of that name, which may follow the arm's own."""
+    return [name for name in names if name == usual or name.endswith(f"_{usual}")]
 
 
 class _Arm:
     """A model, looked at as one chain."""
 
-    def __init__(self, mujoco: Any, model: Any, path: Path) -> None:
-        self._model, self._path = model, path
+    def __init__(self, mujoco: Any, model: Any, path: Path, told: _Told) -> None:
+        self._model, self._path, self._told = model, path, told
         self._hinge, self._slide = int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)
         data = mujoco.MjData(model)
         hinges = [int(model.jnt_qposadr[j]) for j in range(model.njnt) if model.jnt_type[j] == self._hinge]
         data.qpos[hinges] = 0.0
+        for what in (model.body_pos, model.jnt_pos, model.site_pos):
+            if not (np.abs(what) <= _LONGEST_M).all():
+                raise InputError(
+                    f"{path}: a frame is more than {_LONGEST_M:g} m from the one before it: give positions in m."
+                )
         mujoco.mj_kinematics(model, data)
         self._data = data
 
-    def description(self, flange: str, speeds: dict[str, float]) -> RobotDescription:
+    def description(self, flange: str) -> RobotDescription:
         """Return the arm from the world to its flange."""
         chain_of = {name: self._chain(body) for name, body, _, _ in self._frames()}
         name = self._flange(flange, chain_of)
         chain = chain_of[name]
+        self._refuse_coupled(chain)
         _, _, p_BE, R_BE = next(frame for frame in self._frames() if frame[0] == name)
         joints, p, R = [], np.zeros(3), np.eye(3)
         for number, joint in enumerate(chain):
             axis, anchor = self._data.xaxis[joint], self._data.xanchor[joint]
             R_next = _along(axis)
             mass = self._mass(joint, chain[number + 1] if number + 1 < len(chain) else None)
-            joints.append(self._joint(joint, R.T @ (anchor - p), R.T @ R_next, mass, speeds))
+            joints.append(self._joint(joint, R.T @ (anchor - p), R.T @ R_next, mass))
             p, R = anchor.copy(), R_next
         origins = [self._data.xanchor[joint].copy() for joint in chain]
         frames = [np.eye(3), *(_along(self._data.xaxis[joint]) for joint in chain)]
@@ -240,21 +311,45 @@ class _Arm:
                 f"{self._path}: it has no frame {wanted!r}. Possible: {', '.join(sorted(arms))}."
             )
         if wanted and wanted not in arms:
-            raise InputError(
-                f"{self._path}: between the base and {wanted} there are no joints, or joints that do not turn:"
-                " give an arm of hinges."
-            )
+            raise self._no_hinges(wanted)
+        if wanted:
+            return wanted
         if not arms:
             raise InputError(f"{self._path}: it has no joint that turns: give the file of an arm.")
-        usual = next(filter(None, (_only_named(each, arms) for each in FLANGES)), None)
+        for usual in FLANGES:
+            named, usable = _named(usual, chain_of), _named(usual, arms)
+            if named and (not usable or (usual in named and usual not in usable)):
+                raise self._no_hinges(named[0] if not usable else usual)
+            if len(usable) == 1:
+                return usable[0]
         most = max(map(len, arms.values()))
         last = [name for name, chain in arms.items() if len(chain) == most]
-        if wanted or usual or len(last) == 1:
-            return wanted or usual or last[0]
+        end = arms[last[0]]
+        if len(last) == 1 and not any(chain[:most] == end != chain for chain in chain_of.values()):
+            return last[0]
         raise InputError(
             f"{self._path}: several frames may be the flange. Name it: {self._path.name}@FRAME, with one of"
             f" {', '.join(sorted(last))}."
         )
+
+    def _no_hinges(self, flange: str) -> InputError:
+        return InputError(
+            f"{self._path}: between the base and {flange} there are no joints, or joints that do not turn:"
+            " give an arm of hinges, or name another frame as its flange."
+        )
+
+    def _refuse_coupled(self, chain: tuple[int, ...]) -> None:
+        names = [self._model.joint(joint).name for joint in chain]
+        bodies = {self._model.body(int(self._model.jnt_bodyid[joint])).name for joint in chain}
+        for kind, found in (
+            ("joint", [name for name in names if name in self._told.coupled]),
+            ("body", sorted(bodies & self._told.bound)),
+        ):
+            if found:
+                raise InputError(
+                    f"{self._path}: {kind} {found[0]} is coupled to another one (<mimic> or <equality>): give an"
+                    " arm whose joints move by themselves."
+                )
 
     def _joint(
         self,
@@ -262,13 +357,24 @@ class _Arm:
         position: NDArray[np.float64],
         rotation: NDArray[np.float64],
         mass: float,
-        speeds: dict[str, float],
     ) -> Joint:
         model = self._model
         name = model.joint(joint).name or f"joint {joint + 1}"
         low, high = (float(end) for end in model.jnt_range[joint])
-        if not model.jnt_limited[joint]:
+        if name in self._told.limits:
+            low, high = self._told.limits[name]
+        elif not model.jnt_limited[joint]:
             low, high = -_TURNS, _TURNS
+        if not low < high:
+            raise InputError(
+                f"{self._path}: joint {name}: its limits are {low:g} to {high:g}: give a lower limit below the upper"
+                ' one, or type="continuous" to a joint without an end.'
+            )
+        if max(abs(low), abs(high)) > _MOST_TURNED:
+            raise InputError(
+                f"{self._path}: joint {name}: its limits are {low:g} to {high:g} rad, more than two turns: if they are"
+                ' degrees, give them in radians; a joint without an end has type="continuous".'
+            )
         torque = float(max(abs(model.jnt_actfrcrange[joint]))) if model.jnt_actfrclimited[joint] else 0.0
         return Joint(
             name,
@@ -276,7 +382,7 @@ class _Arm:
             _angles(rotation),
             low,
             high,
-            speeds.get(name, _SPEED),
+            self._told.speeds.get(name, _SPEED),
             torque or _TORQUE,
             mass,
         )

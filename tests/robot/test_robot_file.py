@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -129,6 +131,103 @@ def test_a_frame_may_be_named(file):
         Robot.named(f"{path}@finger")
 
 
+def test_a_joint_that_does_not_turn_makes_no_earlier_link_the_flange(file):
+    slide = '<joint name="mount" type="fixed"><parent link="flange"/>'
+    assert slide in URDF
+    for kind in ("prismatic", "planar"):
+        moved = URDF.replace(slide, slide.replace("fixed", kind))
+        with pytest.raises(
+            InputError, match=r"between the base and tool0 there are .* joints that do not turn"
+        ):
+            Robot.named(file(moved, f"{kind}.urdf"))
+        assert len(Robot.named(file(moved, f"{kind}.urdf") + "@flange").lower) == 6
+    nameless = MJCF.replace(
+        '<site name="attachment_site" pos="0 0 0.1" euler="0 30 0"/>',
+        '<body name="z"><joint type="slide"/></body>',
+    )
+    with pytest.raises(InputError, match="Name it"):
+        Robot.named(file(nameless, "slide.xml"))
+
+
+LIMITS = 'lower="-2.5" upper="2"'
+
+
+@pytest.mark.parametrize(
+    ("limits", "part"),
+    [
+        ('lower="2" upper="-2"', "joint pan: its limits are 2 to -2"),
+        ('lower="1" upper="1"', "joint pan: its limits are 1 to 1"),
+        ("", "joint pan: its limits are 0 to 0"),
+        ('lower="-180" upper="180"', "joint pan: .* if they are degrees, give them in radians"),
+        ('lower="nan" upper="2"', "<limit> has lower='nan': every number must be finite"),
+    ],
+)
+def test_limits_that_cannot_be_are_refused_with_the_joint_s_name(file, limits, part):
+    with pytest.raises(InputError, match=part):
+        Robot.named(file(URDF.replace(LIMITS, limits, 1)))
+
+
+def test_limits_in_degrees_of_an_mjcf_in_radians_are_refused(file):
+    with pytest.raises(InputError, match=r"two\.xml: joint a: .* if they are degrees"):
+        Robot.named(file(MJCF.replace('angle="degree"', 'angle="radian"'), "two.xml"))
+
+
+@pytest.mark.parametrize(
+    "coupling",
+    [
+        '<joint joint1="b" joint2="a"/>',
+        '<joint joint1="b"/>',
+        '<connect body1="lower" body2="base" anchor="0 0 0"/>',
+    ],
+)
+def test_coupled_joints_of_the_arm_are_refused(file, coupling):
+    def coupled(inner):
+        return MJCF.replace("<actuator>", f"<equality>{inner}</equality><actuator>")
+
+    with pytest.raises(InputError, match=r"(joint b|body lower) is coupled to another one"):
+        Robot.named(file(coupled(coupling), "two.xml"))
+    assert Robot.named(file(coupled(coupling.replace("/>", ' active="false"/>')), "free.xml"))
+
+
+def test_a_mimicking_joint_is_refused_in_the_arm_and_not_in_its_gripper(file):
+    mimic = '<mimic joint="pan"/></joint>'
+    before, after = URDF.split('<joint name="elbow"')
+    with pytest.raises(InputError, match="joint elbow is coupled"):
+        Robot.named(file(before + '<joint name="elbow"' + after.replace("</joint>", mimic, 1)))
+    before, after = URDF.split('<joint name="grip"')
+    assert (
+        len(
+            Robot.named(
+                file(before + '<joint name="grip"' + after.replace("</joint>", mimic, 1), "g.urdf")
+            ).lower
+        )
+        == 6
+    )
+
+
+def test_numbers_are_finite_and_positions_in_metres(file):
+    with pytest.raises(InputError, match="<axis> has xyz='nan 0 1': every number must be finite"):
+        Robot.named(file(URDF.replace('<axis xyz="0 0 1"/>', '<axis xyz="nan 0 1"/>')))
+    with pytest.raises(InputError, match="more than 100 m"):
+        Robot.named(file(URDF.replace('xyz="0.4 0 0"', 'xyz="400 0 0"')))
+    with pytest.raises(InputError):
+        Robot.named(file(URDF.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>'), "zero.urdf"))
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-32"])
+def test_a_document_type_cannot_hide_in_an_encoding(tmp_path, encoding):
+    path = tmp_path / "a.urdf"
+    path.write_bytes('<!DOCTYPE r [<!ENTITY a "b">]><robot name="&a;"/>'.encode(encoding))
+    with pytest.raises(InputError, match="it is not UTF-8 text"):
+        Robot.named(str(path))
+
+
+def test_a_pipe_is_no_robot(tmp_path):
+    os.mkfifo(tmp_path / "a.urdf")
+    with pytest.raises(InputError, match="it is no file"):
+        Robot.named(str(tmp_path / "a.urdf"))
+
+
 def test_several_frames_at_the_end_are_not_guessed(file):
     nameless = URDF.replace("tool0", "probe").replace('"flange"', '"plate"')
     with pytest.raises(InputError, match=r"Name it: arm\.urdf@FRAME, with one of l6, plate, probe\."):
@@ -169,6 +268,11 @@ def test_poses_are_planned_for_an_arm_of_a_file(file):
         ("a.urdf", '<robot name="a"><link/></robot>', "a link has no name"),
         ("a.urdf", '<robot name="a"><joint name="j" type="revolute"/></robot>', "MuJoCo can read"),
         ("a.xml", '<mujoco><include file="b.xml"/></mujoco>', "includes other files"),
+        (
+            "many.xml",
+            '<mujoco><worldbody><replicate count="9999999"><body/></replicate></worldbody></mujoco>',
+            "multiplies bodies",
+        ),
         ("a.xml", "<mujoco><worldbody><body/></worldbody></mujoco>", "no joint that turns"),
         ("a.xacro", "<robot/>", "run xacro first"),
         ("deep.xml", f"<mujoco>{'<body>' * 20_000}{'</body>' * 20_000}</mujoco>", "MuJoCo can read"),

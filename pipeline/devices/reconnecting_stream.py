@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
 from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
-from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine
+from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine
 from contactbench.pipeline.devices.url import Carrier
 from contactbench.pipeline.errors import InputError
 
@@ -140,11 +140,14 @@ class ReconnectingStream(Stream[Sample]):
     def _findings(self, state: StreamState) -> dict[str, str]:
         if state is StreamState.LOST:
             return {self._why: self._why}
+        troubles = self._troubles()
+        if isinstance(self._line, UdpLine):
+            troubles = troubles | self._line.troubles()
         if state is StreamState.SILENT:
-            return {"silent": self._why} | self._watch.damage() | self._troubles()
+            return {"silent": self._why} | self._watch.damage() | troubles
         if state is StreamState.CONNECTING:
-            return self._troubles()
-        return self._watch.findings() | self._troubles() if state is StreamState.STREAMING else {}
+            return troubles
+        return self._watch.findings() | troubles if state is StreamState.STREAMING else {}
 
     def _run(self) -> None:
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import select
 import socket
@@ -23,6 +24,8 @@ _UNDER_WAY = (errno.EINPROGRESS, errno.EWOULDBLOCK, errno.EALREADY)
 _KEEPING = (("TCP_KEEPIDLE", 1), ("TCP_KEEPINTVL", 1), ("TCP_KEEPCNT", 3), ("TCP_USER_TIMEOUT", 3000))
 _WRITE_S = 1.0
 _TCP_READ = 65_536
+_FAITHFUL_S = 1.0  # so long silent, a sender that we listen to may be followed by another one
+_SHOWN_S = 2.0  # how long after its last datagram another sender is told
 _DATAGRAM = 65_535  # none can be larger, so none is cut
 _NOTHING = (TimeoutError, BlockingIOError)
 
@@ -167,7 +170,12 @@ class UdpLine(_SocketLine):
     port : int
     listen : int or None
         Port of this computer that the device sends to by itself, from any port of its own; None: it answers to where
-        it was asked from.
+        it was asked from. The first sender of that host is listened to until it is silent for a second.
+
+    Attributes
+    ----------
+    foreign : int
+        Datagrams of other senders, left out.
     """
 
     datagrams = True
@@ -177,6 +185,10 @@ class UdpLine(_SocketLine):
         self._listen = listen
         self._peer: Any = None
         self._turn = -1
+        self._sender: Any = None  # whom we listen to
+        self._other: Any = None  # who was left out last
+        self._heard_at = self._other_at = -math.inf
+        self.foreign = 0
 
     def open(self) -> None:
         """Bind a socket and point it at the device, each time at the next of its addresses; see `Line.open`."""
@@ -196,7 +208,20 @@ class UdpLine(_SocketLine):
         except OSError as error:
             opened.close()
             raise self._unavailable(error) from error
-        self._socket, self._peer = opened, where
+        self._socket, self._peer, self._sender = opened, where, None
+        self._heard_at = -math.inf
+
+    def troubles(self) -> dict[str, str]:
+        """Return whether another sender is left out now, by kind."""
+        if time.monotonic() - self._other_at >= _SHOWN_S or self._sender is None:
+            return {}
+        return {
+            "foreign": (
+                f"Datagrams left out: {self.foreign}, the last one from {self._other[0]}, port {self._other[1]}. Only"
+                f" port {self._sender[1]} of {self._sender[0]} is listened to: stop the other sender, or give"
+                " each a port of this computer."
+            )
+        }
 
     def write(self, data: bytes) -> None:
         """Send all of `data`; see `Line.write`."""
@@ -222,4 +247,10 @@ class UdpLine(_SocketLine):
             return None
         except OSError as error:
             raise self._lost(str(error)) from error
-        return data if sender[0] == self._peer[0] else None
+        now = time.monotonic()
+        if sender[0] != self._peer[0] or (sender != self._sender and now - self._heard_at < _FAITHFUL_S):
+            self.foreign += 1
+            self._other, self._other_at = sender, now
+            return None
+        self._sender, self._heard_at = sender, now
+        return data

@@ -177,6 +177,40 @@ def test_a_datagram_is_one_chunk():
     line.close()
 
 
+def test_only_the_first_sender_is_listened_to_until_it_is_silent(monkeypatch):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        where = free.getsockname()
+    now = [100.0]
+    monkeypatch.setattr("contactbench.pipeline.devices.transport.sockets.time.monotonic", lambda: now[0])
+    line = UdpLine("127.0.0.1", 5, where[1])
+    line.open()
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as first,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as second,
+    ):
+        first.sendto(b"1", where)
+        assert line.read(5.0).data == b"1"
+        second.sendto(b"2", where)
+        assert line.read(5.0).data == b""
+        assert line.foreign == 1
+        assert (
+            f"port {second.getsockname()[1]}. Only port {first.getsockname()[1]}"
+            in line.troubles()["foreign"]
+        )
+        now[0] += 0.9
+        first.sendto(b"1", where)
+        assert line.read(5.0).data == b"1"
+        now[0] += 1.1
+        second.sendto(b"2", where)
+        assert line.read(5.0).data == b"2"
+        assert line.troubles() == {}
+        line.open()
+        first.sendto(b"1", where)
+        assert line.read(5.0).data == b"1"
+    line.close()
+
+
 def test_an_address_leads_to_its_line():
     serial = line_to(DeviceAddress.parse("sri+serial:///dev/ttyUSB9?baud=9600&rate=10"))
     assert isinstance(serial, SerialLine)

@@ -198,7 +198,7 @@ def test_every_command_of_a_page_runs_on_the_sample_data(page, shell, followed, 
 )
 def test_the_python_of_a_page_runs_on_the_sample_data(page, followed, monkeypatch, capsys):
     monkeypatch.chdir(followed)
-    names: dict[str, object] = {}
+    names: dict[str, object] = {"__name__": "__main__"}
     for number, found in enumerate(SNIPPET.finditer(page.read_text("utf-8")), 1):
         exec(compile(found["text"], f"{page.name}, block {number}", "exec"), names)  # noqa: S102 - the project's own pages
     assert capsys.readouterr().out

@@ -108,6 +108,7 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
                 **facts,
                 "suspicions": suspicions,
                 "skipped": recorder.skipped,
+                "unusable": recorder.unusable,
             }
         )
 
@@ -288,6 +289,8 @@ def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool
             say(f"{device}: {health.failure}", "red")
     for _, what in recorder.suspicions:
         say(what, "yellow")
+    if recorder.unusable:
+        say(f"{recorder.unusable:,} of the sensor's samples are unusable: the device flagged them.", "yellow")
     if recorder.skipped:
         say(f"{recorder.skipped} batches contain a sample that cannot be recorded.", "yellow")
     say(f"Wrote {out}." if kept else "No sample arrived, so nothing was kept.", "" if kept else "red")

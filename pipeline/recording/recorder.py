@@ -67,6 +67,8 @@ class Recorder:
         a sample in its batch is missing.
     dropped : int
         Samples that are missing because the disk was too slow.
+    unusable : int
+        Wrenches that the sensor flagged as no measurements, or whose time is a guess.
     """
 
     def __init__(
@@ -93,7 +95,7 @@ class Recorder:
         self.failed = threading.Event()
         self.error: InputError | None = None
         self.suspicions: tuple[tuple[float, str], ...] = ()
-        self.skipped = self.dropped = 0
+        self.skipped = self.dropped = self.unusable = 0
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -217,6 +219,7 @@ class Recorder:
     def _wrenches(self, samples: Sequence[WrenchSample]) -> None:
         for sample in samples:
             self._writer.wrench(sample)
+            self.unusable += bool(sample.status & ~Status.LATE)
             # A status that flickers would fill the recording with events; every sample has its own anyway.
             if sample.status != self._status and sample.time - self._told >= _STATUS_EVERY_S:
                 change = {"before": int(self._status), "now": int(sample.status)}

@@ -347,7 +347,7 @@ class _Arm:
         ):
             if found:
                 raise InputError(
-                    f"{self._path}: {kind} {found[0]} is coupled to another one (<mimic> or <equality>): give an"
+                    f"{self._path}: {kind} {found[0]} is coupled to another one (mimic or equality): give an"
                     " arm whose joints move by themselves."
                 )
 

@@ -125,7 +125,7 @@ def installed(tmp_path, monkeypatch):
         registry.forget_plug_ins()
 
     yield install
-    for name in ("tiny_driver", "liars", "broken", "leaves"):
+    for name in ("tiny_driver", "loud_driver", "liars", "broken", "leaves"):
         sys.modules.pop(name, None)
     monkeypatch.undo()
     registry.forget_plug_ins()
@@ -174,6 +174,13 @@ def test_a_plug_in_is_emulated_by_the_command_with_faults():
     ended = CliRunner().invoke(app, words)
     assert ended.exit_code == 0
     assert json.loads(ended.stdout)["url"].startswith("tiny+tcp://127.0.0.1:")
+
+
+def test_what_a_plug_in_prints_when_imported_is_not_on_stdout(installed, capsys):
+    installed("tiny-works", [("tiny", "loud_driver:TinyDriver")], loud_driver=f"{MODULE}\nprint('hello')\n")
+    assert "tiny" in registry.drivers()
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "hello\n")
 
 
 def test_a_plug_in_that_cannot_be_used_is_named_and_left_out(installed):

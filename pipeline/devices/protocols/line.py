@@ -221,7 +221,7 @@ class LineParser(Parser[Sample], Generic[Sample]):
             if len(used) > 1:
                 return (
                     "they have more than one of comma, semicolon and tab: send decimal points, or name the"
-                    " separator, as in separator=semicolon"
+                    " separator with the option separator"
                 )
             separator = used[0] if used else None  # None: runs of blanks
         parts = [part.strip() for part in text.split(separator)]

@@ -50,9 +50,9 @@ def pose_maker(layout: Layout) -> Made[FlangeSample]:
 
 def _unit_doubt(layout: Layout) -> str:
     return (
-        "check angle= in the address"
+        "check the option angle of the address"
         if layout.angle_declared
-        else "if they are degrees, add angle=deg to the address"
+        else "if they are degrees, set the option angle of the address to deg"
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections import Counter
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -125,7 +127,8 @@ def _plug_ins() -> tuple[dict[str, Driver], tuple[LeftOut, ...]]:
             why = "another plug-in has the same scheme"
         else:
             try:
-                made = _load(entry)
+                with redirect_stdout(sys.stderr):  # a command's own is one JSON object
+                    made = _load(entry)
                 why = fault_of(made) or _misnamed(entry, made)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a foreign module does
                 why = f"it cannot be imported: {error!r}"

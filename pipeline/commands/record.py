@@ -290,7 +290,10 @@ def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool
     for _, what in recorder.suspicions:
         say(what, "yellow")
     if recorder.unusable:
-        say(f"{recorder.unusable:,} of the sensor's samples are unusable: the device flagged them.", "yellow")
+        say(
+            f"{recorder.unusable:,} of the sensor's samples are flagged as unusable: see record info.",
+            "yellow",
+        )
     if recorder.skipped:
         say(f"{recorder.skipped} batches contain a sample that cannot be recorded.", "yellow")
     say(f"Wrote {out}." if kept else "No sample arrived, so nothing was kept.", "" if kept else "red")

@@ -341,13 +341,13 @@ class _Arm:
     def _refuse_coupled(self, chain: tuple[int, ...]) -> None:
         names = [self._model.joint(joint).name for joint in chain]
         bodies = {self._model.body(int(self._model.jnt_bodyid[joint])).name for joint in chain}
-        for kind, found in (
-            ("joint", [name for name in names if name in self._told.coupled]),
-            ("body", sorted(bodies & self._told.bound)),
+        for found in (
+            [name for name in names if name in self._told.coupled],
+            sorted(bodies & self._told.bound),
         ):
             if found:
                 raise InputError(
-                    f"{self._path}: {kind} {found[0]} is coupled to another one (mimic or equality): give an"
+                    f"{self._path}: {found[0]} is coupled to another joint or body (mimic or equality): give an"
                     " arm whose joints move by themselves."
                 )
 

@@ -61,6 +61,16 @@ def test_what_a_sensor_sends_is_in_the_file(tmp_path):
     assert given <= sent
 
 
+def test_samples_that_the_sensor_flags_are_counted_at_the_end(tmp_path):
+    with emulator("line", "tcp", options={"fields": "fx,fy,fz,mx,my,mz,status"}) as device:
+        result = invoke(
+            "record", "start", f"{device.url}&ok=1", "--out", tmp_path / "a.mcap", "--seconds", 0.5, "--json"
+        )
+    facts = json.loads(result.stdout)
+    assert facts["unusable"] == facts["sensor"]["samples"] > 0
+    assert f"{facts['unusable']} of the sensor's samples are flagged as unusable" in result.stderr
+
+
 def test_a_robot_beside_the_sensor(tmp_path):
     out = tmp_path / "a.mcap"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device, emulator("elfin") as arm:

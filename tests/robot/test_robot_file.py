@@ -184,7 +184,7 @@ def test_coupled_joints_of_the_arm_are_refused(file, coupling):
     def coupled(inner):
         return MJCF.replace("<actuator>", f"<equality>{inner}</equality><actuator>")
 
-    with pytest.raises(InputError, match=r"(joint b|body lower) is coupled to another one"):
+    with pytest.raises(InputError, match=r": (b|lower) is coupled to another"):
         Robot.named(file(coupled(coupling), "two.xml"))
     assert Robot.named(file(coupled(coupling.replace("/>", ' active="false"/>')), "free.xml"))
 
@@ -192,7 +192,7 @@ def test_coupled_joints_of_the_arm_are_refused(file, coupling):
 def test_a_mimicking_joint_is_refused_in_the_arm_and_not_in_its_gripper(file):
     mimic = '<mimic joint="pan"/></joint>'
     before, after = URDF.split('<joint name="elbow"')
-    with pytest.raises(InputError, match="joint elbow is coupled"):
+    with pytest.raises(InputError, match=": elbow is coupled"):
         Robot.named(file(before + '<joint name="elbow"' + after.replace("</joint>", mimic, 1)))
     before, after = URDF.split('<joint name="grip"')
     assert (

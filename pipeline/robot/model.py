@@ -156,8 +156,11 @@ def import_mujoco() -> Any:  # any module attribute: there are no stubs to check
         It is not installed.
     """
     try:
-        return importlib.import_module("mujoco")
+        mujoco = importlib.import_module("mujoco")
     except ImportError as error:
         raise InputError(
             f"robot kinematics need MuJoCo, which cannot be imported ({error}): pip install 'contactbench[sim]'"
         ) from error
+    # Else every warning is written into MUJOCO_LOG.TXT in the user's folder.
+    mujoco.set_mju_user_warning(lambda _: None)
+    return mujoco

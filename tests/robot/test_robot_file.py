@@ -162,9 +162,11 @@ LIMITS = 'lower="-2.5" upper="2"'
         ('lower="nan" upper="2"', "<limit> has lower='nan': every number must be finite"),
     ],
 )
-def test_limits_that_cannot_be_are_refused_with_the_joint_s_name(file, limits, part):
+def test_limits_that_cannot_be_are_refused_with_the_joint_s_name(file, limits, part, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError, match=part):
         Robot.named(file(URDF.replace(LIMITS, limits, 1)))
+    assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
 
 
 def test_limits_in_degrees_of_an_mjcf_in_radians_are_refused(file):

@@ -124,7 +124,7 @@ class LineParser(Parser[Sample], Generic[Sample]):
         """As `Parser`: why lines were dropped of late."""
         return {
             why: f"Lines dropped: {count}, because {why}."
-            for why, (count, last) in self._reasons.items()
+            for why, (count, last) in tuple(self._reasons.items())  # the thread that feeds may add one
             if self._now - last < _SHOWN_S
         }
 

@@ -93,6 +93,14 @@ def test_the_ros_layer_keeps_its_word_on_stubs(programs: Path, given: list[Path]
     assert done.returncode == 0, done.stdout + done.stderr[-3000:]
 
 
+@needs_cmake
+def test_the_program_says_what_is_wrong_and_ends(programs: Path) -> None:
+    node = programs / "contactbench_ros/contactbench_node"
+    assert run(node).returncode == 0
+    done = run(node, "--ros-args")
+    assert (done.returncode, done.stdout) == (1, "fatal: failed to parse arguments\n")
+
+
 def test_the_message_is_the_one_that_others_publish_too() -> None:
     assert fields() == FIELDS
 
@@ -110,10 +118,10 @@ def test_every_package_declares_what_it_finds() -> None:
 
 def test_the_parameter_file_has_what_the_node_declares() -> None:
     source = (PACKAGES / "contactbench_ros/src/node.cpp").read_text("utf-8")
-    declared = set(re.findall(r'(?:declare_parameter<[\w:]+>|rate)\("(\w+)"', source))
+    declared = set(re.findall(r'(?:declare_parameter<[\w:]+>|declare_rate)\("(\w+)"', source))
     told = yaml.safe_load((PACKAGES / "contactbench_ros/config/contactbench.yaml").read_text("utf-8"))
     assert set(told["/**"]["ros__parameters"]) | {"bundle"} == declared
-    asked = set(re.findall(r'get_parameter\("(\w+)"\)', source))
+    asked = set(re.findall(r'(?:get_parameter|\brate)\("(\w+)"\)', source))
     assert asked == declared
 
 

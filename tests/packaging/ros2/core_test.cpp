@@ -172,6 +172,8 @@ void what_is_no_reading_is_told(const char* bundle, const Readings& readings) {
     CHECK(stream.answer.contact.reason == CB_NOT_FINITE && !stream.answer.contact.accepted);
     CHECK(stream.answer.publish_contact && !stream.answer.has_wrench() && !stream.answer.publish_wrench);
     CHECK(core.wrench("ft", 0.0, stream.time, readings.touched, stream.answer) == Taken::no_time);
+    CHECK(core.wrench("ft", -1.0, stream.time, readings.touched, stream.answer) == Taken::no_time);
+    CHECK(core.pose("base", -1.0, nowhere, level) == Taken::no_time);
     CHECK(says(core.status(stream.time).message, "no time stamp"));
     stream.time += 0.001;
     stream.run(readings.touched, 10);

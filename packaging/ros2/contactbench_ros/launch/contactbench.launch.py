@@ -7,6 +7,7 @@ from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import LifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events.lifecycle import ChangeState
+from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 from lifecycle_msgs.msg import Transition
 
@@ -14,13 +15,15 @@ from lifecycle_msgs.msg import Transition
 def generate_launch_description() -> LaunchDescription:
     """Return the node and what takes it to active."""
     share = FindPackageShare("contactbench_ros")
+    # A string, also where the folder is called 2026.
+    bundle = ParameterValue(LaunchConfiguration("bundle"), value_type=str)
     node = LifecycleNode(
         package="contactbench_ros",
         executable="contactbench_node",
         name="contactbench",
         namespace=LaunchConfiguration("namespace"),
         output="screen",
-        parameters=[LaunchConfiguration("params_file"), {"bundle": LaunchConfiguration("bundle")}],
+        parameters=[LaunchConfiguration("params_file"), {"bundle": bundle}],
     )
 
     def change(transition: int) -> EmitEvent:

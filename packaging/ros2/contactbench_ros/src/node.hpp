@@ -1,6 +1,7 @@
 // The ROS side of the node: messages in, messages out. What is decided, `NodeCore` decides.
 #pragma once
 
+#include <builtin_interfaces/msg/time.hpp>
 #include <contactbench_msgs/msg/contact.hpp>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
 #include <geometry_msgs/msg/pose_stamped.hpp>
@@ -20,6 +21,7 @@
 #include <tf2_ros/transform_listener.h>
 #endif
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -47,9 +49,12 @@ private:
     using Markers = visualization_msgs::msg::MarkerArray;
     using Pose = geometry_msgs::msg::PoseStamped;
     using Trigger = std_srvs::srv::Trigger;
+    using Stamp = builtin_interfaces::msg::Time;
     using Wrench = geometry_msgs::msg::WrenchStamped;
 
     void listen_to_poses();
+    double rate(const char* name) const;
+    void say_farewell();
     void release();
     void prepare_messages();
     void take_wrench(const Wrench& message);
@@ -57,13 +62,19 @@ private:
     void look_up_pose();
     void watch();
     void diagnose();
-    void publish_contact(const rclcpp::Time& stamp);
-    void publish_markers(const rclcpp::Time& stamp);
+    void publish_contact(const Stamp& stamp);
+    void publish_markers(const Stamp& stamp);
+    // A callback: what it throws costs that message, and diagnostics say it.
+    template <class Work>
+    void guarded(const char* what, Work&& work);
 
     NodeCore core_;
     Answer answer_;
     std::string world_frame_, flange_frame_;
-    rclcpp::Time last_transform_;
+    bool static_pose_ = false;
+    double last_transform_ = 0.0;
+    std::string failure_;  // of a callback, since the last diagnostics
+    std::uint64_t failures_ = 0;
 
     rclcpp::Subscription<Wrench>::SharedPtr wrenches_;
     rclcpp::Subscription<Pose>::SharedPtr poses_;

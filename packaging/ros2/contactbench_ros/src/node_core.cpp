@@ -127,6 +127,16 @@ void NodeCore::start() noexcept {
     active_ = true;
 }
 
+Answer NodeCore::farewell() const noexcept {
+    Answer answer;
+    cb_contact& contact = answer.contact;
+    cb_check(runtime_.get(), 0.0, &contact);  // NaN wherever there is nothing
+    contact.reason = CB_STALE, contact.accepted = 0, contact.health = 0;
+    answer.health[0] = "inactive", answer.health_count = 1;
+    answer.publish_contact = answer.publish_markers = true;
+    return answer;
+}
+
 bool NodeCore::known(std::string_view frame, const std::string& wanted, const char* of) noexcept {
     if (bare(frame) == bare(wanted)) return true;
     ++counts_.wrong_frames;
@@ -139,7 +149,7 @@ bool NodeCore::known(std::string_view frame, const std::string& wanted, const ch
 Taken NodeCore::pose(std::string_view frame, double time, const double position[3], const double xyzw[4]) noexcept {
     if (!active_) return Taken::inactive;
     if (!known(frame, settings_.world_frame, "the pose")) return Taken::wrong_frame;
-    if (time == 0.0) return ++counts_.no_time, Taken::no_time;
+    if (!(time > 0.0)) return ++counts_.no_time, Taken::no_time;
     double R[9];
     if (!rotation_of(xyzw, R) || cb_pose(runtime_.get(), R, position, time) != CB_OK)
         return ++counts_.poses_refused, Taken::refused;
@@ -150,7 +160,7 @@ Taken NodeCore::wrench(std::string_view frame, double time, double arrival, cons
                        Answer& answer) noexcept {
     if (!active_) return Taken::inactive;
     if (!known(frame, settings_.sensor_frame, "the wrench")) return Taken::wrong_frame;
-    if (time == 0.0) return ++counts_.no_time, Taken::no_time;
+    if (!(time > 0.0)) return ++counts_.no_time, Taken::no_time;
     cb_sample sample = CB_SAMPLE_INIT;
     std::copy(reading, reading + 6, sample.wrench);
     sample.time = time, sample.arrival = arrival;
@@ -224,7 +234,9 @@ const char* NodeCore::trouble(double now, Level& level) noexcept {
     cb_check(runtime_.get(), now, &silent);
     level = Level::error;
     if (counts_.wrong_frames > 0) return frame_trouble_.data();
-    if (counts_.no_time > 0) return "Messages have no time stamp: let the driver stamp them when it measures.";
+    if (counts_.no_time > 0)
+        return "Messages have no time stamp, or a negative one: let their source stamp them when it measures. For a "
+               "flange that nothing moves, set static_pose.";
     if (silent.health & CB_HEALTH_SILENT) {
         if (samples_ > 0 && last_time_ > now + info_.max_age_s)
             return "The time stamps of the wrenches are ahead of this node's clock: synchronize the clocks.";

@@ -20,6 +20,10 @@ struct Time {
     std::int32_t sec = 0;
     std::uint32_t nanosec = 0;
 };
+struct Duration {
+    std::int32_t sec = 0;
+    std::uint32_t nanosec = 0;
+};
 }  // namespace builtin_interfaces::msg
 
 namespace std_msgs::msg {
@@ -77,6 +81,7 @@ struct Marker {
     geometry_msgs::msg::Pose pose;
     geometry_msgs::msg::Vector3 scale;
     std_msgs::msg::ColorRGBA color;
+    builtin_interfaces::msg::Duration lifetime;
     std::vector<geometry_msgs::msg::Point> points;
 };
 struct MarkerArray {
@@ -116,8 +121,14 @@ namespace rcl_interfaces::msg {
 struct FloatingPointRange {
     double from_value = 0, to_value = 0, step = 0;
 };
+struct IntegerRange {
+    std::int64_t from_value = 0, to_value = 0;
+    std::uint64_t step = 0;
+};
 struct ParameterDescriptor {
+    bool dynamic_typing = false;
     std::vector<FloatingPointRange> floating_point_range;
+    std::vector<IntegerRange> integer_range;
 };
 }  // namespace rcl_interfaces::msg
 
@@ -129,7 +140,9 @@ class Time {
 public:
     Time() = default;
     Time(std::int32_t sec, std::uint32_t nanosec, rcl_clock_type_t = RCL_SYSTEM_TIME)
-        : ns_(std::int64_t(sec) * 1'000'000'000 + nanosec) {}
+        : ns_(std::int64_t(sec) * 1'000'000'000 + nanosec) {
+        if (sec < 0) throw std::runtime_error("cannot store a negative time point in rclcpp::Time");
+    }
     Time(const builtin_interfaces::msg::Time& t, rcl_clock_type_t type = RCL_ROS_TIME) : Time(t.sec, t.nanosec, type) {}
     operator builtin_interfaces::msg::Time() const {
         builtin_interfaces::msg::Time t;
@@ -153,8 +166,12 @@ public:
 };
 
 struct Logger {};
+inline Logger get_logger(const std::string&) { return {}; }
 #define RCLCPP_INFO(logger, ...) (void(logger), std::printf(__VA_ARGS__), std::puts(""))
 #define RCLCPP_ERROR(logger, ...) (void(logger), std::printf("error: " __VA_ARGS__), std::puts(""))
+#define RCLCPP_FATAL(logger, ...) (void(logger), std::printf("fatal: " __VA_ARGS__), std::puts(""))
+#define RCLCPP_ERROR_THROTTLE(logger, clock, ms, ...) \
+    (void(logger), void(clock), void(ms), std::printf("error: " __VA_ARGS__), std::puts(""))
 #define RCLCPP_WARN_THROTTLE(logger, clock, ms, ...) \
     (void(logger), void(clock), void(ms), std::printf("warning: " __VA_ARGS__), std::puts(""))
 
@@ -166,16 +183,40 @@ struct SensorDataQoS : QoS {
     SensorDataQoS() : QoS(5) {}
 };
 
-using ParameterValue = std::variant<bool, double, std::string>;
+using ParameterValue = std::variant<bool, std::int64_t, double, std::string>;
+enum class ParameterType : std::uint8_t {
+    PARAMETER_BOOL = 1,
+    PARAMETER_INTEGER,
+    PARAMETER_DOUBLE,
+    PARAMETER_STRING
+};
+
+namespace exceptions {
+struct InvalidParameterTypeException : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+struct InvalidParameterValueException : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+}  // namespace exceptions
 
 class Parameter {
 public:
-    explicit Parameter(ParameterValue value) : value_(std::move(value)) {}
-    bool as_bool() const { return std::get<bool>(value_); }
-    double as_double() const { return std::get<double>(value_); }
-    const std::string& as_string() const { return std::get<std::string>(value_); }
+    Parameter(std::string name, ParameterValue value) : name_(std::move(name)), value_(std::move(value)) {}
+    ParameterType get_type() const { return ParameterType(value_.index() + 1); }
+    bool as_bool() const { return as<bool>(); }
+    std::int64_t as_int() const { return as<std::int64_t>(); }
+    double as_double() const { return as<double>(); }
+    const std::string& as_string() const { return as<std::string>(); }
 
 private:
+    template <class T>
+    const T& as() const {
+        const T* there = std::get_if<T>(&value_);
+        if (!there) throw exceptions::InvalidParameterTypeException("parameter '" + name_ + "' has invalid type");
+        return *there;
+    }
+    std::string name_;
     ParameterValue value_;
 };
 
@@ -213,7 +254,10 @@ struct SingleThreadedExecutor {
 };
 }  // namespace executors
 
-inline void init(int, char**) {}
+inline void init(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i)
+        if (argv[i] == std::string("--ros-args")) throw std::runtime_error("failed to parse arguments");
+}
 inline bool shutdown() { return true; }
 
 }  // namespace rclcpp
@@ -254,14 +298,29 @@ class LifecycleNode : public node_interfaces::LifecycleNodeInterface {
 public:
     LifecycleNode(std::string name, const rclcpp::NodeOptions& options) : name_(std::move(name)), options_(options) {}
 
+    void declare_parameter(const std::string& name, const rclcpp::ParameterValue& usual,
+                           const rcl_interfaces::msg::ParameterDescriptor& about = {}) {
+        const auto found = options_.overrides.find(name);
+        const rclcpp::ParameterValue& given = found == options_.overrides.end() ? usual : found->second;
+        if (!about.dynamic_typing && given.index() != usual.index())
+            throw rclcpp::exceptions::InvalidParameterTypeException("parameter '" + name + "' has invalid type");
+        const auto within = [](const auto* value, const auto& ranges) {
+            return !value || ranges.empty() || !(*value < ranges[0].from_value || *value > ranges[0].to_value);
+        };
+        if (!within(std::get_if<double>(&given), about.floating_point_range) ||
+            !within(std::get_if<std::int64_t>(&given), about.integer_range))
+            throw rclcpp::exceptions::InvalidParameterValueException("parameter '" + name + "' is not in range");
+        parameters_[name] = given;
+    }
     template <class T>
     void declare_parameter(const std::string& name, const T& usual,
-                           const rcl_interfaces::msg::ParameterDescriptor& = {}) {
-        const auto found = options_.overrides.find(name);
-        parameters_[name] = found == options_.overrides.end() ? rclcpp::ParameterValue(usual) : found->second;
+                           const rcl_interfaces::msg::ParameterDescriptor& about = {}) {
+        declare_parameter(name, rclcpp::ParameterValue(usual), about);
+        if (!std::holds_alternative<T>(parameters_.at(name)))
+            throw rclcpp::exceptions::InvalidParameterTypeException("parameter '" + name + "' has invalid type");
     }
     rclcpp::Parameter get_parameter(const std::string& name) const {
-        return rclcpp::Parameter(parameters_.at(name));
+        return rclcpp::Parameter(name, parameters_.at(name));
     }
     template <class Message>
     typename LifecyclePublisher<Message>::SharedPtr create_publisher(const std::string& topic, const rclcpp::QoS&) {
@@ -339,10 +398,12 @@ struct Buffer {
     geometry_msgs::msg::TransformStamped lookupTransform(const std::string& target, const std::string& source,
                                                          const tf2::TimePoint&) const {
         const auto found = known.find({target, source});
+        if (broken) throw std::out_of_range("no such thing");
         if (found == known.end()) throw tf2::TransformException("no such frame");
         return found->second;
     }
     inline static std::map<std::pair<std::string, std::string>, geometry_msgs::msg::TransformStamped> known;
+    inline static bool broken = false;  // it throws what nobody expects
 };
 struct TransformListener {
     explicit TransformListener(Buffer&) { ++alive; }

@@ -39,13 +39,13 @@ enum class Taken {
     used,
     inactive,     // the node is not active
     wrong_frame,  // frame_id is not the one that the settings name
-    no_time,      // its stamp is 0: nobody knows when it was measured
+    no_time,      // its stamp is 0, or before it: nobody knows when it was measured
     refused       // a pose: no rotation, not finite, or not later than the one before
 };
 
 struct Answer {
     cb_contact contact = CB_CONTACT_INIT;
-    std::array<const char*, 5> health{};  // the first `health_count`: what is wrong
+    std::array<const char*, 6> health{};  // the first `health_count`: what is wrong
     std::size_t health_count = 0;
     bool publish_contact = false, publish_wrench = false, publish_markers = false;
 
@@ -80,6 +80,8 @@ public:
     // The next sample and the next pose are first ones, whatever was before.
     void start() noexcept;
     void stop() noexcept { active_ = false; }
+    // The last answer of a stream: there is no contact, and health says `inactive`.
+    Answer farewell() const noexcept;
     bool is_active() const noexcept { return active_; }
 
     // `xyzw` need not be of unit length to the last bit.

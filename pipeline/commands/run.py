@@ -7,13 +7,13 @@ import queue
 import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
-from contactbench.pipeline.console import Noun, say
+from contactbench.pipeline.console import Noun, answer, as_json, report_error, say
 
 if TYPE_CHECKING:
     import threading
@@ -112,17 +112,25 @@ def run(
     the surface it presses; the contacts do not change. An output that is too slow loses contacts, and their
     number is reported; it never delays the sensor. Exit code 1: no sample arrived, more than 5 % of them
     could not be used, a stream failed, or a replay could not be read to its end; 2: the
-    bundle is refused, or an output failed.
+    bundle is refused, or an output failed or published nothing. --json reports the counts at the end; contacts
+    then have to go elsewhere than to standard output.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import Bed, PatchReader
     from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.runtime import Outlet, OutputError, Run
+    from contactbench.pipeline.runtime import Outlet, Run
     from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
     from contactbench.pipeline.streams import open_pair
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+    network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds, "mqtt": mqtt}
+    if out is None and mcap is None and not any(address is not None for address in network.values()):
+        out = "-"
+    if as_json() and out == "-":
+        raise typer.BadParameter(
+            "--json and the contacts both use standard output: give --out a file name, or another output."
+        )
     config = RuntimeConfig.load(bundle)
     check_runnable(config, unverified=unverified)
     patches = None if patch is None else PatchLines(PatchReader(config.probe, Bed.parse(patch)))
@@ -142,7 +150,6 @@ def run(
     with ended_by_signals() as ended, ExitStack() as stack:
         stack.callback(pair.stop)  # a replay has its file open before it begins
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
-        network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds, "mqtt": mqtt}
         targets = _targets(out, mcap, network, config, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
         live = pair.player is None
@@ -154,12 +161,13 @@ def run(
     _say_changes(changes, told, patches)
     told.end()
     _say_end(config, pair, runner)
-    for outlet in outlets:
-        if outlet.error is not None and not outlet.gone:
-            # A new one: the thread of an output that hangs would keep this frame, and with it the kernel, for ever.
-            raise OutputError(str(outlet.error))
-    if broken(pair) or not runner.good:
-        raise typer.Exit(1)
+    failed = [str(outlet.error) for outlet in outlets if outlet.error is not None and not outlet.gone]
+    good = not broken(pair) and runner.good and not failed
+    if failed:
+        report_error(failed[0], as_json=False)
+    answer(_facts(pair, runner, good=good) | ({"error": failed[0]} if failed else {}))
+    if not good:
+        raise typer.Exit(2 if failed else 1)
 
 
 def _targets(
@@ -179,7 +187,7 @@ def _targets(
     try:
         for option, address in wanted.items():
             targets.append(network_target(option, address, config, about, remote=allow_remote))
-        if out == "-" or (out is None and mcap is None and not wanted):
+        if out == "-":
             targets.append(LineTarget("standard output", _standard_output()))
         elif out is not None:
             targets.append(LineTarget.new(Path(out)))
@@ -255,7 +263,9 @@ def _wait(
             if outlet.lost and outlet.name not in slow:
                 slow.add(outlet.name)
                 _say(
-                    f"{outlet.name}: contacts are lost there: it is too slow, or nobody takes them. They are counted.",
+                    outlet.trouble
+                    or f"{outlet.name}: contacts are lost there: it is too slow, or nobody takes them."
+                    " They are counted.",
                     "yellow",
                 )
         if not settled and now - begun > _SETTLED_S:
@@ -370,6 +380,30 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
             f"{outlet.name}: {outlet.published:,} contacts published, {outlet.lost:,} not.",
             "yellow" if outlet.lost else "",
         )
+        if outlet.trouble and outlet.error is None:  # an error is said last
+            _say(outlet.trouble, "yellow")
+
+
+def _facts(pair: Pair, runner: Run, *, good: bool) -> dict[str, Any]:
+    """Return what `_say_end` says, for ``--json``."""
+    return {
+        "good": good,
+        "samples": runner.reasons.total(),
+        "reasons": dict(runner.reasons),
+        "unhealthy": dict(runner.unhealthy),
+        "unusable": runner.unusable,
+        "latency_s": {
+            name: runner.latencies.quantile(share) for name, share in (("median", 0.5), ("p99", 0.99))
+        },
+        "streams": [
+            {"device": device, "samples": stream.health.samples, "failure": stream.health.failure}
+            for device, stream in zip(("sensor", "robot"), pair.streams, strict=False)
+        ],
+        "outputs": [
+            {"name": each.name, "published": each.published, "lost": each.lost, "error": each.trouble or None}
+            for each in runner.outlets
+        ],
+    }
 
 
 def _say(text: str, style: str = "") -> None:

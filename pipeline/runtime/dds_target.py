@@ -63,7 +63,7 @@ class DdsTarget:
         It is no domain, or DDS does not start.
     """
 
-    pace = 0.0
+    pace, trouble = 0.0, ""
 
     def __init__(self, domain: str, about: RecordingInfo, *, remote: bool = False) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
@@ -101,9 +101,8 @@ class DdsTarget:
 
     def close(self) -> None:
         """As `Target`."""
-        self._wrench = self._contact = self._participant = self._domain = (
-            None  # deleted with the last reference
-        )
+        # Each is deleted with its last reference, and a writer refers to its topic and to the participant.
+        self._writers = self._participant = self._domain = None
 
     def _publish(self, answer: Answer, stamp: int) -> None:
         contact = answer.contact

@@ -89,7 +89,7 @@ class FoxgloveTarget:
         It is no address, one that other machines reach without leave, or in use.
     """
 
-    pace = 0.0
+    pace, trouble = 0.0, ""
 
     def __init__(self, address: str, probe: Probe, about: RecordingInfo, *, remote: bool = False) -> None:
         place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=remote, listens=True)

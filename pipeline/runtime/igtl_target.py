@@ -57,7 +57,7 @@ class IgtlTarget:
         It is no address, one that other machines reach without leave, or in use.
     """
 
-    pace = 0.0
+    pace, trouble = 0.0, ""
 
     def __init__(self, address: str, about: RecordingInfo, *, remote: bool = False) -> None:
         place = resolve("--igtl", address, socket.SOCK_STREAM, remote=remote, listens=True)

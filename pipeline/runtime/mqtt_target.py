@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from paho.mqtt.client import Client
 from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
+from paho.mqtt.reasoncodes import ReasonCode
 
 from contactbench.pipeline.runtime.contact_json import contact_message
 from contactbench.pipeline.runtime.errors import RunError
@@ -57,12 +58,16 @@ class MqttTarget:
         if not topic.isprintable() or not 0 < len(topic) <= _LONGEST_TOPIC or set(topic) & {"+", "#"}:
             raise RunError(f"--mqtt {address}: give a topic after the port, such as 127.0.0.1:1883/bench.")
         self.name, self._about = f"MQTT {address}", about
+        self.trouble = f"{self.name}: the broker has not answered yet: check that it runs."
+        self._refused = False  # the last connection
         self._contact, self._health = f"{topic}/contact", f"{topic}/health"
         self._said: int | None = None
         self._fresh = threading.Event()  # it has connected
         self._sent = self._gone = 0  # messages given to the client; those that are out, counted in its thread
         self._client = Client(CallbackAPIVersion.VERSION2)
         self._client.on_connect = self._connected
+        self._client.on_connect_fail = self._unreachable
+        self._client.on_disconnect = self._disconnected
         self._client.on_publish = self._published
         self._client.on_socket_open = _send_at_once
         self._client.will_set(self._health, json.dumps({"state": "offline"}), retain=True)
@@ -104,8 +109,32 @@ class MqttTarget:
         self._sent += 1
         return self._client.publish(topic, payload, retain=retain).rc == MQTTErrorCode.MQTT_ERR_SUCCESS
 
-    def _connected(self, *_: Any) -> None:
-        self._fresh.set()
+    def _connected(self, _client: Client, _data: Any, _flags: Any, code: ReasonCode, _more: Any) -> None:
+        self._refused = code.is_failure
+        if code.is_failure:
+            self.trouble = (
+                f"{self.name}: the broker refused the connection ({code}): check its settings."
+                " Passwords are not supported."
+            )
+        else:
+            self.trouble = ""
+            self._fresh.set()
+
+    def _unreachable(self, *_: Any) -> None:
+        self.trouble = (
+            f"{self.name}: nothing accepts a connection there: start the broker, or check host and port."
+        )
+
+    def _disconnected(self, _client: Client, _data: Any, _flags: Any, code: ReasonCode, _more: Any) -> None:
+        if not code.is_failure or self._refused:  # this side ended it, or the reason is known
+            return
+        if self.trouble:
+            self.trouble = (
+                f"{self.name}: no MQTT broker answers there: the connection ended at once."
+                " Check host and port."
+            )
+        else:
+            self.trouble = f"{self.name}: the connection to the broker broke; it is tried again."
 
     def _published(self, *_: Any) -> None:
         self._gone += 1

@@ -27,6 +27,8 @@ class OutletTarget(Protocol):
     name: str
     pace: float
     """How long contacts may be gathered before they are written, s: 0 where somebody waits for them."""
+    trouble: str
+    """Why it takes nothing now, a sentence; empty: it does, or does not know."""
 
     def write(self, answers: Sequence[Answer]) -> int:
         """
@@ -48,6 +50,8 @@ class OutletTarget(Protocol):
 class Outlet:
     """
     One target, served by a thread of its own.
+
+    One that published nothing of what it was given has failed, at its end.
 
     `put` never waits for the target, unless the source can: when ten thousand contacts wait, new ones are dropped and
     counted. What was computed is not affected.
@@ -89,6 +93,11 @@ class Outlet:
     def lost(self) -> int:
         """Contacts that were not published: dropped, or not taken by the target."""
         return self.dropped + self._unsent
+
+    @property
+    def trouble(self) -> str:
+        """Why it publishes nothing, now or any more; empty: it does, or does not know."""
+        return self._target.trouble if self.error is None else str(self.error)
 
     @property
     def gone(self) -> bool:
@@ -180,6 +189,9 @@ class Outlet:
             self._target.close()
         except OutputError as error:
             self._fail(error, 0)
+        if self.lost and not self.published and self.error is None:
+            why = f"{self.name}: no contact was published: check its address, and who receives there."
+            self._fail(OutputError(self._target.trouble or why), 0)
 
     def _fail(self, error: OutputError, missing: int) -> None:
         self._unsent += missing

@@ -46,6 +46,8 @@ class LineTarget:
         As `Target`.
     """
 
+    trouble = ""
+
     def __init__(self, name: str, descriptor: int, *, pace: float = 0.0) -> None:
         self.name, self._file, self.pace = name, descriptor, pace
 
@@ -113,7 +115,7 @@ class UdpTarget:
         It is no address, or on another machine without leave.
     """
 
-    pace = 0.0
+    pace, trouble = 0.0, ""
 
     def __init__(self, address: str, *, remote: bool = False) -> None:
         self.name = f"udp {address}"
@@ -157,7 +159,7 @@ class McapTarget:
         It is there already, or cannot be made.
     """
 
-    pace = _FILE_PACE_S
+    pace, trouble = _FILE_PACE_S, ""
 
     def __init__(self, path: Path, about: RecordingInfo) -> None:
         self.name, self._about = str(path), about

@@ -35,7 +35,7 @@ class OutputState:
     option: str  # a key of `USUAL`
     published: int  # contacts
     lost: int
-    error: str  # why it takes nothing more; empty: it does
+    error: str  # why it takes nothing, now or any more; empty: it does
 
 
 class LiveOutputs:
@@ -126,7 +126,7 @@ class LiveOutputs:
         if pair is not None and pair.player is None and not pair.stepwise:
             run.heartbeat(pair.now())
         return tuple(
-            OutputState(option, each.published, each.lost, "" if each.error is None else str(each.error))
+            OutputState(option, each.published, each.lost, each.trouble)
             for option, each in zip(self._options, run.outlets, strict=True)
         )
 

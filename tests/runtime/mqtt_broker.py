@@ -17,9 +17,10 @@ class Published(NamedTuple):
 
 
 class Broker:
-    """Listens on the loopback interface until it is closed; at `port`, or any free one."""
+    """Listens on the loopback interface until it is closed; at `port`, or any free one. Says `hello` to clients."""
 
-    def __init__(self, port: int = 0) -> None:
+    def __init__(self, port: int = 0, hello: bytes = b"\x20\x02\x00\x00") -> None:
+        self._hello = hello  # CONNACK
         self._listener = socket.create_server(("127.0.0.1", port))
         self.port: int = self._listener.getsockname()[1]
         self.heard: list[Published] = []
@@ -58,7 +59,7 @@ class Broker:
                 body = self._read(client, self._length(client))
                 if head >> 4 == 1:  # CONNECT
                     self._take_will(body)
-                    client.sendall(b"\x20\x02\x00\x00")
+                    client.sendall(self._hello)
                 elif head >> 4 == 3:  # PUBLISH
                     size = struct.unpack(">H", body[:2])[0]
                     topic, payload = body[2 : 2 + size].decode(), body[2 + size :]

@@ -96,6 +96,24 @@ def test_subscribers_that_come_and_go_cost_nothing(target: DdsTarget) -> None:
         assert target.write(given * 200) == 200
 
 
+def test_closed_it_leaves_the_network_though_somebody_holds_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    from cyclonedds.domain import DomainParticipant
+    from cyclonedds.sub import DataReader
+    from cyclonedds.topic import Topic
+
+    from contactbench.pipeline.runtime.dds_target import _LOOPBACK, WRENCH, DdsTarget
+    from contactbench.pipeline.runtime.dds_types import WrenchStamped
+
+    # With leave it has no domain of its own, whose end would end all that is in it.
+    monkeypatch.setenv("CYCLONEDDS_URI", _LOOPBACK)
+    target = DdsTarget(str(DOMAIN), ABOUT, remote=True)
+    participant = DomainParticipant(DOMAIN)
+    reader = DataReader(participant, Topic(participant, WRENCH, WrenchStamped))
+    until(reader.get_matched_publications)
+    target.close()
+    until(lambda: not reader.get_matched_publications())
+
+
 def test_the_fields_are_those_of_the_package_for_ros() -> None:
     from contactbench.pipeline.runtime.dds_types import Contact
 

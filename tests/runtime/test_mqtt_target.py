@@ -13,7 +13,7 @@ from runtime.mqtt_broker import Broker
 from runtime.runtime_recordings import ABOUT
 from waiting import until
 
-from contactbench.pipeline.runtime import RunError
+from contactbench.pipeline.runtime import Outlet, RunError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -84,6 +84,44 @@ def test_one_that_stops_reading_fills_no_memory(broker: Broker) -> None:
         assert taken < 20_000
         assert target._sent - target._gone <= 1_001
         broker.deaf.clear()
+
+
+@pytest.mark.parametrize(
+    ("hello", "says"),
+    [
+        (b"\x20\x02\x00\x05", "refused the connection (Not authorized)"),
+        (b"\x20\x02\x00\x03", "refused the connection (Server unavailable)"),
+        (b"\x20\x02\x00\x63", "refused the connection (Unspecified error)"),
+        (b"HTTP/1.1 400 Bad Request\r\n\r\n", "no MQTT broker answers there"),
+        (b"\x20\x01\x00", "no MQTT broker answers there"),
+    ],
+)
+def test_a_broker_that_will_not_is_told(hello: bytes, says: str) -> None:
+    with closing(Broker(hello=hello)) as broker:
+        target = target_at(broker.port)
+        outlet = Outlet(target)
+        outlet.start()
+        until(lambda: says in outlet.trouble)
+        until(lambda: broker.will is not None)  # the client has gone
+        assert not target._fresh.is_set()
+        outlet.put(*touching(1))
+        outlet.close()
+    assert (outlet.published, outlet.lost) == (0, 1)
+    assert outlet.failed.is_set()
+    assert says in str(outlet.error)
+
+
+def test_why_nothing_goes_out_is_told_until_it_does() -> None:
+    with closing(Broker()) as broker:
+        port = broker.port
+    with closing(target_at(port)) as target:
+        assert "has not answered yet" in target.trouble or "nothing accepts" in target.trouble
+        until(lambda: "nothing accepts a connection there" in target.trouble)
+        with closing(Broker(port)):
+            until(target._fresh.is_set)
+            assert target.trouble == ""
+        until(lambda: target.trouble != "")
+        assert "broke" in target.trouble or "nothing accepts" in target.trouble
 
 
 def test_the_end_is_quick_without_a_broker() -> None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Slow:
     """A target that takes nothing until it is let."""
 
-    name, pace = "slow", 0.0
+    name, pace, trouble = "slow", 0.0, ""
 
     def __init__(self) -> None:
         self.open = threading.Event()
@@ -110,6 +110,20 @@ class TestOutlet:
         assert "gone: it cannot be written" in str(outlet.error)
         assert not outlet.gone
         assert outlet.lost == 100
+
+    def test_one_that_published_nothing_has_failed(self) -> None:
+        class Deaf(Slow):
+            def write(self, answers: Sequence[Answer]) -> int:
+                return sum(answer.time > BEGIN for answer in answers)
+
+        for count, failed in ((1, True), (2, False), (0, False)):
+            outlet = Outlet(Deaf())
+            outlet.start()
+            for answer in answers(count):
+                outlet.put(answer)
+            outlet.close()
+            assert outlet.failed.is_set() == failed
+            assert ("slow: no contact was published" in outlet.trouble) == failed
 
     def test_never_started(self) -> None:
         target = Slow()

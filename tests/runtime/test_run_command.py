@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 import sys
+from collections import Counter
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
@@ -87,6 +88,44 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
     assert f"{out}: {COUNT:,} contacts published, 0 not." in done.stderr.replace("\n", "")
     assert "sensor: streaming" in done.stderr
     assert "robot: closed" in done.stderr
+
+
+def test_json_is_one_object_with_the_counts(folder: Path, tmp_path: Path) -> None:
+    out = tmp_path / "c.jsonl"
+    done = run(folder / "bundle", *replay(folder), "--out", out, "--igtl", "127.0.0.1:0", "--json")
+    assert done.exit_code == 1  # poses are missing
+    facts = json.loads(done.stdout)
+    reasons = [json.loads(line)["reason"] for line in out.read_text(encoding="utf-8").splitlines()]
+    assert facts["reasons"] == Counter(reasons)
+    assert (facts["samples"], facts["good"]) == (COUNT, False)
+    assert 0 <= facts["latency_s"]["median"] <= facts["latency_s"]["p99"]
+    assert [each["device"] for each in facts["streams"]] == ["sensor", "robot"]
+    assert [(each["published"], each["lost"], each["error"]) for each in facts["outputs"]] == [
+        (COUNT, 0, None)
+    ] * 2
+    assert "error" not in facts
+
+
+@pytest.mark.parametrize("output", [(), ("--out", "-"), ("--udp", "127.0.0.1:9", "--out", "-")])
+def test_json_and_contacts_cannot_both_use_standard_output(folder: Path, output: tuple[str, ...]) -> None:
+    done = run(folder / "bundle", *replay(folder), *output, "--json")
+    assert done.exit_code == 2
+    assert "both use standard output" in json.loads(done.stdout)["error"]
+
+
+def test_an_output_that_published_nothing_has_failed(folder: Path, tmp_path: Path) -> None:
+    pytest.importorskip("paho")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))  # nobody listens
+        place = f"127.0.0.1:{free.getsockname()[1]}/bench"
+        arguments = (*replay(folder), "--out", tmp_path / "c", "--mqtt", place)
+        done = run(folder / "bundle", *arguments, "--json")
+    assert done.exit_code == 2
+    facts = json.loads(done.stdout)
+    assert facts["error"].startswith(f"MQTT {place}: ")
+    assert facts["error"] == facts["outputs"][0]["error"]
+    assert [(each["published"], each["lost"]) for each in facts["outputs"]] == [(0, COUNT), (COUNT, 0)]
+    assert f"error: MQTT {place}: " in done.stderr
 
 
 def test_a_patch_is_said_beside_contacts_that_stay_as_they_are(folder: Path, tmp_path: Path) -> None:

@@ -77,6 +77,18 @@ def test_contacts_go_out_until_it_is_stopped(
     live.pair.step(100)
 
 
+def test_why_a_broker_takes_nothing_is_told(live: Live, config: RuntimeConfig) -> None:
+    pytest.importorskip("paho")
+    outputs = LiveOutputs(live)
+    live.open(STEPWISE, STEPWISE)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))  # nobody listens
+        address = f"127.0.0.1:{free.getsockname()[1]}/bench"
+        outputs.start(config, {"mqtt": address}, unverified=True)
+        until(lambda: "nothing accepts a connection there" in outputs.look()[0].error)
+        outputs.stop()
+
+
 def test_closed_devices_end_it(live: Live, config: RuntimeConfig, listener: socket.socket) -> None:
     outputs = LiveOutputs(live)
     live.open(STEPWISE, STEPWISE)

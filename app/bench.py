@@ -159,8 +159,7 @@ class Bench(QObject):
         if not self._let_go:
             self._end()
         self._let_go = True
-        for job in self.jobs.running:
-            job.cancel()
+        self.jobs.let_go()
 
     def end(self) -> None:
         """End it all; waits for devices, workers and the disk, so call it in a worker, after `let_go`."""

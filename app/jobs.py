@@ -98,6 +98,7 @@ class Jobs(QObject):
         self._running: dict[Job, object] = {}
         self._pool = QThreadPool(self)
         self._pool.setMaxThreadCount(_MOST_AT_ONCE)
+        self.let_gone = False
 
     @property
     def running(self) -> tuple[Job, ...]:
@@ -141,6 +142,12 @@ class Jobs(QObject):
         self.started.emit(job)
         future.add_done_callback(lambda ended: _hand_on(job, ended))
         return job
+
+    def let_go(self) -> None:
+        """Ask all to stop; how they end is told to nobody, for what they were for is being closed."""
+        self.let_gone = True
+        for job in self.running:
+            job.cancel()
 
     def wait(self, seconds: float) -> bool:
         """Wait for what runs in workers; False: something still does. Blocks: only at the very end."""
@@ -190,13 +197,15 @@ class _Ending(QObject):
 
     def _take(self, result: object) -> None:
         try:
-            if self._done is not None:
+            if self._done is not None and not self._jobs.let_gone:
                 self._done(result)
         finally:
             self._jobs._over(self._job)
 
     def _tell(self, error: BaseException) -> None:
         try:
+            if self._jobs.let_gone:
+                return
             if self._failed is not None:
                 self._failed(error)
             else:

@@ -107,3 +107,21 @@ def test_nothing_of_qt_that_lives_in_a_thread_is_freed_with_a_worker(qtbot, jobs
     del worker
     go_on.set()
     qtbot.waitUntil(lambda: not jobs.running, timeout=10_000)
+
+
+def test_what_ends_after_all_was_let_go_is_told_to_nobody(qtbot, jobs):
+    """Its page pushes what came to a session that is closed: an error at every quick leave."""
+    go_on, got = threading.Event(), []
+
+    def fail(_progress, _cancelled):
+        go_on.wait(10)
+        raise ValueError("late")
+
+    jobs.failed.connect(lambda *_: got.append("failed"))
+    job = jobs.start("Work", lambda _p, _c: go_on.wait(10), got.append)
+    jobs.start("Other work", fail)
+    jobs.let_go()
+    assert job.cancelled()
+    go_on.set()
+    qtbot.waitUntil(lambda: not jobs.running, timeout=10_000)
+    assert got == []

@@ -126,9 +126,7 @@ class Folding(_Button):
     def changeEvent(self, event: QEvent) -> None:
         """Break it anew in another font."""
         super().changeEvent(event)
-        # Before it is first shown, its size says nothing: each parent that it gets would tell of another style.
-        shown = self.testAttribute(Qt.WidgetAttribute.WA_WState_Polished)
-        if shown and event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange):
             self._fold()
 
     def _around(self) -> int:

@@ -47,10 +47,8 @@ class DevicesPage(Page):
     # ---- what is there -----------------------------------------------------------------------------
 
     def _build(self) -> None:
-        area = PanelScroll()
-        self.fill(area)
-        inside, self._status = QWidget(area.viewport()), sentence_label()
-        self.sensor, self.poses = SensorSource(inside), PoseSource(inside)
+        self._status = sentence_label()
+        self.sensor, self.poses = SensorSource(), PoseSource()
         self.serial = QLineEdit()
         self.serial.setPlaceholderText(self.tr("see the sensor's label"))
         self.serial.setAccessibleName(self.tr("Sensor serial number"))
@@ -69,8 +67,7 @@ class DevicesPage(Page):
             )
         self.use_button, self.try_button = self.bar.primary, self.bar.second
         self.trial, self.channels = DeviceTrial(), DeviceChannels()
-        mounting = QGroupBox(self.tr("Mounting"), inside)
-        papers = QGroupBox(self.tr("Identification"), inside)
+        mounting, papers = QGroupBox(self.tr("Mounting")), QGroupBox(self.tr("Identification"))
         column(
             mounting, plain_label(self.tr("Sensor on the flange")), row(*((each, 1) for each in self.mount)),
             margins=(9, 9, 9, 9),
@@ -83,13 +80,13 @@ class DevicesPage(Page):
             (self.tr("Valid until"), self.due),
         ):
             lines.addRow(words, field)
-        measured = QGroupBox(self.tr("Measured"), inside)
+        measured, inside = QGroupBox(self.tr("Measured")), QWidget()
         column(measured, self.channels, margins=(2, 2, 2, 2))
         column(
             inside, plain_label(self.tr("Devices"), "title"), self._status, self.trial, self.sensor, self.poses,
             mounting, papers, measured, margins=(6, 8, 6, 8), space=6,
         ).addStretch(1)  # fmt: skip
-        area.setWidget(inside)
+        self.fill(PanelScroll(inside))
         self.sensor.changed.connect(self._edited)
         self.poses.changed.connect(self._edited)
         for field in (self.serial, self.certificate, self.due):

@@ -48,7 +48,7 @@ class GravityPage(Page):
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         self.run = GravityRun(bench, self)
-        self.panel, self.weight = GravityPanel(self), WeightPanel(bench)
+        self.panel, self.weight = GravityPanel(), WeightPanel(bench)
         self.panel.add_check(self.weight)
         self.primary, self.second = self.bar.primary, self.bar.second
         self._shown, self._heard = -1, -1

@@ -36,23 +36,23 @@ class ProbePage(Page):
     def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(bench, parent)
         self._here = False
+        self.mesh_section, self.surface = MeshSection(), SurfaceSection()
+        self.facets = FacetsSection()
         self.stages = ProbeStages(bench, self.bar, self)
+        self.place = PlaceSection(self.stages)
         self._lay_out()
         self._connect()
         self.setAcceptDrops(True)
         self._show()
 
     def _lay_out(self) -> None:
-        self.area = PanelScroll()
-        self.fill(self.area)
-        inside, title = QWidget(self.area.viewport()), plain_label(self.tr("Probe"), "title")
-        self.mesh_section, self.surface = MeshSection(inside), SurfaceSection(inside)
-        self.place, self.facets = PlaceSection(self.stages, inside), FacetsSection(inside)
+        inside, title = QWidget(), plain_label(self.tr("Probe"), "title")
         column(
             inside, title, self.mesh_section, self.surface, self.place, self.facets,
             margins=(10, 8, 10, 8), space=6,
         ).addStretch()  # fmt: skip
-        self.area.setWidget(inside)
+        self.area = PanelScroll(inside)
+        self.fill(self.area)
 
     def _connect(self) -> None:
         stages = self.stages

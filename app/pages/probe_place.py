@@ -39,7 +39,7 @@ class PlaceSection(QGroupBox):
     def __init__(self, stages: ProbeStages, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setTitle(self.tr("3  Alignment with sensor"))
-        self._stages, self.panel, self.report = stages, AlignmentPanel(self), MeshReport(1)
+        self._stages, self.panel, self.report = stages, AlignmentPanel(), MeshReport(1)
         layout = QVBoxLayout(self)
         layout.addWidget(self.panel)
         layout.addWidget(self.report)

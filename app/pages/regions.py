@@ -72,7 +72,7 @@ class RegionsPage(Page):
         self.job: Job | None = None
         self._planned: Tool | None = None
         self._asked: list[PaintRequest] = []  # before the regions were there
-        self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel(self.bar, self)
+        self.keeper, self.panel = RegionAutosave(bench, self), RegionsPanel(self.bar)
         self.fill(self.panel)
         self._connect()
         self._add_keys()

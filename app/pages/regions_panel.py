@@ -80,10 +80,7 @@ class RegionsPanel(PanelScroll):
         self.export_button = push_button(
             self.tr("Export…"), tip=self.tr("Save the regions to a JSON or CSV file")
         )
-        inside = QWidget(self.viewport())
-        self.body = QWidget(inside)
-        self.regions, self.tools = RegionListWidget(self.body), ToolPanel(self.body)
-        self.shape = ShapePanel(self.body)
+        self.regions, self.tools, self.shape = RegionListWidget(), ToolPanel(), ShapePanel()
         intro = self.tr(
             "Mark the areas meant to be touched, most important first. If a reading fits several places,"
             " these areas are preferred. Regions are optional."
@@ -91,6 +88,7 @@ class RegionsPanel(PanelScroll):
         state = row()
         state.add(self.state_mark, 0, Qt.AlignmentFlag.AlignTop)
         state.add(self.state_text, 1)
+        inside, self.body = QWidget(), QWidget()
         column(self.body, self.regions, self.tools, self.shape, row(self.import_button, self.export_button))
         column(
             inside, plain_label(self.tr("Regions"), "title"), sentence_label(intro, "muted"), state, self.body,

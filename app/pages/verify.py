@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtWidgets import QTabWidget, QWidget
 
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from contactbench.widgets.scene.scene import Pick
 
 _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
-_Panel = TypeVar("_Panel", bound=QWidget)
 
 
 class VerifyPage(Page):
@@ -68,33 +67,27 @@ class VerifyPage(Page):
         self._allow()
 
     def _build(self) -> None:
-        body, self.tabs = QWidget(), QTabWidget()
+        self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.tabs.setUsesScrollButtons(False)
+        self.panel_markers, self.panel_how = MarkersPanel(self.bench, self.work), VerifySettingsPanel()
+        self.panel_touch, self.panel_result = TouchPanel(self.bench, self.work, self.bar), ResultPanel()
+        self.panel_point, point = PointPanel(self.bench), QWidget()
+        column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
+        for panel, name in (
+            (self.panel_markers, self.tr("Markers")),
+            (self.panel_how, self.tr("Settings")),
+            (point, self.tr("Point")),
+            (self.panel_touch, self.tr("Touch")),
+            (self.panel_result, self.tr("Result")),
+        ):
+            self.tabs.addTab(PanelScroll(panel), name)
+        body = QWidget()
+        column(body, self.tabs, margins=(6, 4, 6, 0))
         kept = self.tabs.sizePolicy()
         kept.setRetainSizeWhenHidden(True)
         self.tabs.setSizePolicy(kept)
         self.fill(body)
-        column(body, self.tabs, margins=(6, 4, 6, 0))
-        # From the outside to the inside: with each parent that it is given, a panel would be styled anew.
-        self.panel_markers = self._tab(
-            self.tr("Markers"), lambda tab: MarkersPanel(self.bench, self.work, tab)
-        )
-        self.panel_how = self._tab(self.tr("Settings"), VerifySettingsPanel)
-        point = self._tab(self.tr("Point"), QWidget)
-        self.panel_point = PointPanel(self.bench, point)
-        column(point, self.panel_point, margins=(0, 8, 0, 0)).addStretch(1)
-        self.panel_touch = self._tab(
-            self.tr("Touch"), lambda tab: TouchPanel(self.bench, self.work, self.bar, tab)
-        )
-        self.panel_result = self._tab(self.tr("Result"), ResultPanel)
-
-    def _tab(self, name: str, make: Callable[[QWidget], _Panel]) -> _Panel:
-        scroll = PanelScroll()
-        self.tabs.addTab(scroll, name)
-        panel = make(scroll.viewport())
-        scroll.setWidget(panel)
-        return panel
 
     def _connect(self) -> None:
         touch, markers = self.panel_touch, self.panel_markers

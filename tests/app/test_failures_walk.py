@@ -157,7 +157,7 @@ def test_quitting_while_it_computes_waits_if_one_wants(made, hand, tmp_path):
     assert not made.unexpected
     (folder,) = (tmp_path / "home" / "sessions").iterdir()
     with Session.open(folder, write=False) as session:
-        assert session.state.setting("draft.probe")["facets"], "it was done to its end"
+        assert session.state.setting("draft.probe")["plan"]["facets"], "it was done to its end"
     assert not check(folder).problems
 
 

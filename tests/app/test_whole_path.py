@@ -101,9 +101,11 @@ def paint_a_region(hand):
     hand.press("Next: Regions", LONG)
     hand.press("Add", LONG)
     scene = hand.find("3D view of the probe", QWidget)
-    x, y = scene.width() // 2, scene.height() // 2
     for _ in range(5):  # a person sees that nothing is painted yet, and drags once more
         rest(1_000)
+        view = hand.window.scene  # a person sees where the probe is, which makes room for legends
+        middle = view.projection().project(view.probe_layer.probe.vertices.mean(axis=0))[0]
+        x, y = round(middle[0]), round(middle[1])
         hand.drag(scene, [QPoint(x, y - 10 * step) for step in range(9)])
         if hand.enabled("Apply regions"):
             break

@@ -61,7 +61,9 @@ def test_a_bundle_runs_is_seen_and_goes_back(qtbot, window, bundle):
     qtbot.waitUntil(lambda: not window.run.running and controls.start.isEnabled(), timeout=LONG_MS)
     assert controls.state.text() == "Ended"
     assert controls.force.text() == "–"
-    assert "never started tracking" in controls.said
+    # How far it came before it was stopped depends on the machine.
+    tracked = "Tracking" in controls.happened.text()
+    assert ("never started tracking" in controls.said) is not tracked
     use_theme("dark")  # while something is shown
     use_theme("light")
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 
 import pytest
+from PySide6.QtCore import QLocale
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QComboBox, QListWidget, QPlainTextEdit
 
@@ -11,6 +12,7 @@ from contactbench.widgets.message_list import MessageList
 
 @pytest.fixture
 def messages(qtbot):
+    QLocale.setDefault(QLocale.c())  # another test may have left a reader's
     made = MessageList()
     qtbot.addWidget(made)
     made.show()

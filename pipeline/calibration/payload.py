@@ -21,6 +21,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import RobotMaker
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
@@ -144,3 +146,30 @@ def payload_of(
     J[:, CENTRE_OF_MASS] = load / total * R
     sigma = np.sqrt(np.maximum(np.diag(J @ model.covariance @ J.T), 0.0))
     return Payload(load, total, model.mass_sigma, centre, sigma)
+
+
+def payload_in_mm(
+    model: GravityModel, R_ES: ArrayLike, sensor_at: Sequence[float], sensor_body: Sequence[float]
+) -> Payload:
+    """
+    Return the same for what people say: millimetres.
+
+    Parameters
+    ----------
+    model : GravityModel
+    R_ES : array_like (3, 3)
+        Orientation of the sensor on the flange.
+    sensor_at : (3,)
+        The sensor's origin in E, mm.
+    sensor_body : (4,)
+        Mass of the sensor with its adapters, kg, and its centre of mass in E, mm.
+
+    Raises
+    ------
+    InputError
+        As `payload_of`.
+    """
+    mass, *centre = sensor_body
+    return payload_of(
+        model, R_ES, [1e-3 * each for each in sensor_at], mass, [1e-3 * each for each in centre]
+    )

@@ -172,7 +172,7 @@ def check(bundle: BundleArgument) -> None:
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.self_test import replay
-    from contactbench.pipeline.runtime.run import known
+    from contactbench.pipeline.runtime.run import known, sensor_name
 
     found = RuntimeConfig.load(bundle)
     model, replayed = found.model, replay(found, str(bundle))
@@ -181,7 +181,7 @@ def check(bundle: BundleArgument) -> None:
         "green" if model.verified else "yellow",
     )
     by = f" by {model.provenance.operator}" if known(model.provenance.operator) else ""
-    sensor = " ".join(name for name in (model.sensor.model, model.sensor.serial) if known(name))
+    sensor = sensor_name(model.sensor.model, model.sensor.serial)
     say(
         f"For {'the ' + sensor if sensor else 'a sensor that nobody named'} at {model.sensor.rate_Hz:g} Hz with"
         f" the probe {model.probe.name} ({model.probe.facets:,} facets); exported"

@@ -98,11 +98,11 @@ def payload_told(model: GravityModel, R_ES: Any, sensor_at: str, sensor_body: st
     sensor_at, sensor_body : str
         As they were given; without a body the caller is told that there is none in it.
     """
-    from contactbench.pipeline.calibration.payload import payload_of
+    from contactbench.pipeline.calibration.payload import payload_in_mm
 
     at = numbers(sensor_at, 3, "--sensor-at")
-    mass, *centre = (0.0, 0.0, 0.0, 0.0) if sensor_body is None else numbers(sensor_body, 4, "--sensor-body")
-    made = payload_of(model, R_ES, [1e-3 * each for each in at], mass, [1e-3 * each for each in centre])
+    body = (0.0, 0.0, 0.0, 0.0) if sensor_body is None else numbers(sensor_body, 4, "--sensor-body")
+    made = payload_in_mm(model, R_ES, at, body)
     if sensor_body is None:
         say(
             "The sensor's own body and its adapters are not in it: give --sensor-body, unless the robot counts them as"

@@ -219,6 +219,11 @@ def known(name: str | None) -> bool:
     return name is not None and name.strip().lower() not in ("", "unknown")
 
 
+def sensor_name(model: str, serial: str) -> str:
+    """Return what is known of a sensor's model and serial number; empty: nothing."""
+    return " ".join(filter(known, (model, serial)))
+
+
 def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]:
     """
     Say where a sensor is not the one that the config belongs to, in sentences.
@@ -238,7 +243,7 @@ def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]
                 " another sensor are wrong."
             )
     if not known(model) and not known(serial):
-        name = " ".join(filter(known, (wanted.model, wanted.serial))) or "an unnamed one"
+        name = sensor_name(wanted.model, wanted.serial) or "an unnamed one"
         said.append(
             f"The sensor does not identify itself; the bundle is for {name}: make sure it is this one."
         )

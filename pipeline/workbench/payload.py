@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.payload import payload_of
+from contactbench.pipeline.calibration.payload import payload_in_mm
 from contactbench.pipeline.config.runtime.build import calibration_refused
 from contactbench.pipeline.config.runtime.values import rotation_ES
 from contactbench.pipeline.errors import InputError
@@ -55,12 +55,7 @@ def payload_text(config: RuntimeConfig, settings: PayloadSettings) -> PayloadTex
     if calibration_refused(config.model):
         raise InputError("The calibration is refused: calibrate again before you tell a robot its payload.")
     R_ES = rotation_ES(config.model.frames.quaternion_ES)
-    mass, *centre = settings.sensor_body
-    made = payload_of(
-        config.gravity,
-        np.eye(3) if R_ES is None else R_ES,
-        [1e-3 * each for each in settings.sensor_at],
-        mass,
-        [1e-3 * each for each in centre],
+    made = payload_in_mm(
+        config.gravity, np.eye(3) if R_ES is None else R_ES, settings.sensor_at, settings.sensor_body
     )
     return PayloadText(made.text(settings.robot), made, R_ES is not None)

@@ -85,7 +85,7 @@ def measure(output: str, config: RuntimeConfig, folder: Path, seconds: float) ->
     about = RecordingInfo(time.time_ns(), time.monotonic(), ())
     address = str(_DOMAIN) if output == "dds" else f"127.0.0.1:{_PORTS[output]}"
     first, second = folder / f"{output}-1.bin", folder / f"{output}-2.bin"
-    with reader(output, address, first) as reading:
+    with reader(output, address, first, about) as reading:
         outlet = Outlet(
             network_target(output, address + ("/bench" if output == "mqtt" else ""), config, about)
         )
@@ -104,7 +104,7 @@ def measure(output: str, config: RuntimeConfig, folder: Path, seconds: float) ->
             missing = outlet.lost - lost
             reading.kill()
             reading.wait()
-            with reader(output, address, second):
+            with reader(output, address, second, about):
                 until(lambda: feed.run(0.05) and second.stat().st_size >= 2 * RECEIVED_TYPE.itemsize)
         outlet.close()
     stamps = np.array([about.log_time(moment) for moment, _ in sent])
@@ -147,9 +147,13 @@ class _Feed:
 
 
 @contextmanager
-def reader(output: str, address: str, notes: Path) -> Iterator[subprocess.Popen[bytes]]:
+def reader(
+    output: str, address: str, notes: Path, about: RecordingInfo
+) -> Iterator[subprocess.Popen[bytes]]:
     """Start a process that reads an output and notes when each contact came; its first note is when it began."""
-    words = [sys.executable, "-m", "benchmarks.outputs_client", output, address, str(notes)]
+    module = "benchmarks.outputs_client"
+    clock = [str(about.started_ns), repr(about.clock)]  # two looks at two clocks need not agree to a microsecond
+    words = [sys.executable, "-m", module, output, address, str(notes), *clock]
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[1])}
     process = subprocess.Popen(words, env=environment)
     try:

@@ -1,8 +1,9 @@
 """
 A reader of one output, in a process of its own: notes the time stamp of each contact and when it came.
 
-Started as ``python -m benchmarks.outputs_client OUTPUT ADDRESS FILE``. The first note, with time stamp 0, is when it
-began to connect. It runs until it is killed.
+Started as ``python -m benchmarks.outputs_client OUTPUT ADDRESS FILE STARTED_NS CLOCK``: the last two are one moment as
+Unix time and in the samples' clock, as the sender knows it. The first note, with time stamp 0, is when it began to
+connect. It runs until it is killed.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from contactbench.pipeline.recording import RecordingInfo
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,19 +50,18 @@ def _stamp_in(payload: bytes) -> int:
     return int(found[1]) * 10**9 + int(found[2]) if found else 0
 
 
-def udp(address: str, note: Note) -> None:
+def udp(address: str, note: Note, about: RecordingInfo) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(_place(address))
-        unix = time.time_ns() - time.monotonic_ns()  # a line has the samples' clock: the monotonic one
         note(0)
         while True:
             found = _TIME.search(listener.recv(65_536))
             if found:
-                note(unix + round(1e9 * float(found[1])))
+                note(about.log_time(float(found[1])))  # a line has the samples' clock
 
 
-def igtl(address: str, note: Note) -> None:
+def igtl(address: str, note: Note, _about: RecordingInfo) -> None:
     note(0)
     with _connected(address) as client:
         data = b""
@@ -74,7 +76,7 @@ def igtl(address: str, note: Note) -> None:
                     note(seconds * 10**9 + (fraction * 10**9 >> 32))
 
 
-def foxglove(address: str, note: Note) -> None:
+def foxglove(address: str, note: Note, _about: RecordingInfo) -> None:
     from websockets.sync.client import connect
 
     note(0)
@@ -95,7 +97,7 @@ def foxglove(address: str, note: Note) -> None:
                 note(stamp)
 
 
-def dds(address: str, note: Note) -> None:
+def dds(address: str, note: Note, _about: RecordingInfo) -> None:
     from cyclonedds.core import Policy, Qos
     from cyclonedds.domain import Domain, DomainParticipant
     from cyclonedds.sub import DataReader
@@ -118,7 +120,7 @@ def dds(address: str, note: Note) -> None:
     del own
 
 
-def mqtt(address: str, note: Note) -> None:
+def mqtt(address: str, note: Note, _about: RecordingInfo) -> None:
     from runtime.mqtt_broker import Broker, Published
 
     class Heard(list[Published]):
@@ -133,11 +135,13 @@ def mqtt(address: str, note: Note) -> None:
         time.sleep(60)
 
 
-def main(output: str, address: str, file: str) -> None:
+def main(output: str, address: str, file: str, started_ns: str, clock: str) -> None:
     """Read until killed."""
     with Path(file).open("wb", buffering=0) as notes:
         {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds, "mqtt": mqtt}[output](
-            address, lambda stamp: notes.write(struct.pack("<qd", stamp, time.monotonic())) and None
+            address,
+            lambda stamp: notes.write(struct.pack("<qd", stamp, time.monotonic())) and None,
+            RecordingInfo(int(started_ns), float(clock), ()),
         )
 
 

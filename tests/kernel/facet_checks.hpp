@@ -89,7 +89,7 @@ struct RandomFacet {
 };
 
 inline contactbench::FacetFit fit(const RandomFacet& r, const Query& q) {
-    const Vec3 corners[3] = {r.model.normalised[0], r.model.normalised[1], r.model.normalised[2]};
+    const Vec3 corners[3] = {r.model.normalised(0), r.model.normalised(1), r.model.normalised(2)};
     return contactbench::fit_facet(corners, r.model.normals[0], r.error, q);
 }
 
@@ -286,7 +286,7 @@ inline void check_plane_covariance() {
             touch.torque = c.arm * norm(touch.force) * random.normal();
             const Wrench clean = touch.wrench();
             c.wrench = {clean.F + Vec3{e[0], e[1], e[2]}, clean.M + Vec3{e[3], e[4], e[5]}};
-            const Vec3 corners[3] = {model.normalised[0], model.normalised[1], model.normalised[2]};
+            const Vec3 corners[3] = {model.normalised(0), model.normalised(1), model.normalised(2)};
             const contactbench::FacetFit found = contactbench::fit_facet(corners, touch.normal, none, c.query(model));
             Vec3 p;
             for (std::size_t v = 0; v < 3; ++v) p = p + found.weight[v] * mesh.vertices[v];
@@ -314,7 +314,7 @@ inline void check_mesh_errors() {
             const Model m = contactbench::make_model(mesh.vertices, mesh.faces, {}, {}, terms);
             const std::vector<Flat> flats = flats_of(mesh, m, terms);
             for (const Flat& flat : flats) {
-                const contactbench::MeshError<double>& e = m.tree.facets[std::size_t(m.slot[std::size_t(flat.face)])].error;
+                const contactbench::MeshError<double>& e = m.errors[std::size_t(flat.face)];
                 // The angle's own rounding: an arc cosine near one.
                 CHECK(std::fabs(std::sqrt(e.bend) - double(std::sqrt(flat.bend))) <= 1e-7);
                 CHECK(std::fabs(std::sqrt(e.spread) - double(std::sqrt(flat.spread)) / m.frame.scale) <= 1e-7);
@@ -326,7 +326,7 @@ inline void check_mesh_errors() {
     const auto worst = [](const Mesh& mesh) {
         double most = 0.0;
         const Model m = contactbench::make_model(mesh.vertices, mesh.faces, {});
-        for (const contactbench::Facet& f : m.tree.facets) most = std::max(most, std::sqrt(f.error.spread) * m.frame.scale);
+        for (const contactbench::MeshError<double>& e : m.errors) most = std::max(most, std::sqrt(e.spread) * m.frame.scale);
         return most;
     };
     CHECK(worst(coarse) > 4e-5 && worst(coarse) < 1e-3);

@@ -98,10 +98,8 @@ bool same(const Answer& a, const Answer& b) {
 // Facets whose normal is lost in the rounding of their corners are tested, but not compared: they
 // have no normal to prune by.
 bool well_shaped(const Model& m) {
-    for (std::size_t s = 0; s < m.tree.face.size(); ++s) {
-        if (m.tree.face[s] < 0) continue;
-        const Triangle& t = m.tree.triangle[s];
-        const auto at = [&](int c) { return m.normalised[std::size_t(t[std::size_t(c)])]; };
+    for (const Triangle& t : m.faces) {
+        const auto at = [&](int c) { return m.normalised(t[std::size_t(c)]); };
         const Vec3 a = at(1) - at(0), b = at(2) - at(0), c = at(2) - at(1);
         const double longest = std::sqrt(std::fmax(norm2(a), std::fmax(norm2(b), norm2(c))));
         if (norm(cross(a, b)) < 1e-6 * longest) return false;

@@ -215,7 +215,7 @@ struct Touch {
 // `steepest`: largest friction angle, rad; `pitch`: torque over force, as a share of the mesh size.
 inline Touch random_touch(const Model& m, Random& random, double steepest, double pitch) {
     const std::size_t f = random.below(m.normals.size());
-    const Triangle& t = m.tree.triangle[std::size_t(m.slot[f])];
+    const Triangle& t = m.faces[f];
     double a = random.unit(), b = random.unit();
     if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
     const Vec3 p = m.vertices[std::size_t(t[0])], q = m.vertices[std::size_t(t[1])], r = m.vertices[std::size_t(t[2])];

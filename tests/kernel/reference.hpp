@@ -251,13 +251,13 @@ inline std::vector<Flat> flats_of(const Mesh& mesh, const Model& m, const contac
         for (std::size_t c = 0; c < 3; ++c) {
             flat.vertex[c] = mesh.faces[i][c];
             // As the header rounds them: far from the sensor that is more than the noise.
-            flat.corner[c] = Real3(m.frame.centre) + Real(m.frame.scale) * Real3(m.normalised[std::size_t(flat.vertex[c])]);
+            flat.corner[c] = Real3(m.frame.centre) + Real(m.frame.scale) * Real3(m.normalised(flat.vertex[c]));
             edges[{mesh.faces[i][c], mesh.faces[i][(c + 1) % 3]}].push_back(i);
         }
         const Real3 n = outer(flat.corner[1] - flat.corner[0], flat.corner[2] - flat.corner[0]);
         flat.normal = (1 / length(n)) * n;
         flat.face = std::int32_t(i);
-        flat.region = m.region[i];
+        flat.region = m.region(std::int32_t(i));
         if (!bonus.empty()) flat.bonus = bonus[i];
     }
     for (std::size_t i = 0; i < flats.size(); ++i) {

@@ -48,7 +48,7 @@ public:
         cap_ = cap;
         node_ = contactbench::make_node_query(q, cap);
         form_ = contactbench::in_single(q.form);
-        check_node(0);
+        check_node(model_.tree.root());
     }
 
     Tightness nodes, leaves;
@@ -73,21 +73,21 @@ private:
     }
 
     // Checks a subtree and returns the blocks that it holds.
-    std::pair<std::size_t, std::size_t> check_node(std::size_t index) {
-        const contactbench::Node& node = model_.tree.nodes[index];
-        const Bounds bounds = contactbench::node_bound(node, node_);
+    std::pair<std::size_t, std::size_t> check_node(std::int32_t index) {
+        const contactbench::Node& node = model_.tree.nodes[std::size_t(index)];
+        const Bounds bounds = contactbench::node_bound(node, contactbench::boxes_of(node), node_);
         std::pair<std::size_t, std::size_t> all{SIZE_MAX, 0};
-        for (std::size_t l = 0; l < contactbench::lanes; ++l) {
-            const std::int32_t child = node.child[l];
-            if (child == contactbench::empty_child) continue;
+        for (int l = 0; l < contactbench::lanes; ++l) {
+            if (!(model_.tree.children(index) >> l & 1u)) continue;
+            const std::int32_t child = model_.tree.child(index, l);
             std::pair<std::size_t, std::size_t> blocks{std::size_t(~child), std::size_t(~child) + 1};
             if (child < 0) check_leaf(blocks.first);
-            else blocks = check_node(std::size_t(child));
+            else blocks = check_node(child);
             const Truth t = best(blocks.first, blocks.second);
             if (t.cosine >= cap_) {
-                CHECK(bounds.faces_force[int(l)] != 0);
-                CHECK(below(bounds.d2[int(l)], t.d2));
-                nodes.add(double(bounds.d2[int(l)]), t.d2);
+                CHECK(bounds.faces_force[l] != 0);
+                CHECK(below(bounds.d2[l], t.d2));
+                nodes.add(double(bounds.d2[l]), t.d2);
             }
             all = {std::min(all.first, blocks.first), std::max(all.second, blocks.second)};
         }
@@ -96,13 +96,9 @@ private:
 
     void check_leaf(std::size_t index) {
         const contactbench::Leaf& leaf = model_.tree.leaves[index];
-        Float8 p[3][3], n[3];
-        for (int c = 0; c < 3; ++c) {
-            n[c] = contactbench::load8(leaf.normal[c]);
-            for (int i = 0; i < 3; ++i) p[c][i] = contactbench::load8(leaf.corner[c][i]);
-        }
-        const contactbench::MeshError<Float8> error{contactbench::load8(leaf.spread), contactbench::load8(leaf.bend)};
-        const Bounds bounds = contactbench::bound_facets(p, n, error, form_, node_.cos_t, 4.0f * node_.margin);
+        Float8 p[3][3];
+        contactbench::corners_of(leaf, p);
+        const Bounds bounds = contactbench::leaf_bound(leaf, p, form_, node_);
         for (std::size_t l = 0; l < contactbench::lanes; ++l) {
             const std::int32_t face = model_.tree.face[index * contactbench::lanes + l];
             if (face < 0 || truth_[std::size_t(face)].cosine < cap_) continue;
@@ -146,6 +142,15 @@ inline void check_bounds() {
             for (const Mesh& base : {t_shape(2), slivers(2, 7), fin()})
                 run(moved(base, "scaled", [=](Vec3 p) { return scale * (p + place); }), 10);
         }
+    // Large facets and a sensor so precise that the rounding of corners is what counts.
+    {
+        BoundChecks checks(octahedron(), {0.0, false});
+        for (int i = 0; i < 200; ++i) {
+            Touch touch = random_touch(checks.model(), random, 0.5, 0.0);
+            touch.point = touch.point + random.uniform(1e-5, 1e-3) * random.normal3();
+            checks.check({touch.wrench(), mixed_noise(random, 1e-8, 1e-8), 0.0}, 0.2588);
+        }
+    }
     // A common probe, sensor and touch: here bounds have to be tight too, or nothing is pruned.
     for (const Mesh& mesh : {ellipsoid(4), t_shape(4)}) {
         BoundChecks checks(mesh, {});

@@ -474,7 +474,7 @@ inline void check_closed_forms() {
     const Model m = contactbench::make_model(whole.vertices, whole.faces, {});
     const contactbench::ScanTable table(m);
     for (int i = 0; i < 5000; ++i) {
-        const Triangle& t = m.tree.triangle[std::size_t(m.slot[random.below(m.normals.size())])];
+        const Triangle& t = m.faces[random.below(m.normals.size())];
         const Vec3 p = 0.5 * (m.vertices[std::size_t(t[0])] + m.vertices[std::size_t(t[1])]);
         Vec3 f;
         do {
@@ -482,7 +482,7 @@ inline void check_closed_forms() {
         } while (norm(f) == 0.0);
         bool both_push = true;
         for (std::size_t face = 0; face < m.normals.size(); ++face) {
-            const Triangle& own = m.tree.triangle[std::size_t(m.slot[face])];
+            const Triangle& own = m.faces[face];
             const auto uses = [&](std::int32_t v) { return std::find(own.begin(), own.end(), v) != own.end(); };
             if (uses(t[0]) && uses(t[1])) both_push &= dot(m.normals[face], f) < -1e-9;
         }

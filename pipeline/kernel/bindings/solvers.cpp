@@ -312,7 +312,7 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
             c.point = {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
             c.normal = model.normals[std::size_t(face)];
             c.face = face;
-            c.region = model.region[std::size_t(face)];
+            c.region = model.region(face);
             c.torque = torques.data()[i];
             c.cosine = -dot(c.normal, w.F) / norm(w.F);
             return true;
@@ -466,7 +466,7 @@ void bind_main(nb::module_& m) {
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
     solver.def("foreign_batch", &foreign_batch, nb::arg("wrenches"), nb::arg("points"), nb::arg("faces"),
                nb::arg("torques"), "Contacts found by another method, given this solver's mesh, gates and noise.");
-    solver.def_prop_ro("closed", [](const Main& s) { return s.context->model().topology.closed(); },
+    solver.def_prop_ro("closed", [](const Main& s) { return s.context->model().closed; },
                        "True when every edge joins two facets of matching winding.");
 }
 

@@ -21,19 +21,19 @@ public:
         std::vector<std::int32_t> order(n);
         for (std::size_t f = 0; f < n; ++f) order[f] = std::int32_t(f);
         const auto rank = [&](std::int32_t f) {
-            const std::int32_t r = model.region[std::size_t(f)];
+            const std::int32_t r = model.region(f);
             return r > 0 ? r : std::numeric_limits<std::int32_t>::max();
         };
         std::stable_sort(order.begin(), order.end(),
                          [&](std::int32_t a, std::int32_t b) { return rank(a) < rank(b); });
         for (std::int32_t f : order) {
-            const Triangle& t = model.tree.triangle[std::size_t(model.slot[std::size_t(f)])];
+            const Triangle& t = model.faces[std::size_t(f)];
             Plane p;
             for (std::size_t c = 0; c < 3; ++c) p.corner[c] = model.vertices[std::size_t(t[c])];
             p.normal = model.normals[std::size_t(f)];
             p.offset = -dot(p.normal, p.corner[0]);
             p.face = f;
-            p.region = model.region[std::size_t(f)];
+            p.region = model.region(f);
             planes_.push_back(p);
         }
     }

@@ -10,28 +10,6 @@
 
 namespace contactbench {
 
-// Eight facets in single precision: what is looked at before a facet in full.
-struct alignas(64) Leaf {
-    float corner[3][3][lanes] = {};  // [corner][axis][lane]
-    float normal[3][lanes] = {};
-    float spread[lanes] = {}, bend[lanes] = {}, bonus[lanes] = {};
-};
-
-// One facet in full: normalised corners, the lowest vertex number first, winding kept.
-struct Facet {
-    Vec3 corner[3], normal;
-    MeshError<double> error;
-    double bonus = 0.0;  // 2 ln(odds) of a touch here
-};
-
-struct Hierarchy {
-    std::vector<Node> nodes;         // nodes[0] is the root
-    std::vector<Leaf> leaves;        // each stands for eight slots
-    std::vector<Facet> facets;       // by slot
-    std::vector<std::int32_t> face;  // slot -> face number of the input, -1 for padding
-    std::vector<Triangle> triangle;  // slot -> vertices, lowest first
-};
-
 // The facet with its lowest vertex number first, winding kept.
 inline Triangle lowest_first(const Triangle& t) {
     const std::size_t i = std::size_t(std::min_element(t.begin(), t.end()) - t.begin());
@@ -40,35 +18,36 @@ inline Triangle lowest_first(const Triangle& t) {
 
 namespace detail {
 
-struct Cone {
-    float ax = 0, ay = 0, az = 0, cos_a = 0.0f, sin_a = 1e6f;  // as built: passes every test
+// As many steps as reach at least so far, as they will be read.
+inline std::uint8_t steps_to(double reach, float step) {
+    int n = std::clamp(int(std::ceil(reach / double(step))), 0, 255);
+    while (n < 255 && double(float(n) * step) < reach) ++n;
+    return std::uint8_t(n);
+}
+
+inline float rounded_up(double x) {
+    const float f = float(x);
+    return double(f) < x ? std::nextafter(f, std::numeric_limits<float>::max()) : f;
+}
+
+// The upper half of a float, rounded up.
+inline std::uint16_t upper_half_of(double x) {
+    return std::uint16_t((std::bit_cast<std::uint32_t>(rounded_up(x)) + 0xffffu) >> 16);
+}
+
+// Of some facets: everything a lane of a node says, before it is rounded to steps.
+struct Bound {
+    std::array<std::int16_t, 3> centre{};
+    std::array<std::int8_t, 3> axis{127, 0, 0};
+    std::uint8_t sine = every_normal;
+    double half[3] = {}, thick = 0.0, spread = 0.0, bend = 0.0, bonus = 0.0;
+
+    double reach() const { return std::max({half[0], half[1], half[2], thick}); }
 };
-
-// Smallest cone about the mean direction. Wider than a half space is stored as "everything":
-// a huge sine says so to node_bound.
-inline Cone bound_directions(const std::vector<Vec3>& normals) {
-    Vec3 sum;
-    for (const Vec3& n : normals) sum = sum + n;
-    Cone cone;
-    const double length = norm(sum);
-    if (!(length > 1e-9)) return cone;
-    cone.ax = float(sum.x / length), cone.ay = float(sum.y / length), cone.az = float(sum.z / length);
-    const Vec3 axis{cone.ax, cone.ay, cone.az};  // bound about the axis as stored, not as meant
-    double c = 1.0;
-    for (const Vec3& n : normals) c = std::min(c, dot(n, axis) / norm(axis));
-    c -= 1e-6;
-    if (c <= 0.0) return Cone{};
-    cone.cos_a = float(c), cone.sin_a = float(std::sqrt(1.0 - c * c) + 1e-6);
-    return cone;
-}
-
-inline float half_extent(double lo, double hi, float centre) {
-    const double e = std::max(hi - double(centre), double(centre) - lo);
-    return std::nextafter(float(e * (1.0 + 1e-6)), std::numeric_limits<float>::max());
-}
 
 class Builder {
 public:
+    // `normalised` vertices; normals, errors and bonus of each face.
     Builder(const std::vector<Triangle>& faces, const std::vector<Vec3>& normalised,
             const std::vector<Vec3>& normals, const std::vector<MeshError<double>>& errors,
             const std::vector<double>& bonus)
@@ -84,9 +63,9 @@ public:
                                           points_[std::size_t(faces_[f][1])] +
                                           points_[std::size_t(faces_[f][2])]);
         sort_range(0, n, child_capacity((n + lanes - 1) / lanes));
-        fill_blocks();
-        out_.nodes.emplace_back();
-        make_node(0, 0, out_.leaves.size());
+        fit_priors();
+        fill_leaves();
+        fill_nodes();
         return std::move(out_);
     }
 
@@ -133,84 +112,169 @@ private:
         });
     }
 
-    void fill_blocks() {
+    void fit_priors() {
+        const auto [least, most] = std::minmax_element(bonus_.begin(), bonus_.end());
+        // So that 255 steps, as they will be read, reach the largest.
+        Priors& p = out_.priors;
+        p.least = -rounded_up(-*least);
+        p.step = *most > double(p.least) ? rounded_up((*most - double(p.least)) / 255.0 * (1.0 + 1e-6)) : 0.0f;
+    }
+
+    std::uint8_t prior_of(double bonus) const {
+        const Priors& p = out_.priors;
+        int n = p.step > 0.0f ? std::clamp(int((bonus - double(p.least)) / double(p.step)), 0, 255) : 0;
+        while (n < 255 && double(float(n) * p.step + p.least) < bonus) ++n;
+        return std::uint8_t(n);
+    }
+
+    void fill_leaves() {
         const std::size_t blocks = (order_.size() + lanes - 1) / lanes;
         out_.leaves.resize(blocks);
-        out_.facets.resize(blocks * lanes);
         out_.face.assign(blocks * lanes, -1);
-        out_.triangle.assign(blocks * lanes, Triangle{-1, -1, -1});
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            const std::size_t f = std::size_t(order_[i]), l = i % lanes;
-            out_.face[i] = std::int32_t(f);
-            out_.triangle[i] = lowest_first(faces_[f]);
-            Facet& facet = out_.facets[i];
-            Leaf& leaf = out_.leaves[i / lanes];
+        std::copy(order_.begin(), order_.end(), out_.face.begin());
+        for (std::size_t i = 0; i < blocks; ++i) fill_leaf(i);
+    }
+
+    void fill_leaf(std::size_t index) {
+        Leaf& leaf = out_.leaves[index];
+        const Vec3 lowest = box_of(index, index + 1).first, highest = box_of(index, index + 1).second;
+        const double low[3] = {lowest.x, lowest.y, lowest.z}, high[3] = {highest.x, highest.y, highest.z};
+        double widest = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            leaf.low[a] = -rounded_up(-low[a]);
+            widest = std::max(widest, high[a] - double(leaf.low[a]));
+        }
+        leaf.step = std::max(rounded_up(widest / 65535.0), std::numeric_limits<float>::min());
+        each_facet(index, index + 1, [&](std::size_t slot, std::size_t f) {
+            const std::size_t l = slot % lanes;
             for (std::size_t c = 0; c < 3; ++c) {
-                const Vec3& p = facet.corner[c] = points_[std::size_t(out_.triangle[i][c])];
-                leaf.corner[c][0][l] = float(p.x), leaf.corner[c][1][l] = float(p.y), leaf.corner[c][2][l] = float(p.z);
+                const Vec3& p = points_[std::size_t(faces_[f][c])];
+                const double at[3] = {p.x, p.y, p.z};
+                for (int a = 0; a < 3; ++a) {
+                    const double steps = std::round((at[a] - double(leaf.low[a])) / double(leaf.step));
+                    leaf.corner[c][a][l] = std::uint16_t(std::clamp(steps, 0.0, 65535.0));
+                }
             }
-            const Vec3& n = facet.normal = normals_[f];
+            const Vec3& n = normals_[f];
             leaf.normal[0][l] = float(n.x), leaf.normal[1][l] = float(n.y), leaf.normal[2][l] = float(n.z);
-            facet.error = errors_[f];
-            facet.bonus = bonus_[f];
-            leaf.spread[l] = float(facet.error.spread), leaf.bend[l] = float(facet.error.bend);
-            leaf.bonus[l] = float(facet.bonus);
-        }
+            leaf.bonus[l] = prior_of(bonus_[f]);
+            leaf.spread = std::max(leaf.spread, rounded_up(errors_[f].spread));
+            leaf.bend = std::max(leaf.bend, rounded_up(errors_[f].bend));
+        });
     }
 
-    static void split(Range r, std::size_t capacity, std::vector<Range>& parts) {
-        const std::size_t blocks = r.second - r.first;
-        if (blocks <= capacity) return parts.push_back(r);
-        const std::size_t mid = r.first + middle(blocks, capacity);
-        split({r.first, mid}, capacity, parts);
-        split({mid, r.second}, capacity, parts);
-    }
-
-    void make_node(std::size_t node, std::size_t first, std::size_t last) {
-        std::vector<Range> parts;
-        split({first, last}, child_capacity(last - first), parts);
-        std::fill(out_.nodes[node].child, out_.nodes[node].child + lanes, empty_child);
-        for (std::size_t l = 0; l < parts.size(); ++l) {
-            bound_lane(node, int(l), parts[l]);
-            if (parts[l].second - parts[l].first == 1) {
-                out_.nodes[node].child[l] = ~std::int32_t(parts[l].first);
-                continue;
+    // Level by level: what eight nodes, or leaves, of the level below hold.
+    void fill_nodes() {
+        std::size_t below = out_.leaves.size(), blocks = 1;  // how many there are, and leaves in each
+        out_.nodes.reserve(below / (lanes - 1) + out_.first.size());
+        for (std::size_t level = 0; level == 0 || below > 1; ++level, blocks *= lanes) {
+            const std::size_t count = (below + lanes - 1) / lanes;
+            out_.first[level + 1] = out_.first[level] + std::int32_t(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                std::vector<Bound> bounds;
+                for (std::size_t child = lanes * i; child < std::min(lanes * (i + 1), below); ++child)
+                    bounds.push_back(bound_of(child * blocks, std::min((child + 1) * blocks, out_.leaves.size())));
+                out_.nodes.push_back(node_of(bounds));
             }
-            const std::size_t child = out_.nodes.size();
-            out_.nodes.emplace_back();
-            out_.nodes[node].child[l] = std::int32_t(child);
-            make_node(child, parts[l].first, parts[l].second);
+            below = count;
         }
+        std::fill(std::find(out_.first.begin() + 1, out_.first.end(), 0), out_.first.end(),
+                  std::numeric_limits<std::int32_t>::max());
     }
 
-    void bound_lane(std::size_t node, int lane, Range blocks) {
+    Node node_of(const std::vector<Bound>& bounds) const {
+        Node n;
+        double reach = 0.0, spread = 0.0, bend = 0.0;
+        for (const Bound& b : bounds) {
+            reach = std::max(reach, b.reach());
+            spread = std::max(spread, b.spread), bend = std::max(bend, b.bend);
+        }
+        n.step = std::max(rounded_up(reach / 255.0 * (1.0 + 1e-6)), std::numeric_limits<float>::min());
+        n.spread = upper_half_of(spread), n.bend = upper_half_of(bend);
+        for (std::size_t l = 0; l < bounds.size(); ++l) {
+            const Bound& b = bounds[l];
+            for (std::size_t a = 0; a < 3; ++a) {
+                n.centre[a][l] = b.centre[a], n.axis[a][l] = b.axis[a];
+                n.half[a][l] = steps_to(b.half[a], n.step);
+            }
+            n.thick[l] = steps_to(b.thick, n.step);
+            n.sine[l] = b.sine;
+            n.bonus[l] = prior_of(b.bonus);
+        }
+        for (std::size_t l = bounds.size(); l < lanes; ++l) n.axis[0][l] = 127;  // has a length
+        return n;
+    }
+
+    // Of the facets in some leaves.
+    Bound bound_of(std::size_t first, std::size_t last) const {
+        Bound b;
+        Vec3 sum;
+        b.bonus = -std::numeric_limits<double>::infinity();
+        each_facet(first, last, [&](std::size_t, std::size_t f) {
+            sum = sum + normals_[f];
+            b.spread = std::max(b.spread, errors_[f].spread), b.bend = std::max(b.bend, errors_[f].bend);
+            b.bonus = std::max(b.bonus, bonus_[f]);
+        });
+        const Vec3 axis = fit_cone(first, last, sum, b);
+        const auto [lo, hi] = box_of(first, last);
+        // The middle of the box, moved to the middle of what the facets take along the axis.
+        double near = std::numeric_limits<double>::infinity(), far = -near;
+        each_corner(first, last, [&](const Vec3& p) {
+            near = std::min(near, dot(p, axis)), far = std::max(far, dot(p, axis));
+        });
+        const Vec3 middle = 0.5 * (lo + hi);
+        const Vec3 wanted = middle + (0.5 * (near + far) - dot(middle, axis)) * axis;
+        const double at[3] = {wanted.x, wanted.y, wanted.z}, low[3] = {lo.x, lo.y, lo.z}, high[3] = {hi.x, hi.y, hi.z};
+        double centre[3];
+        const auto outwards = [](double e) { return e * (1.0 + 1e-6) + 1e-7; };
+        for (std::size_t a = 0; a < 3; ++a) {
+            b.centre[a] = std::int16_t(std::clamp(std::round(at[a] * 32767.0), -32767.0, 32767.0));
+            centre[a] = double(float(b.centre[a]) * per_centre);
+            b.half[a] = outwards(std::max(high[a] - centre[a], centre[a] - low[a]));
+        }
+        const double c = dot({centre[0], centre[1], centre[2]}, axis);
+        b.thick = outwards(std::max(far - c, c - near));
+        return b;
+    }
+
+    // A cone about the mean direction that holds all normals; its axis as it will be read, unit.
+    Vec3 fit_cone(std::size_t first, std::size_t last, Vec3 sum, Bound& b) const {
+        const double length = norm(sum);
+        if (length > 1e-9) {
+            const double mean[3] = {sum.x / length, sum.y / length, sum.z / length};
+            for (std::size_t a = 0; a < 3; ++a) b.axis[a] = std::int8_t(std::lround(127.0 * mean[a]));
+        }
+        Vec3 axis{double(b.axis[0]), double(b.axis[1]), double(b.axis[2])};
+        axis = (1.0 / norm(axis)) * axis;
+        double c = 1.0;
+        each_facet(first, last, [&](std::size_t, std::size_t f) { c = std::min(c, dot(normals_[f], axis)); });
+        c -= 1e-6;
+        const double sine = c > 0.0 ? std::sqrt(1.0 - c * c) + 1e-6 : 1.0;
+        b.sine = std::uint8_t(std::min(std::ceil(255.0 * sine), 255.0));
+        return axis;
+    }
+
+    std::pair<Vec3, Vec3> box_of(std::size_t first, std::size_t last) const {
         constexpr double inf = std::numeric_limits<double>::infinity();
         Vec3 lo{inf, inf, inf}, hi{-inf, -inf, -inf};
-        std::vector<Vec3> normals;
-        double spread = 0.0, bend = 0.0, bonus = -inf;
-        for (std::size_t i = blocks.first * lanes; i < blocks.second * lanes; ++i) {
-            if (out_.face[i] < 0) continue;
-            const Facet& f = out_.facets[i];
-            for (const Vec3& p : f.corner) {
-                lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-                hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
-            }
-            normals.push_back(f.normal);
-            spread = std::max(spread, f.error.spread), bend = std::max(bend, f.error.bend);
-            bonus = std::max(bonus, f.bonus);
-        }
-        Node& n = out_.nodes[node];
-        n.cx[lane] = float(0.5 * (lo.x + hi.x));
-        n.cy[lane] = float(0.5 * (lo.y + hi.y));
-        n.cz[lane] = float(0.5 * (lo.z + hi.z));
-        n.ex[lane] = half_extent(lo.x, hi.x, n.cx[lane]);
-        n.ey[lane] = half_extent(lo.y, hi.y, n.cy[lane]);
-        n.ez[lane] = half_extent(lo.z, hi.z, n.cz[lane]);
-        const Cone cone = bound_directions(normals);
-        n.ax[lane] = cone.ax, n.ay[lane] = cone.ay, n.az[lane] = cone.az;
-        n.cos_a[lane] = cone.cos_a, n.sin_a[lane] = cone.sin_a;
-        n.spread[lane] = float(spread * (1.0 + 1e-6)), n.bend[lane] = float(bend * (1.0 + 1e-6));
-        n.bonus[lane] = float(bonus + 1e-6 * std::fabs(bonus));
+        each_corner(first, last, [&](const Vec3& p) {
+            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+        });
+        return {lo, hi};
+    }
+
+    template <class Do>
+    void each_facet(std::size_t first, std::size_t last, Do&& act) const {
+        for (std::size_t slot = first * lanes; slot < last * lanes; ++slot)
+            if (out_.face[slot] >= 0) act(slot, std::size_t(out_.face[slot]));
+    }
+
+    template <class Do>
+    void each_corner(std::size_t first, std::size_t last, Do&& act) const {
+        each_facet(first, last, [&](std::size_t, std::size_t f) {
+            for (const std::int32_t v : faces_[f]) act(points_[std::size_t(v)]);
+        });
     }
 
     const std::vector<Triangle>& faces_;

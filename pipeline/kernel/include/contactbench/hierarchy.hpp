@@ -5,16 +5,19 @@
 //   d2 >= h^2 / (S_ff + (l c)^2) + ((distance of the axis from the box - |w*|)+)^2 / largest V
 // with c the largest cosine that a normal of the cone makes with the force, and |w*|, V at their largest, which is at
 // the smallest. Over a box with half extents e each component of the axis' offset stays within
-// (e_y |f_z| + e_z |f_y|, ...) of the one at its centre.
+// (e_y |f_z| + e_z |f_y|, ...) of the one at its centre. Torsion moves w along the normals alone: across the cone's axis
+// V is smaller, and along the axis a flat patch is thinner than its box; both tell a wall that the axis passes beside.
 //
 // Contract
-//   units      dimensionless (see likelihood.hpp); bounds are single precision, rounded outwards, and every test keeps
-//              `slack` in hand, so a node is never dropped that holds what is looked for: guarded by the tests that
-//              compare the search with every facet looked at one by one.
-//   order      facets are permuted into blocks of eight; a subtree is a contiguous range of blocks.
+//   units      dimensionless (see likelihood.hpp); bounds are small whole numbers and single precision, rounded outwards,
+//              and every test keeps `slack` in hand, so a node is never dropped that holds what is looked for: guarded
+//              by the tests that compare the search with every facet looked at one by one.
+//   order      facets are permuted into blocks of eight; a subtree is a contiguous range of blocks. Nodes lie level by
+//              level, the lowest first; all are full but the last of each level, so no child needs to be named.
 //   complexity construction O(n log n) time, O(n) memory, allocates; a search allocates nothing.
 #pragma once
 
+#include <array>
 #include <bit>
 
 #include "likelihood.hpp"
@@ -22,25 +25,92 @@
 
 namespace contactbench {
 
-// Bounds of eight children, structure-of-arrays. Unused lanes have child == empty_child.
+// Bounds of eight children, structure-of-arrays: two lines of cache.
 struct alignas(64) Node {
-    float cx[lanes] = {}, cy[lanes] = {}, cz[lanes] = {};  // box centre
-    float ex[lanes] = {}, ey[lanes] = {}, ez[lanes] = {};  // box half extents
-    float ax[lanes] = {}, ay[lanes] = {}, az[lanes] = {};  // cone axis
-    float cos_a[lanes] = {}, sin_a[lanes] = {};            // cone half angle
-    float spread[lanes] = {}, bend[lanes] = {};            // largest MeshError inside
-    float bonus[lanes] = {};                               // largest prior inside
-    std::int32_t child[lanes] = {};                        // node, or ~leaf for a leaf
+    std::int16_t centre[3][lanes] = {};  // of the box, over 32767
+    std::uint8_t half[3][lanes] = {};    // its half extents, in steps
+    std::uint8_t thick[lanes] = {};      // how far it reaches from the centre along the cone's axis, in steps
+    std::int8_t axis[3][lanes] = {};     // of the cone of normals, of some length
+    std::uint8_t sine[lanes] = {};       // of its half angle, over 255, which stands for every normal
+    std::uint8_t bonus[lanes] = {};      // largest prior inside: see Priors
+    float step = 0.0f;
+    std::uint16_t spread = 0, bend = 0;  // largest MeshError of all children: the upper half of a float
+};
+static_assert(sizeof(Node) == 128);
+
+// Eight facets: what is looked at before a facet in full.
+struct alignas(16) Leaf {
+    std::uint16_t corner[3][3][lanes] = {};  // [corner][axis][lane], in steps from `low`
+    float normal[3][lanes] = {};
+    std::uint8_t bonus[lanes] = {};
+    float low[3] = {}, step = 0.0f;
+    float spread = 0.0f, bend = 0.0f;  // largest MeshError inside
+};
+static_assert(sizeof(Leaf) == 272);
+
+// Priors in 255 steps from the least to the largest of a model, rounded up.
+struct Priors {
+    float least = 0.0f, step = 0.0f;
+
+    CONTACTBENCH_INLINE Float8 of(const std::uint8_t* bonus) const { return load8_whole(bonus) * step + least; }
 };
 
-inline constexpr std::int32_t empty_child = std::numeric_limits<std::int32_t>::max();
+struct Hierarchy {
+    std::vector<Node> nodes;         // by level, the lowest first; the last is the root
+    std::vector<Leaf> leaves;        // each stands for eight slots
+    std::vector<std::int32_t> face;  // slot -> face number of the input, -1 for padding
+    // Nodes of the levels below each, and of all; as many as it takes to eight to that power beyond any mesh.
+    std::array<std::int32_t, 14> first{};
+    Priors priors;
+
+    std::int32_t root() const { return std::int32_t(nodes.size()) - 1; }
+
+    int level_of(std::int32_t node) const {
+        int level = 0;
+        while (node >= first[std::size_t(level) + 1]) ++level;
+        return level;
+    }
+
+    // A node, or ~leaf.
+    std::int32_t child(std::int32_t node, int lane) const {
+        const int level = level_of(node);
+        const std::int32_t nth = lanes * (node - first[std::size_t(level)]) + lane;
+        return level == 0 ? ~nth : first[std::size_t(level) - 1] + nth;
+    }
+
+    // Bit l is set where there is a child.
+    unsigned children(std::int32_t node) const {
+        const int level = level_of(node);
+        const std::int32_t below = level == 0 ? std::int32_t(leaves.size())
+                                              : first[std::size_t(level)] - first[std::size_t(level) - 1];
+        const std::int32_t left = below - lanes * (node - first[std::size_t(level)]);
+        return left >= lanes ? 0xffu : (1u << left) - 1u;
+    }
+};
+
 inline constexpr float slack = 2e-6f;  // eight times the worst rounding of the tests below
+inline constexpr float per_centre = 1.0f / 32767.0f, per_sine = 1.0f / 255.0f;
+inline constexpr std::uint8_t every_normal = 255;
+
+CONTACTBENCH_INLINE float upper_half(std::uint16_t bits) { return std::bit_cast<float>(std::uint32_t(bits) << 16); }
+
+// The boxes of a node's children.
+struct Boxes {
+    Float8 cx, cy, cz, ex, ey, ez;
+};
+
+CONTACTBENCH_INLINE Boxes boxes_of(const Node& n) {
+    return {load8_whole(n.centre[0]) * per_centre, load8_whole(n.centre[1]) * per_centre,
+            load8_whole(n.centre[2]) * per_centre, load8_whole(n.half[0]) * n.step,
+            load8_whole(n.half[1]) * n.step,       load8_whole(n.half[2]) * n.step};
+}
 
 // What a node is tested against.
 struct NodeQuery {
     float fx, fy, fz;  // f
     float ax, ay, az, bx, by, bz;
     float mx, my, mz;  // m - h f
+    float kx, ky, kz;  // m x f
     float gx, gy, gz;  // |f| by component
     float h, h2, arm2, ff;
     float cos_t;              // friction cone
@@ -61,6 +131,8 @@ inline NodeQuery make_node_query(const Query& q, double cos_cap) {
     n.bx = float(q.b.x), n.by = float(q.b.y), n.bz = float(q.b.z);
     const Vec3 m = q.m - o.h * q.f;
     n.mx = float(m.x), n.my = float(m.y), n.mz = float(m.z);
+    const Vec3 k = cross(q.m, q.f);
+    n.kx = float(k.x), n.ky = float(k.y), n.kz = float(k.z);
     n.gx = std::fabs(n.fx), n.gy = std::fabs(n.fy), n.gz = std::fabs(n.fz);
     n.h = float(o.h), n.h2 = n.h * n.h;
     n.arm2 = float(o.arm2), n.ff = float(o.ff);
@@ -90,15 +162,17 @@ inline NodeQuery make_node_query(const Query& q, double cos_cap) {
 }
 
 // A lower bound of d2 in each child.
-CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const NodeQuery& q) {
-    const Float8 cx = load8(n.cx), cy = load8(n.cy), cz = load8(n.cz);
-    const Float8 ex = load8(n.ex), ey = load8(n.ey), ez = load8(n.ez);
-    const Float8 ax = load8(n.ax), ay = load8(n.ay), az = load8(n.az);
-    const Float8 zero{}, one = zero + 1.0f, cos_a = load8(n.cos_a), sin_a = load8(n.sin_a);
+CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const Boxes& b, const NodeQuery& q) {
+    const Float8 cx = b.cx, cy = b.cy, cz = b.cz, ex = b.ex, ey = b.ey, ez = b.ez, zero{}, one = zero + 1.0f;
+    const Float8 ix = load8_whole(n.axis[0]), iy = load8_whole(n.axis[1]), iz = load8_whole(n.axis[2]);
+    const Float8 shorten = 1.0f / root(ix * ix + iy * iy + iz * iz);
+    const Float8 ax = ix * shorten, ay = iy * shorten, az = iz * shorten;
+    const Float8 sine = load8_whole(n.sine) * per_sine;
+    const Int8 any = sine >= 1.0f;
+    const Float8 sin_a = select(any, zero + 1e6f, sine), cos_a = root(larger(one - sine * sine, zero));
     // Cosines between -f and the normals: the largest, and the smallest that the friction cone allows.
     const Float8 back = smaller(larger(-(ax * q.fx + ay * q.fy + az * q.fz), zero - 1.0f), one);
     const Float8 away = root(larger(1.0f - back * back, zero));
-    const Int8 any = sin_a > 2.0f;  // the normals fill more than a half space
     const Float8 high = select(any | (back >= cos_a), one, back * cos_a + away * sin_a + slack);
     const Float8 low = select(any, zero + q.cos_t, larger(back * cos_a - away * sin_a - slack, zero + q.cos_t));
     const Float8 c2 = low * low, s2 = larger(1.0f - c2, zero), s = root(s2);
@@ -108,8 +182,8 @@ CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const NodeQuery& q) {
     const Float8 depth = magnitude(t - q.t0) + deep;
     const Float8 skew = q.skew + depth * q.skew1, share = 1.00001f * q.ff / (q.ff + q.arm2 * c2);
     Bounds bound;
-    bound.V = q.side + depth * (q.side1 + depth * q.side2) + load8(n.bend) * q.h2 * per_c2 + load8(n.spread) +
-              q.arm2 * share * s * (s + 2.0f * skew);
+    const Float8 plain = q.side + depth * (q.side1 + depth * q.side2) + upper_half(n.bend) * q.h2 * per_c2 + upper_half(n.spread);
+    bound.V = plain + q.arm2 * share * s * (s + 2.0f * skew);
     const float h = std::fabs(q.h);
     const Float8 reach = (h * 1.0001f) * (skew * share + smaller(s * per_low, s * q.steep));
     // w* is g h S_ff / (S_ff + arm^2 c^2) - h beta n across f, g = (S_fa, S_fb) / S_ff, beta = arm^2 c / (S_ff + arm^2 c^2) <= 1 / c: for
@@ -132,10 +206,36 @@ CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const NodeQuery& q) {
     const Float8 vz = magnitude(q.mz - (cx * q.fy - cy * q.fx) + wz) - (ex * q.gy + ey * q.gx) - q.margin;
     const Float8 px = larger(vx, zero), py = larger(vy, zero), pz = larger(vz, zero);
     const Float8 miss = larger(root(px * px + py * py + pz * pz) - bound.near, zero);
+    // Along u = f x axis over its length, or less: there w* and V know torsion only by what other normals turn.
+    const Float8 turned = smaller(turn, s), per_away = 1.0f / larger(away, zero + 0.25f);
+    const Float8 sx = ax + back * q.fx, sy = ay + back * q.fy, sz = az + back * q.fz;
+    const Float8 box = ex * magnitude(sx) + ey * magnitude(sy) + ez * magnitude(sz);
+    const Float8 slab = load8_whole(n.thick) * n.step + magnitude(back) * (deep - q.margin);
+    const Float8 beside = magnitude(ax * q.kx + ay * q.ky + az * q.kz + cx * sx + cy * sy + cz * sz) - smaller(box, slab);
+    const Float8 reach_u = (h * 1.0001f) * (skew * share + turned * smaller(per_low, zero + q.steep));
+    const Float8 miss_u = larger(beside * per_away - reach_u - 8.0f * q.margin, zero);
+    const Float8 V_u = plain + q.arm2 * share * turned * (turned + 2.0f * skew);
     const Float8 most = smaller(high * high, one);
-    bound.d2 = (q.h2 / (q.ff + q.arm2 * most) + miss * miss / bound.V) * (1.0f - 1e-4f);
+    bound.d2 = (q.h2 / (q.ff + q.arm2 * most) + larger(miss * miss / bound.V, miss_u * miss_u / V_u)) * (1.0f - 1e-4f);
     bound.faces_force = high >= q.cos_t - slack;
     return bound;
+}
+
+CONTACTBENCH_INLINE void corners_of(const Leaf& leaf, Float8 (&p)[3][3]) {
+    for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 3; ++i) p[c][i] = load8_whole(leaf.corner[c][i]) * leaf.step + leaf.low[i];
+}
+
+// A lower bound of d2 on each facet of a leaf, whose corners are `p`.
+CONTACTBENCH_INLINE Bounds leaf_bound(const Leaf& leaf, const Float8 (&p)[3][3], const Form<float>& form, const NodeQuery& q) {
+    Float8 n[3];
+    for (int i = 0; i < 3; ++i) n[i] = load8(leaf.normal[i]);
+    // Rounded corners move w by a step, and the depth at which the axis meets a facet by a step over the cosine; that moves
+    // w*, and V = |v(t)|^2 <= (1 + 1e-3) |v(t')|^2 + 1001 |v'|^2 (t - t')^2, as v is linear in t.
+    const float depth = leaf.step * (1.0f + 1.0f / q.cos_t), h = std::fabs(q.h);
+    const float margin = 4.0f * (q.margin + leaf.step) + 8.0f * q.skew1 * h * depth;
+    const float loose = 1001.0f * depth * depth * (q.side2 + q.arm2 * q.skew1 * q.skew1);
+    return bound_facets(p, n, {Float8{} + leaf.spread, Float8{} + leaf.bend}, form, q.cos_t, margin, loose);
 }
 
 }  // namespace contactbench

@@ -270,16 +270,20 @@ struct Bounds {
 };
 
 // Of eight facets, in single precision: the distance of w* from the furthest of the lines along a triangle's edges that
-// it lies beyond. `margin`: by how much rounding may move w.
+// it lies beyond, or along the one that tells the most. `margin`: four times how far rounding may move w; `loose`: what
+// it may take from V.
 CONTACTBENCH_INLINE Bounds bound_facets(const Float8 (&p)[3][3], const Float8 (&n)[3], const MeshError<Float8>& e,
-                                        const Form<float>& q, float cos_friction, float margin) {
+                                        const Form<float>& q, float cos_friction, float margin, float loose) {
     const auto along = [](const Float8(&v)[3], const float(&d)[3]) { return v[0] * d[0] + v[1] * d[1] + v[2] * d[2]; };
     const Float8 cosine = -along(n, q.f);
     const Float8 d0 = along(p[0], q.f), d1 = along(p[1], q.f), d2 = along(p[2], q.f);
     const Float8 plane = n[0] * p[0][0] + n[1] * p[0][1] + n[2] * p[0][2];
     const Float8 met = (along(n, q.foot) - plane) / larger(cosine, Float8{} + 1e-6f);
     const Float8 depth = smaller(larger(met, smaller(smaller(d0, d1), d2)), larger(larger(d0, d1), d2));
-    const Conditional<Float8> g = condition(q, cosine, along(n, q.a), along(n, q.b), depth, e);
+    Conditional<Float8> g = condition(q, cosine, along(n, q.a), along(n, q.b), depth, e);
+    // What correlation with the force takes from V is a difference, and as exact as what it is taken from.
+    const Float8 give = 1e-6f * (q.aa.at(depth) + q.bb.at(depth)) + loose;
+    g.aa += give, g.bb += give;
     Float8 x[3], y[3], miss2{};
     for (int i = 0; i < 3; ++i) x[i] = q.ma - along(p[i], q.b) - g.wa, y[i] = q.mb + along(p[i], q.a) - g.wb;
     for (int i = 0; i < 3; ++i) {
@@ -289,12 +293,20 @@ CONTACTBENCH_INLINE Bounds bound_facets(const Float8 (&p)[3][3], const Float8 (&
         // guarded by the slivers of the tests.
         const Float8 size = magnitude(ex) + magnitude(ey), away = magnitude(x[i]) + magnitude(y[i]);
         const Float8 beyond = larger(x[i] * ey - ex * y[i] - margin * (size + 0.5f * away), Float8{});
-        const Float8 spread = ey * ey * g.aa - 2.0f * ex * ey * g.ab + ex * ex * g.bb + margin * size * (g.aa + g.bb);
+        const Float8 spread = ey * ey * g.aa - 2.0f * ex * ey * g.ab + ex * ex * g.bb + margin * (size + margin) * (g.aa + g.bb);
         miss2 = larger(miss2, beyond * beyond / larger(spread, Float8{} + 1e-30f));
     }
+    // Along any direction u the miss counts against u' V u alone; V^-1 times the miss of the middle is about the best.
+    const Float8 mx = x[0] + x[1] + x[2], my = y[0] + y[1] + y[2];
+    const Float8 size = 1.0f / (g.aa + g.bb), ua = (g.bb * mx - g.ab * my) * size, ub = (g.aa * my - g.ab * mx) * size;
+    const Float8 nearest = smaller(smaller(ua * x[0] + ub * y[0], ua * x[1] + ub * y[1]), ua * x[2] + ub * y[2]);
+    const Float8 gap = larger(nearest - margin * (magnitude(ua) + magnitude(ub)), Float8{});
+    const Float8 uaa = ua * ua * g.aa, ubb = ub * ub * g.bb, uab = 2.0f * ua * ub * g.ab;
+    const Float8 against = uaa + ubb + uab + 1e-5f * (uaa + ubb + magnitude(uab));
+    miss2 = larger(miss2, gap * gap / larger(against, Float8{} + 1e-30f));
     Bounds bounds;
     bounds.d2 = (g.pitch2 + miss2) * (1.0f - 2e-3f);
-    bounds.wa = g.wa, bounds.wb = g.wb, bounds.near = Float8{};
+    bounds.wa = g.wa, bounds.wb = g.wb, bounds.near = Float8{} + margin;
     const Float8 half = 0.5f * (g.aa - g.bb);
     bounds.V = 0.5f * (g.aa + g.bb) + root(half * half + g.ab * g.ab);
     bounds.faces_force = cosine >= cos_friction - margin;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #if defined(__AVX__)
 #include <immintrin.h>
 #endif
@@ -22,8 +23,33 @@ typedef std::int64_t Int4 __attribute__((vector_size(32)));
 
 #define CONTACTBENCH_INLINE inline __attribute__((always_inline))
 
-// Loads from arrays aligned to their own size.
-CONTACTBENCH_INLINE Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
+typedef std::int32_t Int8 __attribute__((vector_size(32)));
+
+// Small whole numbers, widened.
+template <class T>
+CONTACTBENCH_INLINE Float8 load8_whole(const T* p) {
+#if defined(__AVX2__)
+    if constexpr (sizeof(T) == 1) {
+        const __m128i raw = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
+        return Float8(_mm256_cvtepi32_ps(std::is_signed_v<T> ? _mm256_cvtepi8_epi32(raw) : _mm256_cvtepu8_epi32(raw)));
+    } else {
+        const __m128i raw = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+        return Float8(_mm256_cvtepi32_ps(std::is_signed_v<T> ? _mm256_cvtepi16_epi32(raw) : _mm256_cvtepu16_epi32(raw)));
+    }
+#else
+    typedef T Small __attribute__((vector_size(lanes * sizeof(T))));
+    Small raw;
+    std::memcpy(&raw, p, sizeof raw);
+    return __builtin_convertvector(__builtin_convertvector(raw, Int8), Float8);
+#endif
+}
+
+CONTACTBENCH_INLINE Float8 load8(const float* p) {  // aligned to a float alone
+    Float8 out;
+    std::memcpy(&out, p, sizeof out);
+    return out;
+}
+// From an array aligned to 32 bytes.
 CONTACTBENCH_INLINE Double4 load4(const double* p) { return *reinterpret_cast<const Double4*>(p); }
 
 // Spelled out where GCC would take two instructions for one.
@@ -44,8 +70,6 @@ CONTACTBENCH_INLINE Float8 root(Float8 a) {
     return out;
 }
 #endif
-
-typedef std::int32_t Int8 __attribute__((vector_size(32)));
 
 // Bit l is set when lane l is true.
 CONTACTBENCH_INLINE unsigned mask_of(Int8 a) {

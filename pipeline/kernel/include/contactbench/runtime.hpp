@@ -108,9 +108,9 @@ inline ZeroWatch::Places zero_places(const Model& m) {
     double far[6];
     std::fill_n(far, 6, -HUGE_VAL);
     const double least = m.most_bonus > 0.0 ? 0.0 : -HUGE_VAL;
-    for (std::size_t s = 0; s < m.tree.face.size(); ++s) {
-        if (m.tree.face[s] < 0 || !(m.tree.facets[s].bonus > least)) continue;
-        for (const std::int32_t v : m.tree.triangle[s]) {
+    for (const std::int32_t face : m.tree.face) {
+        if (face < 0 || !(m.bonus(face) > least)) continue;
+        for (const std::int32_t v : m.faces[std::size_t(face)]) {
             const Vec3 p = m.vertices[std::size_t(v)];
             const double along[6] = {p.x, -p.x, p.y, -p.y, p.z, -p.z};
             for (std::size_t i = 0; i < 6; ++i)

@@ -20,8 +20,8 @@ public:
         for (std::size_t slot = 0; slot < model.tree.face.size(); ++slot) {
             if (model.tree.face[slot] < 0) continue;  // padding stays zero, and 0 < 0 is never true
             Block& block = blocks_[slot / lanes];
-            const Triangle& t = model.tree.triangle[slot];
-            const Facet& facet = model.tree.facets[slot];
+            const Triangle& t = model.faces[std::size_t(model.tree.face[slot])];
+            const Facet facet = model.facet(model.tree.face[slot]);
             const std::size_t lane = slot % lanes;
             for (std::size_t e = 0; e < 3; ++e) {
                 // Computed upwards and negated for the twin, so that both halves agree to the bit.
@@ -47,7 +47,7 @@ public:
             alignas(64) double w[3][lanes];
             for (unsigned mask = accept_mask(blocks_[b], f, m, w); mask != 0; mask &= mask - 1) {
                 const std::size_t l = std::size_t(std::countr_zero(mask)), slot = b * lanes + l;
-                const double cosine = -dot(model.tree.facets[slot].normal, f);
+                const double cosine = -dot(model.normals[std::size_t(model.tree.face[slot])], f);
                 if (cosine < std::max(cos_friction, 1e-9) || (found && cosine <= out.cosine)) continue;
                 found = true;
                 out = solution(model, slot, {w[0][l], w[1][l], w[2][l]});
@@ -65,14 +65,14 @@ private:
     };
 
     static Candidate solution(const Model& model, std::size_t slot, std::array<double, 3> w) {
-        const Triangle& t = model.tree.triangle[slot];
+        const Triangle& t = model.faces[std::size_t(model.tree.face[slot])];
         const auto vertex = [&](std::size_t c) { return model.vertices[std::size_t(t[c])]; };
         const double total = w[0] + w[1] + w[2];
         Candidate c;
         c.face = model.tree.face[slot];
         c.slot = std::int32_t(slot);
         c.normal = model.normals[std::size_t(c.face)];
-        c.region = model.region[std::size_t(c.face)];
+        c.region = model.region(c.face);
         c.point = (w[1] / total) * vertex(0) + ((w[2] / total) * vertex(1) + (w[0] / total) * vertex(2));
         return c;
     }

@@ -31,15 +31,15 @@ struct Found {
 };
 
 inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const Hunt& hunt, Found& best) {
-    const Facet& facet = m.tree.facets[slot];
-    if (!(-dot(facet.normal, q.f) >= hunt.cos_friction)) return;
+    const std::int32_t face = m.tree.face[slot];
+    if (!(-dot(m.normals[std::size_t(face)], q.f) >= hunt.cos_friction)) return;
+    const Facet facet = m.facet(face);
     const FacetFit fit = fit_facet(facet.corner, facet.normal, facet.error, q);
     if (!(fit.d2 <= hunt.most_misfit)) return;
-    const std::int32_t face = m.tree.face[slot];
-    const double prior = std::max(facet.bonus, hunt.least_prior);
+    const double bonus = m.bonus(face), prior = std::max(bonus, hunt.least_prior);
     double key = fit.d2 - prior;
     if (!(key - hunt.follow_cost <= hunt.limit)) return;
-    const Triangle& t = m.tree.triangle[slot];
+    const Triangle& t = m.faces[std::size_t(face)];
     const auto corner = [&](std::size_t c) { return fit.weight[c] * m.vertices[std::size_t(t[c])]; };
     const Vec3 point = corner(0) + (corner(1) + corner(2));
     double follow = 0.0;
@@ -56,11 +56,11 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     c.cosine = fit.cosine;
     c.misfit = fit.d2;
     c.torque = fit.torsion * q.force * m.frame.scale;
-    c.prior = facet.bonus;
+    c.prior = bonus;
     c.follow = follow;
     c.face = face;
     c.slot = std::int32_t(slot);
-    c.region = m.region[std::size_t(face)];
+    c.region = m.region(face);
     for (std::size_t i = 0; i < 3; ++i)
         if (fit.weight[i] == 1.0) c.vertex = t[i];
 }
@@ -78,7 +78,7 @@ inline Near near_touch(const Model& m, Vec3 centre, Vec3 slope, double radius) {
             std::max(r * (1.0f - 1e-5f) - 2.0f * slack, 0.0f), r * (1.0f + 1e-5f) + 2.0f * slack};
 }
 
-inline float rounded_up(double x) { return x < 1e30 ? float(x + 1e-6 * std::fabs(x) + 1e-6) : 1e30f; }
+inline float beyond_rounding(double x) { return x < 1e30 ? float(x + 1e-6 * std::fabs(x) + 1e-6) : 1e30f; }
 
 // What a descent looked at: the eight children of a node that were not opened themselves, or the facets of a leaf
 // (node < 0), with their bounds.
@@ -93,9 +93,9 @@ struct Opened {
     int count = 0;
     bool all = true;  // nothing was forgotten
 
-    Place* add(const Bounds& bounds, std::int32_t node) {
+    Place* add(const Bounds& bounds, std::int32_t node, unsigned children) {
         if (count == capacity) return all = false, nullptr;
-        place[count] = {bounds, node, 0xffu};
+        place[count] = {bounds, node, children};
         return &place[count++];
     }
 };
@@ -103,9 +103,9 @@ struct Opened {
 class Descent {
 public:
     Descent(const Model& m, const Query& q, const Form<float>& form, const NodeQuery& node, const Hunt& hunt, Found& best)
-        : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), most_misfit_(rounded_up(hunt.most_misfit)),
+        : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), most_misfit_(beyond_rounding(hunt.most_misfit)),
           least_prior_(float(std::max(hunt.least_prior, -1e30))),
-          follow_cost_(hunt.previous ? rounded_up(hunt.follow_cost) : 0.0f) {
+          follow_cost_(hunt.previous ? beyond_rounding(hunt.follow_cost) : 0.0f) {
         for (int i = 0; i < hunt.away_count; ++i) away_[i] = near_touch(m, hunt.away[i].point, hunt.away[i].slope, hunt.radius[i]);
         if (hunt.previous) follow_ = near_touch(m, *hunt.previous, {}, hunt.follow_distance);
         if (hunt.away_count == 0) return;
@@ -117,7 +117,7 @@ public:
     // From the root; what is looked at is kept.
     void from_root(Opened* opened) {
         opened_ = opened;
-        open(0);
+        open(m_.tree.root());
         run();
     }
 
@@ -129,9 +129,8 @@ public:
                 continue;
             }
             const Node& node = m_.tree.nodes[std::size_t(p.node)];
-            const Float8 prior = larger(load8(node.bonus), Float8{} + least_prior_) + follow_cost_;
-            if ((mask_of(p.bounds.d2 - prior <= cut()) & p.lanes) == 0) continue;
-            push(p.node, node, node_keys(node, p.bounds), p.lanes, nullptr);
+            if ((mask_of(p.bounds.d2 - prior(node.bonus) - follow_cost_ <= cut()) & p.lanes) == 0) continue;
+            push(p.node, node_keys(node, boxes_of(node), p.bounds), p.lanes, nullptr);
         }
         run();
     }
@@ -144,13 +143,13 @@ private:
     };
 
     // Keys beyond this are of no use: single precision, rounded up.
-    float cut() const { return rounded_up(std::min(best_.key, hunt_.limit)); }
+    float cut() const { return beyond_rounding(std::min(best_.key, hunt_.limit)); }
 
     // The least key first, wherever it is in the tree: going down the first good branch to its end would look at all
     // that is better than the best so far, which is bad at first.
     void run() {
         while (size_ > 0) {
-            std::pop_heap(heap_, heap_ + size_, later);
+            std::pop_heap(heap_, heap_ + size_, Later{});
             const Place p = heap_[--size_];
             if (p.key > cut()) {
                 size_ = 0;
@@ -160,10 +159,16 @@ private:
         }
     }
 
-    static bool later(const Place& a, const Place& b) { return a.key > b.key; }
+    struct Later {
+        bool operator()(const Place& a, const Place& b) const { return a.key > b.key; }
+    };
+
+    CONTACTBENCH_INLINE Float8 prior(const std::uint8_t* bonus) const {
+        return larger(m_.tree.priors.of(bonus), Float8{} + least_prior_);
+    }
 
     void visit(const Place& p) {
-        const std::int32_t child = m_.tree.nodes[std::size_t(p.node)].child[p.lane];
+        const std::int32_t child = m_.tree.child(p.node, p.lane);
         if (p.from) p.from->lanes &= ~(1u << p.lane);
         if (child < 0) judge_leaf(std::size_t(~child));
         else open(child);
@@ -171,14 +176,16 @@ private:
 
     void open(std::int32_t index) {
         const Node& node = m_.tree.nodes[std::size_t(index)];
-        const Bounds bounds = node_bound(node, node_);
-        push(index, node, node_keys(node, bounds), 0xffu, opened_ ? opened_->add(bounds, index) : nullptr);
+        const Boxes boxes = boxes_of(node);
+        const Bounds bounds = node_bound(node, boxes, node_);
+        const unsigned children = m_.tree.children(index);
+        push(index, node_keys(node, boxes, bounds), children, opened_ ? opened_->add(bounds, index, children) : nullptr);
     }
 
     // Lower bounds of the key in each child; 1e38 where there can be nothing.
-    CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Bounds& bounds) const {
-        const Float8 cx = load8(n.cx), cy = load8(n.cy), cz = load8(n.cz);
-        const Float8 ex = load8(n.ex), ey = load8(n.ey), ez = load8(n.ez), zero{}, never = zero + 1e38f;
+    CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Boxes& box, const Bounds& bounds) const {
+        const auto& [cx, cy, cz, ex, ey, ez] = box;
+        const Float8 zero{}, never = zero + 1e38f;
         Float8 d2 = bounds.d2;
         for (int i = 0; i < hunt_.away_count; ++i) {
             const Near& b = away_[i];
@@ -191,7 +198,7 @@ private:
             d2 = larger(d2, beyond(magnitude(cx * q.fx + cy * q.fy + cz * q.fz - depth_) +
                                        (ex * q.gx + ey * q.gy + ez * q.gz), bounds));
         }
-        Float8 key = d2 - larger(load8(n.bonus), zero + least_prior_);
+        Float8 key = d2 - prior(n.bonus);
         if (follow_cost_ > 0.0f) {
             const Float8 x = larger(magnitude(cx - follow_.x) - ex, zero), y = larger(magnitude(cy - follow_.y) - ey, zero),
                          z = larger(magnitude(cz - follow_.z) - ez, zero);
@@ -209,30 +216,25 @@ private:
         return miss * miss / bounds.V * (1.0f - 2e-3f);
     }
 
-    void push(std::int32_t index, const Node& node, Float8 keys, unsigned lanes_left, Opened::Place* kept) {
+    void push(std::int32_t index, Float8 keys, unsigned lanes_left, Opened::Place* kept) {
         for (unsigned mask = mask_of(keys <= cut()) & lanes_left; mask != 0; mask &= mask - 1) {
             const int l = std::countr_zero(mask);
-            if (node.child[l] == empty_child) continue;
             const Place place{keys[l], index, l, kept};
             if (size_ == capacity) {  // as deep as the tree at most
                 visit(place);
                 continue;
             }
             heap_[size_++] = place;
-            std::push_heap(heap_, heap_ + size_, later);
+            std::push_heap(heap_, heap_ + size_, Later{});
         }
     }
 
     void judge_leaf(std::size_t index) {
         const Leaf& leaf = m_.tree.leaves[index];
-        Float8 p[3][3], n[3];
-        for (int c = 0; c < 3; ++c) {
-            n[c] = load8(leaf.normal[c]);
-            for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
-        }
-        const Bounds bounds =
-            bound_facets(p, n, {load8(leaf.spread), load8(leaf.bend)}, form_, node_.cos_t, 4.0f * node_.margin);
-        if (opened_) opened_->add(bounds, ~std::int32_t(index));
+        Float8 p[3][3];
+        corners_of(leaf, p);
+        const Bounds bounds = leaf_bound(leaf, p, form_, node_);
+        if (opened_) opened_->add(bounds, ~std::int32_t(index), 0);
         judge_facets(index, bounds);
     }
 
@@ -240,10 +242,10 @@ private:
         const Leaf& leaf = m_.tree.leaves[index];
         const Float8 never = Float8{} + 1e38f;
         Float8 d2 = bounds.d2;
-        const Float8 prior = larger(load8(leaf.bonus), Float8{} + least_prior_) + follow_cost_;
-        if (mask_of(bounds.faces_force & (d2 - prior <= cut()) & (d2 <= most_misfit_)) == 0) return;
+        const Float8 better = prior(leaf.bonus) + follow_cost_;
+        if (mask_of(bounds.faces_force & (d2 - better <= cut()) & (d2 <= most_misfit_)) == 0) return;
         if (hunt_.away_count > 0) d2 = away(leaf, bounds);
-        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - prior, never);
+        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, never);
         for (unsigned left = mask_of(key <= cut()); left != 0;) {
             int l = std::countr_zero(left);
             for (unsigned mask = left & (left - 1); mask != 0; mask &= mask - 1)
@@ -258,11 +260,11 @@ private:
     // The bounds of d2 once more, away from what was found: a facet that is all near it has its best touch there.
     CONTACTBENCH_INLINE Float8 away(const Leaf& leaf, const Bounds& bounds) const {
         Float8 p[3][3], d2 = bounds.d2, along{};
+        corners_of(leaf, p);
         for (int c = 0; c < 3; ++c) {
-            for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
             along = larger(along, magnitude(p[c][0] * node_.fx + p[c][1] * node_.fy + p[c][2] * node_.fz - depth_));
         }
-        d2 = larger(d2, beyond(along, bounds));
+        d2 = larger(d2, beyond(along + leaf.step, bounds));
         for (int i = 0; i < hunt_.away_count; ++i) {
             const Near& b = away_[i];
             Float8 farthest{};
@@ -271,7 +273,8 @@ private:
                 const Float8 down = x * b.sx + y * b.sy + z * b.sz;
                 farthest = larger(farthest, x * x + y * y + z * z - down * down);
             }
-            d2 = select(farthest < b.inner * b.inner, Float8{} + 1e38f, d2);
+            const float inner = std::max(b.inner - leaf.step, 0.0f);
+            d2 = select(farthest < inner * inner, Float8{} + 1e38f, d2);
         }
         return d2;
     }

@@ -110,7 +110,7 @@ private:
     // Of no face: none, for who found the point knows another surface.
     MeshError<double> mesh_error(std::int32_t face) const {
         if (face < 0) return {};
-        return model_->tree.facets[std::size_t(model_->slot[std::size_t(face)])].error;
+        return model_->errors[std::size_t(face)];
     }
 
     // `a` comes cleared.

@@ -344,8 +344,8 @@ class StudyReport:
         lines = [f"# {self.title}\n\n{self._settings}\n", _line(_HEADINGS), "|---" * len(_HEADINGS) + "|"]
         lines += [_line([cell.replace("\n", " ") for cell in figure.cells]) for figure in self.figures]
         parts = ["\n".join([*lines, "", *self.notes]).rstrip() + "\n"]
-        parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
         parts += [f"![{name}]({name})\n" for name in self.files if name.endswith(".png")]
+        parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
         if self.differences:
             parts.append("## What differs\n\n" + "".join(f"- {sentence}\n" for sentence in self.differences))
         return "\n".join(parts)

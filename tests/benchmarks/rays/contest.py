@@ -13,7 +13,7 @@ import time
 from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from benchmarks.rays import page
@@ -68,9 +68,11 @@ class OnMesh:
     """What was measured on one mesh."""
 
     facets: int  # as asked for
-    # contender's key -> (rounds,) µs a touch or ray: processor time of one thread, wall time of two
+    # contender's key -> (rounds,) µs a touch or ray: taken: processor time of one thread, wall time of two; walls: by
+    # the wall; works: processor time of all threads
     taken: dict[tuple[str, str, str], Float]
-    walls: dict[tuple[str, str, str], Float]  # the same, wall time
+    walls: dict[tuple[str, str, str], Float]
+    works: dict[tuple[str, str, str], Float]
     # whose -> (touches,) distance from the true point, m; inf for no answer
     errors: dict[str, Float]
     bounds: dict[str, Float]  # whose -> (touches,) what noise alone allows, m
@@ -135,30 +137,34 @@ def run(
 
 def _on_mesh(facets: int, there: Field, asked: Questions, truth: Touches, rounds: int) -> OnMesh:
     contenders = list(there.contenders(asked))
-    taken: Mapping[tuple[str, str, str], list[float]] = defaultdict(list)
-    walls: Mapping[tuple[str, str, str], list[float]] = defaultdict(list)
+    clocks: Mapping[tuple[str, str, str], list[Clocked]] = defaultdict(list)
     for done in range(-1, rounds):
         for each in contenders:
-            seconds, wall = _timed(each, done + 1, len(asked.wrenches))
+            clocked = _timed(each, done + 1, len(asked.wrenches))
             if done >= 0:  # the first round warms everything up
-                taken[each.key].append(seconds)
-                walls[each.key].append(wall)
+                clocks[each.key].append(clocked)
     errors, bounds, hits = _errors(asked, truth)
-    arrays = ({key: np.array(values) for key, values in each.items()} for each in (taken, walls))
-    return OnMesh(facets, *arrays, errors, bounds, hits)
+    taken, walls, works = ({key: np.array(each)[:, i] for key, each in clocks.items()} for i in range(3))
+    return OnMesh(facets, taken, walls, works, errors, bounds, hits)
 
 
-def _timed(contender: Contender, turn: int, rows: int) -> tuple[float, float]:
-    """Return µs a row: of the processor's time, or by the wall for two threads; and by the wall."""
+class Clocked(NamedTuple):
+    """µs a row by three clocks; see `OnMesh`."""
+
+    taken: float
+    wall: float
+    work: float
+
+
+def _timed(contender: Contender, turn: int, rows: int) -> Clocked:
     count = _ALONE if contender.calls == SINGLE else _TOGETHER
     start = turn * count % (rows - count)  # new places in each round
     ask = contender.ready(slice(start, start + count))
-    clock = time.process_time if contender.own_threads else time.thread_time
-    wall, own = time.perf_counter(), clock()
+    clocks = time.thread_time, time.perf_counter, time.process_time
+    begun = [clock() for clock in clocks]
     ask()
-    own, wall = clock() - own, time.perf_counter() - wall
-    per_row = 1e6 / count
-    return per_row * (wall if contender.calls == PAIR else own), per_row * wall
+    own, wall, work = (1e6 / count * (clock() - begin) for clock, begin in zip(clocks, begun, strict=True))
+    return Clocked(work if contender.own_threads else wall if contender.calls == PAIR else own, wall, work)
 
 
 def _errors(asked: Questions, truth: Touches) -> tuple[dict[str, Float], dict[str, Float], float]:
@@ -224,11 +230,15 @@ def _threads(measured: list[OnMesh]) -> list[Figure]:
         for name, query in ((OURS, ""), (HEADERS, ""), (OPEN3D, FIRST), (BVH, ALL)):
             if (name, query, PAIR) not in mesh.taken or mesh.facets not in _JUDGED:
                 continue
-            one, two = mesh.walls[name, query, BATCH], mesh.walls[name, query, PAIR]
+            alone, both = (name, query, BATCH), (name, query, PAIR)
+            one, two = mesh.walls[alone], mesh.walls[both]
             title = f"two threads, times one: {name} {query}".rstrip()
             least = _SPEED_UP if name == OURS else None
             best = float(one.min() / two.min())
             figures.append(_figure(mesh.facets, title, one / two, measured=best, least=least))
+            if name == OURS:
+                free = 2 * mesh.works[alone] / mesh.works[both]
+                figures.append(_figure(mesh.facets, f"{title}, if both had a core of their own", free))
     return figures
 
 

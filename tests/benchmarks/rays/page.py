@@ -20,6 +20,7 @@ from benchmarks.rays.contenders import (
 )
 from matplotlib import rc_context
 from matplotlib.figure import Figure as Picture
+from matplotlib.ticker import FormatStrFormatter, NullFormatter
 
 from contactbench.pipeline.study.pages import COLOURS, STYLE, origin, png
 from contactbench.pipeline.study.report import Sheet, StudyReport
@@ -48,13 +49,15 @@ _ABOUT = (
     " All are asked in turn, round by round, each round at new places; ratios are of the same round. Times are"
     " processor time of the thread that computes, for two threads by the wall; FCPW's batch takes all cores, and the"
     " time of all of them counts. Two threads are judged by the least time of one over the least time of two, because"
-    " whatever else runs only adds to either. 99th percentiles are of single solves, by the wall."
+    " whatever else runs only adds to either; what they would be with a core each is twice the processor time of one"
+    " over that of both. Single solves are timed by the wall, the same touches in each round, and judged by each"
+    " touch's median over the rounds, so that interrupts do not count."
 )
 _ABOUT_ERRORS = (
     "A ray tracer answers no wrench, but a line, and has no doubt: where the line of force meets the probe more than"
     " once, its first hit may be the wrong one, without a warning. All hits mostly hold the right one, but do not say"
     " which it is: in the table of errors who knows the truth has chosen. The bound is what noise alone leaves unknown"
-    " of a touch."
+    " of a touch. In the picture, of all hits the first counts; each line runs over the sizes of the mesh."
 )
 
 
@@ -195,9 +198,13 @@ def _picture(measured: Sequence[OnMesh]) -> bytes:
                 if key[0] in _MARKS:
                     _line(axes, measured, key)
             axes.set(xscale="log", xlabel="µs each", title=calls, ylim=(0, None))
-        first = picture.axes[0]
-        first.set_ylabel("mean error, mm")
-        picture.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=7)
+            axes.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+            axes.xaxis.set_minor_formatter(NullFormatter())
+        picture.axes[0].set_ylabel("mean error, mm")
+        shown: dict[str, Any] = {}
+        for axes in picture.axes:
+            shown |= {line.get_label(): line for line in axes.get_legend_handles_labels()[0]}
+        picture.legend(shown.values(), shown, loc="outside lower center", ncols=4, fontsize=7)
         return png(picture)
 
 
@@ -218,3 +225,9 @@ def _line(axes: Any, measured: Sequence[OnMesh], key: tuple[str, str, str]) -> N
             1e3 * float(np.mean(off[np.isfinite(off)])) for off in (mesh.errors[whose] for mesh in measured)
         ]
         axes.plot(us, mm, ":" if face == "none" else "-", marker=mark, c=colour, mfc=face, label=label)
+        if whose == OURS_SURE:
+            for mesh, x, y in zip(measured, us, mm, strict=True):
+                text = f"{mesh.facets:,} facets" if mesh is measured[0] else f"{mesh.facets:,}"
+                axes.annotate(
+                    text, (x, y), (0, 4), textcoords="offset points", fontsize=6, c=colour, rotation=60
+                )

@@ -46,12 +46,13 @@ from contactbench.pipeline.study.speed import every_hit
 from contactbench.pipeline.study.sweep.scores import bound_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.simulation import Touches
 
+    Key = tuple[str, str, str]
     Float = NDArray[np.float64]
 
 SIZES = (500, 1_000, 2_000, 20_000, 100_000, 1_000_000)
@@ -63,25 +64,39 @@ _OVER_ALL, _OVER_FIRST, _SPEED_UP = 1.2, 3.0, 1.8
 _COLD_TAIL, _TRACKING_TAIL, _GROWTH, _BYTES = 3.0, 4.0, 2.5, 110.0
 
 
+class Clocked(NamedTuple):
+    """What a touch or ray took, µs."""
+
+    taken: float  # what is compared: processor time of the thread that computes, for two threads by the wall
+    wall: float
+    work: float  # processor time of all threads
+
+
 @dataclass(frozen=True, eq=False)
 class OnMesh:
-    """What was measured on one mesh."""
+    """Everybody on one mesh, and what was measured."""
 
     facets: int  # as asked for
-    # contender's key -> (rounds,) µs a touch or ray: taken: processor time of one thread, wall time of two; walls: by
-    # the wall; works: processor time of all threads
-    taken: dict[tuple[str, str, str], Float]
-    walls: dict[tuple[str, str, str], Float]
-    works: dict[tuple[str, str, str], Float]
-    # whose -> (touches,) distance from the true point, m; inf for no answer
-    errors: dict[str, Float]
-    bounds: dict[str, Float]  # whose -> (touches,) what noise alone allows, m
-    hits: float  # that a ray has on average; NaN where nobody lists them
-    # "cold", "tracking" -> (rounds, touches) ns of single solves by the wall, the same touches in each round
-    solves: dict[str, Float] = field(default_factory=dict)
+    asked: Questions
+    contenders: list[Contender]
+    clocks: dict[Key, list[Clocked]] = field(default_factory=lambda: defaultdict(list))  # one for each round
+    # page.COLD, page.TRACKING -> for each round (touches,) ns of single solves by the wall, the same touches each time
+    solves: dict[str, list[Float]] = field(default_factory=lambda: defaultdict(list))
+
+    def taken(self, key: Key) -> Float:
+        """What is compared (rounds,), µs a touch or ray."""
+        return np.array([each.taken for each in self.clocks[key]])
+
+    def walls(self, key: Key) -> Float:
+        """The same by the wall."""
+        return np.array([each.wall for each in self.clocks[key]])
+
+    def works(self, key: Key) -> Float:
+        """The same, processor time of all threads."""
+        return np.array([each.work for each in self.clocks[key]])
 
     def medians(self, name: str) -> Float:
-        """Median of each round (rounds,), ns."""
+        """Median solve of each round (rounds,), ns."""
         return np.asarray(np.median(self.solves[name], axis=1))
 
     def tails(self, name: str) -> Float:
@@ -89,9 +104,7 @@ class OnMesh:
         return np.asarray(np.percentile(self.solves[name], 99, axis=1) / self.medians(name))
 
     def own_tail(self, name: str) -> float:
-        """
-        Return the same of the touches themselves: each by its median over the rounds, so that interrupts do not count.
-        """
+        """The same of the touches themselves: each by its median over the rounds, so that interrupts do not count."""
         each = np.median(self.solves[name], axis=0)
         return float(np.percentile(each, 99) / np.median(each))
 
@@ -118,42 +131,37 @@ def run(
     truth = draw_touches(surface, touches, rng, above=0.02)
     wrenches = add_noise(truth.wrenches, noise, rng)
     stream = add_noise(draw_slide(surface, touches, rng).wrenches, noise, rng)
-    measured, solvers = [], []
     with tempfile.TemporaryDirectory(prefix="contactbench-rays-") as folder:
         there = Field(Path(folder), bvh)
+        measured = []
         for count in facets:
-            progress(f"{count:,} facets")
-            solvers.append(ContactSolver(Probe.from_arrays(*assets.make(probe, count)), noise))
-            asked = Questions.of(solvers[-1], wrenches, stream)
-            measured.append(_on_mesh(count, there, asked, truth, rounds))
-    progress("one solve after the other on all sizes")
-    _each_solve(measured, solvers, wrenches, stream, rounds)
+            progress(f"everybody on {count:,} facets")
+            solver = ContactSolver(Probe.from_arrays(*assets.make(probe, count)), noise)
+            asked = Questions.of(solver, wrenches, stream)
+            measured.append(OnMesh(count, asked, list(there.contenders(asked))))
+        # All sizes in turn, so that what else the machine does falls on all. The first round warms everything up.
+        for done in range(-1, rounds):
+            progress(f"round {done + 1} of {rounds}")
+            for mesh in measured:
+                _round(mesh, done)
     progress(f"memory of {max(facets):,} facets")
     size = bytes_per_facet(probe, max(facets))
     figures = [*_ratios(measured), *_threads(measured), *_evenness(measured), *_memory(max(facets), size)]
     settings = {"probe": probe, "touches": f"{touches:,}", "rounds": rounds, "seed": seed}
-    return page.report(settings, measured, tuple(figures), there.absent)
+    errors = {mesh.facets: _errors(mesh.asked, truth) for mesh in measured}
+    return page.report(settings, measured, errors, tuple(figures), there.absent)
 
 
-def _on_mesh(facets: int, there: Field, asked: Questions, truth: Touches, rounds: int) -> OnMesh:
-    contenders = list(there.contenders(asked))
-    clocks: Mapping[tuple[str, str, str], list[Clocked]] = defaultdict(list)
-    for done in range(-1, rounds):
-        for each in contenders:
-            clocked = _timed(each, done + 1, len(asked.wrenches))
-            if done >= 0:  # the first round warms everything up
-                clocks[each.key].append(clocked)
-    errors, bounds, hits = _errors(asked, truth)
-    taken, walls, works = ({key: np.array(each)[:, i] for key, each in clocks.items()} for i in range(3))
-    return OnMesh(facets, taken, walls, works, errors, bounds, hits)
-
-
-class Clocked(NamedTuple):
-    """µs a row by three clocks; see `OnMesh`."""
-
-    taken: float
-    wall: float
-    work: float
+def _round(mesh: OnMesh, done: int) -> None:
+    asked = mesh.asked
+    clocked = {each.key: _timed(each, done + 1, len(asked.wrenches)) for each in mesh.contenders}
+    cold = asked.solver.time_each(asked.wrenches[:_TOGETHER])
+    tracking = asked.solver.time_tracking(asked.stream[:_TOGETHER])
+    if done >= 0:
+        for key, each in clocked.items():
+            mesh.clocks[key].append(each)
+        mesh.solves[page.COLD].append(cold)
+        mesh.solves[page.TRACKING].append(tracking)
 
 
 def _timed(contender: Contender, turn: int, rows: int) -> Clocked:
@@ -167,43 +175,27 @@ def _timed(contender: Contender, turn: int, rows: int) -> Clocked:
     return Clocked(work if contender.own_threads else wall if contender.calls == PAIR else own, wall, work)
 
 
-def _errors(asked: Questions, truth: Touches) -> tuple[dict[str, Float], dict[str, Float], float]:
+def _errors(asked: Questions, truth: Touches) -> page.Errors:
     bound = np.sqrt(bound_of(truth, np.sqrt(np.diag(asked.solver.noise.covariance))))
     batch = asked.solver.locate_batch(asked.wrenches)
     ours, sure = _off(batch.points, truth.points), batch.accepted
-    errors, bounds = {page.OURS_ALL: ours, page.OURS_SURE: ours[sure]}, {page.OURS_SURE: bound[sure]}
-    hits = float("nan")
+    found = {page.OURS_ALL: (ours, bound), page.OURS_SURE: (ours[sure], bound[sure])}
     try:
         embree = EmbreeAxis(asked.solver)
     except InputError:
-        pass  # who is absent is told already
-    else:
-        errors[page.RAY_FIRST] = _off(embree.locate_batch(asked.wrenches).points, truth.points)
-        rays, far = every_hit(embree, *asked.rays)
-        origins, directions = (each[rays].astype(np.float64) for each in asked.rays)
-        points = origins + far[:, None] * directions + asked.axis.centre
-        best = np.full(len(truth), np.inf)
-        np.minimum.at(best, rays, _off(points, truth.points[rays]))
-        errors[page.RAY_BEST] = best
-        hits = len(rays) / len(truth)
-    return errors, {name: bounds.get(name, bound) for name in errors}, hits
+        return page.Errors(found, float("nan"))  # who is absent is told already
+    found[page.RAY_FIRST] = _off(embree.locate_batch(asked.wrenches).points, truth.points), bound
+    rays, far = every_hit(embree, *asked.rays)
+    origins, directions = (each[rays].astype(np.float64) for each in asked.rays)
+    points = origins + far[:, None] * directions + asked.axis.centre
+    best = np.full(len(truth), np.inf)
+    np.minimum.at(best, rays, _off(points, truth.points[rays]))
+    found[page.RAY_BEST] = best, bound
+    return page.Errors(found, len(rays) / len(truth))
 
 
 def _off(points: Float, true: Float) -> Float:
     return np.nan_to_num(np.linalg.norm(points - true, axis=1), nan=np.inf)
-
-
-def _each_solve(
-    measured: list[OnMesh], solvers: list[ContactSolver], wrenches: Float, stream: Float, rounds: int
-) -> None:
-    """Time each solve by itself, all sizes in turn."""
-    for mesh in measured:
-        mesh.solves.update((name, np.empty((rounds, _TOGETHER))) for name in (page.COLD, page.TRACKING))
-    for done in range(-1, rounds):
-        for mesh, solver in zip(measured, solvers, strict=True):
-            cold, tracking = solver.time_each(wrenches[:_TOGETHER]), solver.time_tracking(stream[:_TOGETHER])
-            if done >= 0:
-                mesh.solves[page.COLD][done], mesh.solves[page.TRACKING][done] = cold, tracking
 
 
 def _ratios(measured: list[OnMesh]) -> list[Figure]:
@@ -215,12 +207,12 @@ def _ratios(measured: list[OnMesh]) -> list[Figure]:
     )
     figures = []
     for mesh in measured:
-        ours = mesh.taken[OURS, "", BATCH]
+        ours = mesh.taken((OURS, "", BATCH))
         for name, query, most in rivals:
             key = name, query, BATCH
-            if key in mesh.taken and mesh.facets in _JUDGED:
+            if key in mesh.clocks and mesh.facets in _JUDGED:
                 title = f"batch, one thread: a touch over {name}, {query}"
-                figures.append(_figure(mesh.facets, title, ours / mesh.taken[key], most=most))
+                figures.append(_figure(mesh.facets, title, ours / mesh.taken(key), most=most))
     return figures
 
 
@@ -228,16 +220,16 @@ def _threads(measured: list[OnMesh]) -> list[Figure]:
     figures = []
     for mesh in measured:
         for name, query in ((OURS, ""), (HEADERS, ""), (OPEN3D, FIRST), (BVH, ALL)):
-            if (name, query, PAIR) not in mesh.taken or mesh.facets not in _JUDGED:
+            if (name, query, PAIR) not in mesh.clocks or mesh.facets not in _JUDGED:
                 continue
             alone, both = (name, query, BATCH), (name, query, PAIR)
-            one, two = mesh.walls[alone], mesh.walls[both]
+            one, two = mesh.walls(alone), mesh.walls(both)
             title = f"two threads, times one: {name} {query}".rstrip()
             least = _SPEED_UP if name == OURS else None
             best = float(one.min() / two.min())
             figures.append(_figure(mesh.facets, title, one / two, measured=best, least=least))
             if name == OURS:
-                free = 2 * mesh.works[alone] / mesh.works[both]
+                free = 2 * mesh.works(alone) / mesh.works(both)
                 figures.append(_figure(mesh.facets, f"{title}, if both had a core of their own", free))
     return figures
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -61,9 +62,24 @@ _ABOUT_ERRORS = (
 )
 
 
+@dataclass(frozen=True, eq=False)
+class Errors:
+    """How far answers on one mesh are from the true touches."""
+
+    # whose -> (touches,) distances, m, inf for no answer, and what noise alone leaves unknown of each, m
+    found: dict[str, tuple[Float, Float]]
+    hits: float  # that a ray has on average; NaN where nobody lists them
+
+    def mean_mm(self, whose: str) -> float:
+        """Mean of the answers that there are."""
+        off = self.found[whose][0]
+        return 1e3 * float(np.mean(off[np.isfinite(off)]))
+
+
 def report(
     settings: Mapping[str, Any],
     measured: Sequence[OnMesh],
+    errors: Mapping[int, Errors],
     figures: tuple[Figure, ...],
     absent: Mapping[str, str],
 ) -> StudyReport:
@@ -74,21 +90,21 @@ def report(
         *(_times(measured, calls) for calls in (BATCH, PAIR, SINGLE)),
         *(_ratios(measured, calls) for calls in (BATCH, PAIR, SINGLE)),
         _solves(measured),
-        _errors(measured),
+        _errors(errors),
         _answers(measured),
         _everything(measured),
     )
     title = "A touch beside a ray query"
-    return StudyReport(title, dict(settings), figures, notes, sheets, {PICTURE: _picture(measured)})
+    return StudyReport(title, dict(settings), figures, notes, sheets, {PICTURE: _picture(measured, errors)})
 
 
 def _keys(measured: Sequence[OnMesh], calls: str) -> list[tuple[str, str, str]]:
-    return [key for key in measured[0].taken if key[2] == calls]
+    return [key for key in measured[0].clocks if key[2] == calls]
 
 
 def _times(measured: Sequence[OnMesh], calls: str) -> Sheet:
     columns = ("who", *(f"{mesh.facets:,}" for mesh in measured))
-    rows = [(_who(key), *(_spread(mesh.taken[key]) for mesh in measured)) for key in _keys(measured, calls)]
+    rows = [(_who(key), *(_spread(mesh.taken(key)) for mesh in measured)) for key in _keys(measured, calls)]
     name = f"times-{_plain(calls)}"
     return Sheet(name, f"µs each, {calls}: median (least to most) by facets", columns, tuple(rows))
 
@@ -96,7 +112,7 @@ def _times(measured: Sequence[OnMesh], calls: str) -> Sheet:
 def _ratios(measured: Sequence[OnMesh], calls: str) -> Sheet:
     own = OURS, "", calls
     rows = [
-        (_who(key), *(_spread(mesh.taken[own] / mesh.taken[key]) for mesh in measured))
+        (_who(key), *(_spread(mesh.taken(own) / mesh.taken(key)) for mesh in measured))
         for key in _keys(measured, calls)
         if key != own
     ]
@@ -126,32 +142,29 @@ def _solves(measured: Sequence[OnMesh]) -> Sheet:
     return Sheet("solves", "Single solves of the kernel, all sizes in turn", columns, tuple(rows))
 
 
-def _errors(measured: Sequence[OnMesh]) -> Sheet:
+def _errors(errors: Mapping[int, Errors]) -> Sheet:
     rows: list[tuple[Cell, ...]] = []
-    for mesh in measured:
-        for name, off in mesh.errors.items():
-            found, bound = off[np.isfinite(off)], mesh.bounds[name]
-            within = 100 * float(np.mean(off <= _NEAR_M)), 100 * float(np.mean(off <= bound))
+    for facets, each in errors.items():
+        touches = len(each.found[OURS_ALL][0])
+        for name, (off, bound) in each.found.items():
+            shares = (
+                *(len(off) / touches, np.mean(off <= _NEAR_M), np.mean(off <= bound)),
+                *(np.mean(np.isfinite(off) & (off > _FAR_M)), np.mean(~np.isfinite(off))),
+            )
+            own, near, within, far, none = (100 * float(share) for share in shares)
             middle, most = (1e3 * float(np.percentile(off, share)) for share in (50, 95))
-            far, none = 100 * float(np.mean(found > _FAR_M)), 100 * float(np.mean(~np.isfinite(off)))
-            share = 100 * len(off) / len(mesh.errors[OURS_ALL])
-            mean = 1e3 * float(found.mean())
-            rows.append((f"{mesh.facets:,}", name, share, *within, mean, middle, most, far, none))
+            rows.append((f"{facets:,}", name, own, near, within, each.mean_mm(name), middle, most, far, none))
     columns = (
         *("facets", "answers", "of all touches, %", "within 1 mm, %", "within the noise bound, %"),
         *("mean mm", "median mm", "95 % mm", "beyond 5 mm, %", "no answer, %"),
     )
-    hits = ", ".join(f"{mesh.hits:.2f} at {mesh.facets:,}" for mesh in measured if np.isfinite(mesh.hits))
-    return Sheet(
-        "errors",
-        f"Distance from the true touch (hits of a ray: {hits or 'not listed'})",
-        columns,
-        tuple(rows),
-    )
+    hits = ", ".join(f"{each.hits:.2f}" for each in errors.values() if np.isfinite(each.hits))
+    title = f"Distance from the true touch; hits of a ray, by facets: {hits or 'not listed'}"
+    return Sheet("errors", title, columns, tuple(rows))
 
 
 def _answers(measured: Sequence[OnMesh]) -> Sheet:
-    there = dict.fromkeys(key[:2] for key in measured[0].taken)
+    there = dict.fromkeys(key[:2] for key in measured[0].clocks)
     rows = [(" ".join(key).rstrip(), ANSWERS[key]) for key in there]
     return Sheet("answers", "What an answer holds", ("who", "answer"), tuple(rows))
 
@@ -164,10 +177,11 @@ def _everything(measured: Sequence[OnMesh]) -> Sheet:
             float(np.median(us)),
             float(us.min()),
             float(us.max()),
-            float(np.median(mesh.walls[key])),
+            float(np.median(mesh.walls(key))),
         )
         for mesh in measured
-        for key, us in mesh.taken.items()
+        for key in mesh.clocks
+        for us in [mesh.taken(key)]
     ]
     columns = ("facets", "who", "query", "calls", "median_us", "least_us", "most_us", "median_wall_us")
     return Sheet("times", "Times", columns, tuple(rows), shown=False)
@@ -189,14 +203,14 @@ def _spread(values: Float) -> str:
 _MARKS = {OURS: "o", OPEN3D: "^", EMBREEX: "v", TRIMESH: "D", BVH: "P", FCPW: "X"}
 
 
-def _picture(measured: Sequence[OnMesh]) -> bytes:
+def _picture(measured: Sequence[OnMesh], errors: Mapping[int, Errors]) -> bytes:
     """Draw time against mean error, a line for each who over the sizes; all and sure answers of ours."""
     with rc_context(STYLE):
         picture = Picture(figsize=(8.6, 4.4), dpi=110, layout="constrained")
         for axes, calls in zip(picture.subplots(1, 2, sharey=True), (BATCH, SINGLE), strict=True):
             for key in _keys(measured, calls):
                 if key[0] in _MARKS:
-                    _line(axes, measured, key)
+                    _line(axes, measured, errors, key)
             axes.set(xscale="log", xlabel="µs each", title=calls, ylim=(0, None))
             axes.xaxis.set_major_formatter(FormatStrFormatter("%g"))
             axes.xaxis.set_minor_formatter(NullFormatter())
@@ -208,10 +222,12 @@ def _picture(measured: Sequence[OnMesh]) -> bytes:
         return png(picture)
 
 
-def _line(axes: Any, measured: Sequence[OnMesh], key: tuple[str, str, str]) -> None:
+def _line(
+    axes: Any, measured: Sequence[OnMesh], errors: Mapping[int, Errors], key: tuple[str, str, str]
+) -> None:
     name, query, _ = key
     colour, mark = COLOURS[[*_MARKS].index(name)], _MARKS[name]
-    us = [float(np.median(mesh.taken[key])) for mesh in measured]
+    us = [float(np.median(mesh.taken(key))) for mesh in measured]
     lines = [(RAY_FIRST, f"{name}, {query}", "none" if query == ALL else colour)]
     if not query:
         lines = [
@@ -219,15 +235,19 @@ def _line(axes: Any, measured: Sequence[OnMesh], key: tuple[str, str, str]) -> N
             (OURS_SURE, "contactbench, sure answers", colour),
         ]
     for whose, label, face in lines:
-        if whose not in measured[0].errors:
+        if any(whose not in each.found for each in errors.values()):
             continue
-        mm = [
-            1e3 * float(np.mean(off[np.isfinite(off)])) for off in (mesh.errors[whose] for mesh in measured)
-        ]
+        mm = [errors[mesh.facets].mean_mm(whose) for mesh in measured]
         axes.plot(us, mm, ":" if face == "none" else "-", marker=mark, c=colour, mfc=face, label=label)
         if whose == OURS_SURE:
-            for mesh, x, y in zip(measured, us, mm, strict=True):
-                text = f"{mesh.facets:,} facets" if mesh is measured[0] else f"{mesh.facets:,}"
+            for at in (0, -1):
+                text = f"{measured[at].facets:,} facets"
                 axes.annotate(
-                    text, (x, y), (0, 4), textcoords="offset points", fontsize=6, c=colour, rotation=60
+                    text,
+                    (us[at], mm[at]),
+                    (0, 4),
+                    textcoords="offset points",
+                    fontsize=6,
+                    c=colour,
+                    rotation=60,
                 )

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    from contactbench.pipeline.study.results import Results
-
 PAGE = "page.md"
 _HTML = ".html"  # ending of the same page in the design of the reports
 # Kind of a study -> the module that makes its chapter.
@@ -136,7 +134,7 @@ def make_page(folder: Path) -> str:
     if results.kind not in CHAPTERS:
         raise InputError(f"{folder}: a study of kind {results.kind!r}: known are {', '.join(CHAPTERS)}.")
     chapter = import_module(f"contactbench.pipeline.study.{CHAPTERS[results.kind]}").make(results, folder)
-    text = f"{chapter.rstrip()}\n\n{_origin(results)}\n"
+    text = f"{chapter.rstrip()}\n\n{origin(results.environment, results.command)}\n"
     _write(folder / PAGE, text)
     return text
 
@@ -246,9 +244,17 @@ def _alone(chapter: str) -> str:
     return raised.replace("<details>", '<details markdown="1">')
 
 
-def _origin(results: Results) -> str:
-    """Return when and with what results were computed, and how to repeat them."""
-    facts = results.environment
+def origin(facts: Mapping[str, Any], command: str) -> str:
+    """
+    Return when and with what results were computed, and how to repeat them.
+
+    Parameters
+    ----------
+    facts : mapping
+        Of `contactbench.pipeline.study.results.environment`.
+    command : str
+        As it is typed.
+    """
     machine = f"{facts.get('processor', 'unknown processor')}, {facts.get('cores', '?')} cores"
     versions = ", ".join(
         f"{name} {facts[name]}" for name in ("contactbench", "python", "numpy", "scipy") if name in facts
@@ -261,7 +267,7 @@ def _origin(results: Results) -> str:
     return (
         f"*Computed {str(facts.get('finished', 'at an unknown time'))[:10]} on {machine},"
         f" {facts.get('kernel', '?')} kernel, {compiler}; {versions}."
-        f" Repeat with `{results.command}`.*"
+        f" Repeat with `{command}`.*"
     )
 
 

@@ -302,23 +302,29 @@ class StudyReport:
 
     def write(self, out: Path, page: str = "report.md") -> None:
         """
-        Write the report as a Markdown file, or, with tables, a folder: `page`, a CSV file a table, and all files.
+        Write the report: a Markdown file with its pictures beside it, or a folder.
+
+        Parameters
+        ----------
+        out : Path
+            A file, if there are no tables or it ends in .md; else a folder for the page, tables as CSV, and pictures.
+        page : str
+            Name of the page in a folder.
 
         Raises
         ------
         InputError
             It cannot be written.
         """
-        if not self.sheets:
-            write_file(out, self.markdown().encode())
-            return
-        make_folder(out)
-        write_file(out / page, self.markdown().encode())
-        for sheet in self.sheets:
+        alone = not self.sheets or out.suffix == ".md"
+        folder = out.parent if alone else out
+        make_folder(folder)
+        write_file(out if alone else out / page, self.markdown().encode())
+        for sheet in () if alone else self.sheets:
             write_file(out / f"{sheet.name}.csv", sheet.csv().encode())
         for name, data in self.files.items():
-            make_folder((out / name).parent)
-            write_file(out / name, data)
+            make_folder((folder / name).parent)
+            write_file(folder / name, data)
 
     def table(self) -> Table:
         """Build the table for the terminal; what misses its target is red, what is open yellow."""
@@ -335,18 +341,22 @@ class StudyReport:
 
     def markdown(self) -> str:
         """Write the figures, and the tables that people read, as Markdown."""
-        lines = [f"{self._heading}\n", _line(_HEADINGS), "|---" * len(_HEADINGS) + "|"]
+        lines = [f"# {self.title}\n\n{self._settings}\n", _line(_HEADINGS), "|---" * len(_HEADINGS) + "|"]
         lines += [_line([cell.replace("\n", " ") for cell in figure.cells]) for figure in self.figures]
         parts = ["\n".join([*lines, "", *self.notes]).rstrip() + "\n"]
-        parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
         parts += [f"![{name}]({name})\n" for name in self.files if name.endswith(".png")]
+        parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
         if self.differences:
             parts.append("## What differs\n\n" + "".join(f"- {sentence}\n" for sentence in self.differences))
         return "\n".join(parts)
 
     @property
     def _heading(self) -> str:
-        return f"{self.title}: " + ", ".join(f"{name} {value}" for name, value in self.settings.items())
+        return f"{self.title}: {self._settings}"
+
+    @property
+    def _settings(self) -> str:
+        return ", ".join(f"{name} {value}" for name, value in self.settings.items())
 
 
 def _number(value: float | None) -> str:

@@ -36,6 +36,7 @@ BENCHMARKS = {
     "painting": "painting:run",
     "prepared-meshes": "prepared_meshes:run",
     "protocols": "soak:run",
+    "rays": "rays.contest:run",
     "regions": "preparation.regions:run",
     "reproduce-dynamic": "reproduce.dynamic:run",
     "reproduce-filter": "reproduce.filter:run",
@@ -106,7 +107,15 @@ def options_of(name: str, function) -> argparse.ArgumentParser:
         elif kind.startswith("tuple["):
             parser.add_argument(option, metavar="WxH", type=lambda text: tuple(map(int, text.split("x"))))
         elif kind.startswith("Sequence["):
-            item = float if "float" in kind else Path if "PathLike" in kind else str
+            item = (
+                float
+                if "float" in kind
+                else int
+                if kind == "Sequence[int]"
+                else Path
+                if "PathLike" in kind
+                else str
+            )
             parser.add_argument(
                 option, metavar="A,B", type=lambda text, item=item: [item(each) for each in text.split(",")]
             )

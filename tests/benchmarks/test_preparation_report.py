@@ -116,9 +116,9 @@ def test_a_report_is_a_table_and_plain_data():
     assert "[red]file" in said
     assert "A note." in said
     rows = report.markdown().splitlines()
-    assert rows[0] == "Study: seed 3"
-    assert rows[4].endswith("| met |")
-    assert rows[5].endswith("| missed |")
+    assert rows[:3] == ["# Study", "", "seed 3"]
+    assert rows[6].endswith("| met |")
+    assert rows[7].endswith("| missed |")
     assert len({row.replace("\\|", "").count("|") for row in rows if row.startswith("|")}) == 1
 
 

@@ -50,9 +50,9 @@ ROW = np.dtype(
     ]
 )
 # As pipeline/kernel/CMakeLists.txt says.
-_RULES = ("-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-Wno-psabi")
+RULES = ("-std=c++20", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-Wno-psabi")
 _SOURCE = Path(__file__).with_name("solve_rows.cpp")
-_INCLUDE = Path(kernel.__file__).with_name("include")
+INCLUDE = Path(kernel.__file__).with_name("include")
 _COMPILE_SECONDS, _RUN_SECONDS = 300, 600
 
 
@@ -110,7 +110,7 @@ class Workshop:
         program = self._program(build)
         given, taken = (Path(self._folder.name) / name for name in ("in", "out"))
         given.write_bytes(_packed(solver, wrenches))
-        _run([str(program), str(given), str(taken)], _RUN_SECONDS, build)
+        run_tool([str(program), str(given), str(taken)], _RUN_SECONDS, build)
         rows = np.fromfile(taken, ROW)
         return rows[: len(wrenches)], rows[len(wrenches) :]
 
@@ -119,14 +119,14 @@ class Workshop:
             program = Path(self._folder.name) / f"solve_{len(self._programs)}"
             command = [
                 build.compiler,
-                *_RULES,
+                *RULES,
                 *build.options,
-                f"-I{_INCLUDE}",
+                f"-I{INCLUDE}",
                 str(_SOURCE),
                 "-o",
                 str(program),
             ]
-            _run(command, _COMPILE_SECONDS, build)
+            run_tool(command, _COMPILE_SECONDS, build)
             self._programs[build] = program
         return self._programs[build]
 
@@ -165,7 +165,7 @@ def _packed(solver: ContactSolver, wrenches: NDArray[np.float64]) -> bytes:
     model = solver.model
     numbers = [
         *solver.covariance.ravel(),
-        *_gates(gates),
+        *gate_numbers(gates),
         model.torsion_arm,
         model.mesh_deviation,
         model.mesh_curved,
@@ -182,7 +182,7 @@ def _packed(solver: ContactSolver, wrenches: NDArray[np.float64]) -> bytes:
     )
 
 
-def _gates(gates: Gates) -> list[float]:
+def gate_numbers(gates: Gates) -> list[float]:
     given = gates.kernel_arguments()
     names = (
         "min_force",
@@ -198,7 +198,8 @@ def _gates(gates: Gates) -> list[float]:
     return [float(given[name]) for name in names]
 
 
-def _run(command: list[str], seconds: float, build: Build) -> None:
+def run_tool(command: list[str], seconds: float, build: Build) -> None:
+    """Run a compiler, or what it made; InputError if it cannot be run, fails or takes longer."""
     try:
         done: subprocess.CompletedProcess[Any] = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=seconds

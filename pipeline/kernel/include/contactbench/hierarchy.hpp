@@ -6,7 +6,7 @@
 // with c the largest cosine that a normal of the cone makes with the force, and |w*|, V at their largest, which is at
 // the smallest. Over a box with half extents e each component of the axis' offset stays within
 // (e_y |f_z| + e_z |f_y|, ...) of the one at its centre. Torsion moves w along the normals alone: across the cone's axis
-// V is smaller, and along the axis a flat patch is thinner than its box; both tell a wall that the axis passes beside.
+// V is smaller, and along it a flat patch is thinner than its box. Both tell a wall that the axis passes beside.
 //
 // Contract
 //   units      dimensionless (see likelihood.hpp); bounds are small whole numbers and single precision, rounded outwards,
@@ -183,7 +183,7 @@ CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const Boxes& b, const NodeQ
     const Float8 skew = q.skew + depth * q.skew1, share = 1.00001f * q.ff / (q.ff + q.arm2 * c2);
     Bounds bound;
     const Float8 plain = q.side + depth * (q.side1 + depth * q.side2) + upper_half(n.bend) * q.h2 * per_c2 + upper_half(n.spread);
-    bound.V = plain + q.arm2 * share * s * (s + 2.0f * skew);
+    bound.V = plain + q.arm2 * smaller(share * s * (s + 2.0f * skew), s2);
     const float h = std::fabs(q.h);
     const Float8 reach = (h * 1.0001f) * (skew * share + smaller(s * per_low, s * q.steep));
     // w* is g h S_ff / (S_ff + arm^2 c^2) - h beta n across f, g = (S_fa, S_fb) / S_ff, beta = arm^2 c / (S_ff + arm^2 c^2) <= 1 / c: for
@@ -201,12 +201,16 @@ CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const Boxes& b, const NodeQ
     const Float8 wx = hb * (ax + back * q.fx) - hg * (q.gx0 + t * q.gx1);
     const Float8 wy = hb * (ay + back * q.fy) - hg * (q.gy0 + t * q.gy1);
     const Float8 wz = hb * (az + back * q.fz) - hg * (q.gz0 + t * q.gz1);
-    const Float8 vx = magnitude(q.mx - (cy * q.fz - cz * q.fy) + wx) - (ey * q.gz + ez * q.gy) - q.margin;
-    const Float8 vy = magnitude(q.my - (cz * q.fx - cx * q.fz) + wy) - (ez * q.gx + ex * q.gz) - q.margin;
-    const Float8 vz = magnitude(q.mz - (cx * q.fy - cy * q.fx) + wz) - (ex * q.gy + ey * q.gx) - q.margin;
+    const Float8 x = q.mx - (cy * q.fz - cz * q.fy) + wx, y = q.my - (cz * q.fx - cx * q.fz) + wy,
+                 z = q.mz - (cx * q.fy - cy * q.fx) + wz;
+    const Float8 vx = magnitude(x) - (ey * q.gz + ez * q.gy) - q.margin;
+    const Float8 vy = magnitude(y) - (ez * q.gx + ex * q.gz) - q.margin;
+    const Float8 vz = magnitude(z) - (ex * q.gy + ey * q.gx) - q.margin;
     const Float8 px = larger(vx, zero), py = larger(vy, zero), pz = larger(vz, zero);
     const Float8 miss = larger(root(px * px + py * py + pz * pz) - bound.near, zero);
-    // Along u = f x axis over its length, or less: there w* and V know torsion only by what other normals turn.
+    // V <= S + arm2 n n^T, as to know h takes from what torsion adds, and n is at most s along the part of the cone's axis across
+    // f, and `turned` along u, across both. As (a + b)^2 <= (1 + turned / s) a^2 + (1 + s / turned) b^2, V is no larger than
+    // V_n along the one and V_u along the other.
     const Float8 turned = smaller(turn, s), per_away = 1.0f / larger(away, zero + 0.25f);
     const Float8 sx = ax + back * q.fx, sy = ay + back * q.fy, sz = az + back * q.fz;
     const Float8 box = ex * magnitude(sx) + ey * magnitude(sy) + ez * magnitude(sz);
@@ -214,9 +218,14 @@ CONTACTBENCH_INLINE Bounds node_bound(const Node& n, const Boxes& b, const NodeQ
     const Float8 beside = magnitude(ax * q.kx + ay * q.ky + az * q.kz + cx * sx + cy * sy + cz * sz) - smaller(box, slab);
     const Float8 reach_u = (h * 1.0001f) * (skew * share + turned * smaller(per_low, zero + q.steep));
     const Float8 miss_u = larger(beside * per_away - reach_u - 8.0f * q.margin, zero);
-    const Float8 V_u = plain + q.arm2 * share * turned * (turned + 2.0f * skew);
+    const Float8 along = magnitude(x * sx + y * sy + z * sz) -
+                         (ex * magnitude(q.fy * az - q.fz * ay) + ey * magnitude(q.fz * ax - q.fx * az) +
+                          ez * magnitude(q.fx * ay - q.fy * ax));
+    const Float8 miss_n = larger(along * per_away - bound.near - 8.0f * q.margin, zero);
+    const Float8 both = q.arm2 * (s + turned), V_u = plain + both * turned, V_n = plain + both * s;
     const Float8 most = smaller(high * high, one);
-    bound.d2 = (q.h2 / (q.ff + q.arm2 * most) + larger(miss * miss / bound.V, miss_u * miss_u / V_u)) * (1.0f - 1e-4f);
+    bound.d2 = (q.h2 / (q.ff + q.arm2 * most) + larger(miss * miss / bound.V, miss_u * miss_u / V_u + miss_n * miss_n / V_n)) *
+               (1.0f - 1e-4f);
     bound.faces_force = high >= q.cos_t - slack;
     return bound;
 }

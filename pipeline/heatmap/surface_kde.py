@@ -187,7 +187,7 @@ def _numbered(rows: NDArray[np.int64]) -> NDArray[np.intp]:
     taken = np.zeros(prod(sizes), dtype=bool)
     taken[place] = True
     numbers: NDArray[np.intp] = np.cumsum(taken) - 1
-    return numbers[place]
+    return np.asarray(numbers[place])
 
 
 def vertex_normals(probe: Probe) -> NDArray[np.float64]:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
 MARGIN = 24  # bytes that must come before the first cell: words are loaded backwards from the end of a cell
@@ -76,6 +78,43 @@ def decimals(
     value = part + np.where(sure, whole, 0) * _INTEGERS.take(after, mode="clip")
     numbers, good = _quotients(value, _POWERS.take(after))
     return np.where(minus, -numbers, numbers), sure & good
+
+
+def floats(
+    data: npt.NDArray[np.uint8],
+    first: npt.NDArray[np.int64],
+    last: npt.NDArray[np.int64],
+    points: npt.NDArray[np.int64],
+) -> npt.NDArray[np.float64]:
+    """
+    Read cells of any numbers, see `decimals` for where they are; an empty one is NaN.
+
+    Raises
+    ------
+    ValueError
+        One is no number.
+    """
+    numbers, sure = decimals(data, first, last, points)
+    if not sure.all():
+        empty = first == last
+        numbers[empty] = np.nan
+        rest = np.flatnonzero(~(sure | empty))
+        texts = [data[a:b].tobytes() for a, b in zip(first[rest].tolist(), last[rest].tolist(), strict=True)]
+        # Python also takes 1_000, which no other reader does.
+        numbers[rest] = [float(b"no number" if b"_" in text else text) for text in texts]
+    return numbers
+
+
+def floats_of(cells: Sequence[bytes]) -> npt.NDArray[np.float64]:
+    """Read texts (n,) without commas as numbers; NaN where one is empty, and ValueError where one is no number."""
+    data = np.frombuffer(b"".join((bytes(MARGIN), b",".join(cells), b",")), dtype=np.uint8)
+    lengths = np.fromiter(map(len, cells), dtype=np.int64, count=len(cells))
+    last = MARGIN + np.cumsum(lengths + 1) - 1
+    points = last.copy()
+    at = np.flatnonzero(data == _POINT)
+    cell = np.searchsorted(last, at)
+    points[cell] = np.where(np.bincount(cell, minlength=len(cells))[cell] == 1, at, -1)
+    return floats(data, last - lengths, last, points)
 
 
 def _integers(

@@ -1,6 +1,6 @@
 """Tables from CSV: blocks of rows, fast where the file is plain, careful where it is not.
 
-A block whose lines all have as many commas as the header goes through NumPy as a whole, see `decimals`. Any other block
+A block whose lines all have as many commas as the header goes through NumPy as a whole, see `floats`. Any other block
 (quoted or blank cells, blank lines, anything wrong) is read once more, cell by cell: that reading either
 succeeds or knows the line and the column to name.
 """
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.tables.decimals import MARGIN, decimals
+from contactbench.pipeline.tables.decimals import MARGIN, floats
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -297,21 +297,13 @@ class TableReader:
         first = np.where(before >= 0, marks[before] + 1, MARGIN)
         last = marks[here]
         points = np.choose(np.minimum(here - before - 1, 2), [last, marks[before + 1], -1])
-        numbers, sure = decimals(data, first, last, points)
-        if not sure.all():
-            empty = first == last
-            if empty.any() and (cells == 1 or self._finite[np.flatnonzero(empty) % len(self._indices)].any()):
-                return None
-            numbers[empty] = np.nan
-            rest = np.flatnonzero(~(sure | empty))
-            texts = [
-                data[a:b].tobytes() for a, b in zip(first[rest].tolist(), last[rest].tolist(), strict=True)
-            ]
-            try:
-                # Python also takes 1_000, which no other reader does.
-                numbers[rest] = [float(b"no number" if b"_" in text else text) for text in texts]
-            except ValueError:
-                return None
+        empty = first == last
+        if empty.any() and (cells == 1 or self._finite[np.flatnonzero(empty) % len(self._indices)].any()):
+            return None
+        try:
+            numbers = floats(data, first, last, points)
+        except ValueError:
+            return None
         return numbers.reshape(end - begin, -1)
 
     def _plain_text(

@@ -48,6 +48,7 @@ BENCHMARKS = {
     "simplify": "preparation.simplify:run",
     "solver": "solver.exact:run",
     "verification": "verification:run",
+    "waiting": "waiting:run",
     "window-brush": "window.brush:run",
     "window-charts": "window.charts:run",
     "window-kill": "window.kill:run",

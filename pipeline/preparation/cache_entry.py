@@ -56,8 +56,8 @@ _HASH = 32
 _LENGTH = struct.Struct("<I")
 
 
-class EntryError(InputError):
-    """The bytes are no such entry, or it is damaged."""
+class EntryError(ValueError):
+    """The bytes are no such entry, or it is damaged; nobody is told, for the work is then done again."""
 
 
 def encode(key: str, values: tuple[Any, ...]) -> bytes:
@@ -81,7 +81,7 @@ def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ..
     start = len(_MAGIC) + _HASH
     body = memoryview(data)[start:]
     if data[: len(_MAGIC)] != _MAGIC or hashlib.sha256(body).digest() != data[len(_MAGIC) : start]:
-        raise EntryError("the entry is damaged.")
+        raise EntryError
     try:
         (length,) = _LENGTH.unpack_from(body)
         text, rest = bytes(body[_LENGTH.size : _LENGTH.size + length]), body[_LENGTH.size + length :]
@@ -100,9 +100,9 @@ def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ..
         AttributeError,
         RecursionError,
     ) as error:
-        raise EntryError(f"the entry is none of contactbench's ({error}).") from error
+        raise EntryError from error
     if tree["key"] != key or len(values) != len(types) or not all(map(isinstance, values, types)):
-        raise EntryError("the entry holds something else.")
+        raise EntryError
     return values
 
 
@@ -158,10 +158,10 @@ class _Reader:
         self._arrays: list[npt.NDArray[Any]] = []
         for dtype, shape, writable in layout:
             if dtype not in _DTYPES or not all(type(n) is int and n >= 0 for n in shape):
-                raise EntryError("an array is none.")
+                raise EntryError
             size = np.dtype(dtype).itemsize * prod(shape)
             if size > len(data):
-                raise EntryError("an array is cut short.")
+                raise EntryError
             array = (
                 np.frombuffer(data[:size], dtype=dtype)
                 .reshape(shape)
@@ -171,7 +171,7 @@ class _Reader:
             self._arrays.append(array)
             data = data[size:]
         if len(data):
-            raise EntryError("there is something behind the arrays.")
+            raise EntryError
         self._held: list[Any] = []
 
     def value(self, node: Any) -> Any:
@@ -193,7 +193,7 @@ class _Reader:
             case {"class": str(name), "fields": parts}:
                 made = self._object(_CLASSES[name], [self.value(each) for each in parts])
             case _:
-                raise EntryError("a value is of no known kind.")
+                raise EntryError
         self._held.append(made)
         return made
 
@@ -203,5 +203,5 @@ class _Reader:
         if isinstance(made, Probe):
             check_faces(made.faces, len(check_vertices(made.vertices)))
             if not made.region.shape == made.invented.shape == made.faces.shape[:1]:
-                raise EntryError("a mesh does not fit together.")
+                raise EntryError
         return made

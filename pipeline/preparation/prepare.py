@@ -289,9 +289,9 @@ def _key(mesh: Path, given: ProbeSettings) -> tuple[object, ...]:
     # Only a regular file has a hash; of others the reader says what is wrong.
     files = (each for each in (mesh, mesh.with_suffix(".json")) if each.is_file())
     hashes = tuple(hashlib.sha256(each.read_bytes()).hexdigest() for each in files)
-    return ("outer surface", mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
+    return ("dense", mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
 
 
 def _said_of(placed: ProbeFile, given: ProbeSettings) -> tuple[object, ...]:
     """Return what decides the probe with fewer facets: the outer surface in its place, and the settings."""
-    return ("fewer facets", hashlib.sha256(encode("", (placed,))).hexdigest(), given.model_dump(mode="json"))
+    return ("simplified", hashlib.sha256(encode("", (placed,))).hexdigest(), given.model_dump(mode="json"))

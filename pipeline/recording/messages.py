@@ -22,6 +22,7 @@ _LONGEST_SAMPLE = 2**16  # a wrench or a pose takes less than a tenth of it
 _LARGEST = 2**63 - 1  # what arrays of integers hold
 _INFO_LEVEL = 2  # of foxglove.Log
 _ORTHOGONAL = 1e-6
+_UNIT = np.eye(3)
 
 # A wrench as `wrench_message` writes it. Whatever differs, if only by a space, is read as JSON.
 _COUNT = rb"(0|[1-9]\d{0,8})"
@@ -168,13 +169,10 @@ def _whole(value: int) -> int:
 
 def _rotation(R: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
     # Written so that NaN fails too. Entries of a rotation are small: huge ones would overflow the product.
-    if (
-        R.shape != (3, 3)
-        or not (np.abs(R) < 2).all()
-        or not (np.abs(R.T @ R - np.eye(3)) < _ORTHOGONAL).all()
-    ):
+    if R.shape != (3, 3) or not (np.abs(R) < 2).all() or not (np.abs(R.T @ R - _UNIT) < _ORTHOGONAL).all():
         raise MessageError("the orientation of the flange is no rotation")
-    if np.linalg.det(R) < 0:
+    (a, b, c), (d, e, f), (g, h, i) = R.tolist()
+    if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0:  # all but 1 or -1
         raise MessageError("the orientation of the flange is a reflection")
     return R
 

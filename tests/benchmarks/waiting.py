@@ -22,11 +22,12 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.heatmap.contacts import read_contacts
 from contactbench.pipeline.heatmap.picture import encode_png
 from contactbench.pipeline.heatmap.selection import Selection, selected_heatmap
-from contactbench.pipeline.mesh import Probe, load_probe
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines import alpha_wrap
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.cache import VARIABLE
 from contactbench.pipeline.preparation.prepare import prepared
+from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.convert import write_csv
 from contactbench.pipeline.settings import ProbeSettings
@@ -100,7 +101,7 @@ def _preparation(folder: Path, mesh: Path, progress: Callable[[str], None]) -> l
     progress(f"{mesh.name}: an alpha wrap")
     before = os.environ.get(VARIABLE)
     given = ProbeSettings(facets=2_000)
-    probe = load_probe(mesh)
+    probe = import_mesh(mesh).probe
     alone = probe.vertices[probe.faces].reshape(-1, 3)
     facets = np.arange(len(alone), dtype=np.int32).reshape(-1, 3)
     alpha = probe.size / 190

@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 
 _screen = None
+# Tests do the work that they look at, and leave nothing in the user's folder.
+os.environ["CONTACTBENCH_CACHE"] = "off"
 # Benchmarks start processes of their own modules.
 os.environ["PYTHONPATH"] = os.pathsep.join(
     (str(Path(__file__).parent), os.environ.get("PYTHONPATH", ""))

@@ -4,6 +4,7 @@ import csv
 import io
 import math
 from collections.abc import Callable
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
@@ -346,3 +347,52 @@ def test_any_bytes_are_read_or_refused(data):
     except TableError:
         return
     assert np.isfinite(rows.numbers).all()
+
+
+@st.composite
+def _decimals(draw):
+    """Cells as people and programs write them: few digits, as many as a float has, more, or near the middle of two."""
+    x = draw(st.floats(1e-6, 1e9) | st.integers(0, 2**64).map(float))
+    near = Decimal(x) + (Decimal(math.nextafter(x, math.inf)) - Decimal(x)) / 2
+    digits = draw(st.integers(0, 24))
+    text = draw(
+        st.sampled_from(
+            [repr(x), f"{x:.{digits}f}", f"{near:.{digits}f}", f"{x:.{digits}e}", ".5", "5.", "+1.5"]
+        )
+    )
+    return draw(st.sampled_from(["", "-", "00"])) + text if text[0] != "+" else text
+
+
+@given(
+    st.lists(
+        _decimals() | st.sampled_from(["", "nan", "-inf", " 1 ", "1.5.2", "-", "1,0", "1e400"]), min_size=1
+    )
+)
+def test_numbers_are_those_of_python(cells):
+    def number(cell):
+        return float(cell) if cell else math.nan
+
+    text = "x,y,z\n" + "".join(f"7,{cell},8\n" for cell in cells)
+    select = columns("y", "z", allow_nan=("y",))
+    try:
+        expected = [number(cell) for cell in cells]
+    except ValueError:
+        with pytest.raises(TableError):
+            read(text, select)
+        return
+    found = read(text, select).numbers
+    # As texts: -0.0 is not 0.0, and NaN is NaN.
+    assert [*map(repr, found[:, 0].tolist())] == [*map(repr, expected)]
+    assert (found[:, 1] == 8).all()
+
+
+def test_halfway_between_two_floats():
+    """Decimals of 18 digits that are exactly in the middle, or the least that can be on either side of it."""
+    middles = [2**53 + odd for odd in range(1, 2_000, 2)]
+    cells = [
+        f"{10 * whole + step}"[:-1] + f".{(10 * whole + step) % 10}"
+        for whole in middles
+        for step in (-1, 0, 1)
+    ]
+    found = read("x\n" + "\n".join(cells) + "\n", columns("x")).numbers[:, 0]
+    assert found.tolist() == [float(cell) for cell in cells]

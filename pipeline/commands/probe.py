@@ -514,7 +514,7 @@ def prepare(
     refuse_to_guess(file, given)
     inputs = {"mesh": file} if alignment is None else {"mesh": file, "alignment": alignment}
     with Bar("preparing", counted=True) as bar:
-        done = prepared(inputs, given, progress=share(bar))
+        done = prepared(inputs, given, progress=share(bar), remember=True)
     if done.ready:
         save_probe_file(done.content, out)
     for sentence in dict.fromkeys(done.sentences):

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from contactbench.pipeline.contact.facet_marks import MARKS
-from contactbench.pipeline.contact.shortest import csv_rows
 from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
     import numpy.typing as npt

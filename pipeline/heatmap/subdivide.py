@@ -74,8 +74,10 @@ def finer(probe: Probe, edge: float = EDGE) -> Probe:
 def _edges(faces: NDArray[np.integer]) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
     """Return the edges (e, 2), and for each facet (m, 3) the numbers of those opposite its corners 2, 0 and 1."""
     ends = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2).astype(np.int64)
-    edges, number = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
-    return edges, number.reshape(-1, 3)
+    ends.sort(axis=1)
+    count = int(ends.max()) + 1
+    keys, number = np.unique(ends[:, 0] * count + ends[:, 1], return_inverse=True)
+    return np.column_stack(np.divmod(keys, count)), number.reshape(-1, 3)
 
 
 def _split(

@@ -11,9 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.shell import Closing
+from contactbench.pipeline.mesh.shell import Closing, Shell
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+from contactbench.pipeline.preparation.cache import made_once
+from contactbench.pipeline.preparation.cache_entry import encode
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import (
     align_step,
@@ -30,9 +34,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from contactbench.pipeline.mesh.regions import RegionReport
-    from contactbench.pipeline.mesh.shell import Shell
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.mesh.simplify import Simplified
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.settings import ProbeSettings
@@ -153,15 +154,24 @@ def prepared(
     if cancelled is not None and cancelled():
         raise Cancelled("the preparation was cancelled: nothing was written.")
     wanted, stated = target(placed.probe)
-    content, simplified, carried = simplify_step(
-        placed,
-        wanted,
-        stated=stated,
-        engine=given.engine,
-        region_ratio=given.region_ratio,
-        progress=part_of(progress, _DENSE, 1.0),
-        cancelled=cancelled,
+
+    def fewer() -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
+        return simplify_step(
+            placed,
+            wanted,
+            stated=stated,
+            engine=given.engine,
+            region_ratio=given.region_ratio,
+            progress=part_of(progress, _DENSE, 1.0),
+            cancelled=cancelled,
+        )
+
+    kinds = (ProbeFile, Simplified, tuple)
+    content, simplified, carried = (
+        made_once(lambda: _said_of(placed, given), fewer, kinds) if remember else fewer()
     )
+    if progress is not None:
+        progress(1.0)
     made, whole = content.probe, placed.probe
     soundness = simplified.soundness or check_soundness(
         made.vertices, made.faces, (whole.vertices, whole.faces), invented=made.invented
@@ -218,8 +228,8 @@ def dense_of(
     aligned_later : bool
         Refuse a mesh that is aligned already.
     remember : bool
-        Whether one that was made before from the same bytes, name and settings will do. Who checks results makes
-        all of them anew.
+        Whether one that was made before from the same bytes, name and settings will do, also by another process, see
+        `made_once`. Who checks results makes all of them anew.
     progress, cancelled : callable, optional
         The share that is done, and whether to stop.
     """
@@ -230,6 +240,27 @@ def dense_of(
         if aligned_later:
             refuse_aligned(known.content, again=False)
         return known
+
+    def make() -> tuple[ProbeFile, Shell]:
+        return _closed(mesh, given, progress, cancelled, aligned_later=aligned_later)
+
+    made = (
+        Dense(*made_once(lambda: _key(mesh, given), make, (ProbeFile, Shell))) if remember else Dense(*make())
+    )
+    if aligned_later:  # found in the cache, or made for a mesh that stays where it is
+        refuse_aligned(made.content, again=False)
+    if remember:
+        with _lock:
+            _dense[key] = made
+            while len(_dense) > _REMEMBERED:
+                _dense.popitem(last=False)
+    return made
+
+
+def _closed(
+    mesh: Path, given: ProbeSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
+) -> tuple[ProbeFile, Shell]:
+    """Read a mesh file and make its outer surface."""
     content = import_mesh(mesh, given.units)
     if aligned_later:
         refuse_aligned(content, again=False)
@@ -245,13 +276,7 @@ def dense_of(
         progress=part_of(progress, _READ, 1.0),
         cancelled=cancelled,
     )
-    made = Dense(replace(content, notes=notes), shell)
-    if remember:
-        with _lock:
-            _dense[key] = made
-            while len(_dense) > _REMEMBERED:
-                _dense.popitem(last=False)
-    return made
+    return replace(content, notes=notes), shell
 
 
 def closings_of(given: ProbeSettings) -> Closing | Sequence[Closing]:
@@ -264,4 +289,9 @@ def _key(mesh: Path, given: ProbeSettings) -> tuple[object, ...]:
     # Only a regular file has a hash; of others the reader says what is wrong.
     files = (each for each in (mesh, mesh.with_suffix(".json")) if each.is_file())
     hashes = tuple(hashlib.sha256(each.read_bytes()).hexdigest() for each in files)
-    return (mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
+    return ("dense", mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
+
+
+def _said_of(placed: ProbeFile, given: ProbeSettings) -> tuple[object, ...]:
+    """Return what decides the probe with fewer facets: the outer surface in its place, and the settings."""
+    return ("simplified", hashlib.sha256(encode("", (placed,))).hexdigest(), given.model_dump(mode="json"))

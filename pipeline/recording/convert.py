@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 from contextlib import contextmanager
@@ -15,9 +13,10 @@ import numpy as np
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -61,19 +60,19 @@ def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tup
         There is no such topic, the choice is not clear, no row is left, or the file cannot be written.
     """
     topic = _chosen(recording, topic)
-    said: list[str] = []
-    if topic in recording.flanges:
-        columns, table = _flange_table(recording.flanges[topic])
-    else:
-        columns, table = _wrench_table(recording, topic, said)
-    if not len(table[0]):
-        reasons = " ".join(said) or "There is none."
-        raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
+    table = _FlangeTable(recording, topic) if topic in recording.flanges else _WrenchTable(recording, topic)
+    some = False
     with _whole_file(file) as stream:
-        stream.write((",".join(columns) + "\n").encode())
-        for begin in range(0, len(table[0]), _BLOCK_ROWS):
-            stream.write(_rows([column[begin : begin + _BLOCK_ROWS] for column in table]))
-    return tuple(said)
+        stream.write((",".join(table.columns) + "\n").encode())
+        for begin in range(0, table.count, _BLOCK_ROWS):
+            columns = table.rows(slice(begin, begin + _BLOCK_ROWS))
+            if len(columns[0]):
+                some = True
+                stream.write(csv_rows(*map(_cells, columns)))
+        if not some:
+            reasons = " ".join(table.said()) or "There is none."
+            raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
+    return table.said()
 
 
 def write_npz(file: Path, recording: Recording, topic: str | None = None) -> None:
@@ -134,40 +133,64 @@ def _check_topic(recording: Recording, topic: str) -> None:
         )
 
 
-def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[list[str], list[NDArray[Any]]]:
-    track = recording.wrenches[topic]
-    columns = list(_WRENCH_COLUMNS)
-    parts: list[NDArray[Any]] = [track.times, *track.wrenches.T]
-    kept = track.usable
-    if not kept.all():
-        said.append(f"{np.count_nonzero(~kept):,} readings left out: flagged as bad by the device.")
-    if len(recording.flanges) == 1:
-        poses, there = poses_at(next(iter(recording.flanges.values())), track.times)
-        lost = kept & ~there
-        if lost.any():
-            said.append(f"{np.count_nonzero(lost):,} readings left out: no pose within {LONGEST_GAP} s.")
-        kept &= there
-        columns += _POSE_COLUMNS
-        parts.extend(poses.T)
-    elif recording.flanges:
-        said.append("The recording has several flanges, so the table has no poses.")
-    columns.append("status")
-    parts.append(track.status)
-    optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (
-        ("sequence", track.sequence, track.sequence >= 0),
-        ("temperature", track.temperature, np.isfinite(track.temperature)),
-    )
-    for name, values, some in optional:
-        if some.all():
-            columns.append(name)
-            parts.append(values)
-    return columns, [part[kept] for part in parts]
+class _WrenchTable:
+    """The wrenches of one sensor as rows of a table, a block at a time."""
+
+    def __init__(self, recording: Recording, topic: str) -> None:
+        self._track = track = recording.wrenches[topic]
+        self._flanges = [*recording.flanges.values()]
+        self.count = len(track.times)
+        self._bad = self._lost = 0
+        optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (
+            ("sequence", track.sequence, track.sequence >= 0),
+            ("temperature", track.temperature, np.isfinite(track.temperature)),
+        )
+        more = {name: values for name, values, there in optional if there.all()}
+        self._more = (track.status, *more.values())
+        poses = _POSE_COLUMNS if len(self._flanges) == 1 else ()
+        self.columns = [*_WRENCH_COLUMNS, *poses, "status", *more]
+
+    def rows(self, rows: slice) -> list[NDArray[Any]]:
+        """Return the columns of those of some rows that are measurements and have a pose, if there is a flange."""
+        track = self._track
+        kept = track.usable[rows]
+        self._bad += int(np.count_nonzero(~kept))
+        parts: list[NDArray[Any]] = [track.times[rows], *track.wrenches[rows].T]
+        if len(self._flanges) == 1:
+            poses, there = poses_at(self._flanges[0], track.times[rows])
+            self._lost += int(np.count_nonzero(kept & ~there))
+            kept = kept & there
+            parts.extend(poses.T)
+        parts.extend(column[rows] for column in self._more)
+        return [part[kept] for part in parts]
+
+    def said(self) -> tuple[str, ...]:
+        """Return what was left out so far: sentences."""
+        several = "The recording has several flanges, so the table has no poses."
+        return (
+            *([f"{self._bad:,} readings left out: flagged as bad by the device."] if self._bad else []),
+            *([f"{self._lost:,} readings left out: no pose within {LONGEST_GAP} s."] if self._lost else []),
+            *([several] if len(self._flanges) > 1 else []),
+        )
 
 
-def _flange_table(track: FlangeTrack) -> tuple[list[str], list[NDArray[Any]]]:
-    joints = [f"j{number + 1}" for number in range(track.joints.shape[1])]
-    parts = (track.times[:, None], _quaternions(track.R_BE), track.p_BE_B, np.degrees(track.joints))
-    return ["t", *_POSE_COLUMNS, *joints], list(np.hstack(parts).T)
+class _FlangeTable:
+    """The poses of one flange as rows of a table, a block at a time."""
+
+    def __init__(self, recording: Recording, topic: str) -> None:
+        self._track = recording.flanges[topic]
+        self.count = len(self._track.times)
+        self.columns = ["t", *_POSE_COLUMNS, *(f"j{n + 1}" for n in range(self._track.joints.shape[1]))]
+
+    def rows(self, rows: slice) -> list[NDArray[Any]]:
+        """Return the columns of some rows."""
+        track = self._track
+        quaternions, joints = _quaternions(track.R_BE[rows]), np.degrees(track.joints[rows])
+        return [track.times[rows], *quaternions.T, *track.p_BE_B[rows].T, *joints.T]
+
+    def said(self) -> tuple[str, ...]:
+        """Nothing is left out."""
+        return ()
 
 
 def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -202,18 +225,9 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
     return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
 
 
-def _rows(columns: Sequence[NDArray[Any]]) -> bytes:
-    """Return rows as text: counts as they are, floats with all their digits, nothing for NaN."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(zip(*map(_cells, columns), strict=True))
-    return text.getvalue().encode()
-
-
-def _cells(column: NDArray[Any]) -> list[Any]:
-    cells: list[Any] = column.tolist()
-    if column.dtype.kind == "f" and np.isnan(column).any():
-        return ["" if value != value else value for value in cells]
-    return cells
+def _cells(column: NDArray[Any]) -> NDArray[Any]:
+    """Return what `csv_rows` takes: counts are texts."""
+    return column if column.dtype.kind == "f" else column.astype(np.bytes_)
 
 
 def _json_bytes(value: Any) -> NDArray[np.uint8]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -21,9 +22,26 @@ _LONGEST_SAMPLE = 2**16  # a wrench or a pose takes less than a tenth of it
 _LARGEST = 2**63 - 1  # what arrays of integers hold
 _INFO_LEVEL = 2  # of foxglove.Log
 _ORTHOGONAL = 1e-6
+_UNIT = np.eye(3)
+
+# A wrench as `wrench_message` writes it. Whatever differs, if only by a space, is read as JSON.
+_COUNT = rb"(0|[1-9]\d{0,8})"
+_MOMENT = rb"(-?(?:0|[1-9]\d{0,11})\.\d+)"
+_FLOAT = rb"-?(?:0|[1-9]\d{0,17})(?:\.\d+(?:[eE][-+]?\d+)?|[eE][-+]?\d+)"
+_XYZ = rb'{"x":%b,"y":%b,"z":%b}' % (3 * (rb"(?:(" + _FLOAT + rb")|null)",))
+_PLAIN_WRENCH = re.compile(
+    rb'{"timestamp":{"sec":(?:0|[1-9]\d{0,17}),"nsec":(?:0|[1-9]\d{0,8})},"frame_id":"sensor","time":%b,'
+    % _MOMENT
+    + rb'"force":%b,"torque":%b,"status":%b' % (_XYZ, _XYZ, _COUNT)
+    + rb'(?:,"sequence":(0|[1-9]\d{0,17}))?(?:,"device_time":(%b))?(?:,"temperature":(%b))?(?:,"arrival":%b)?}'
+    % (_FLOAT, _FLOAT, _MOMENT)
+)
 
 _encode = json.JSONEncoder(allow_nan=False, separators=(",", ":"), ensure_ascii=False).encode
 _decode = json.JSONDecoder().decode
+
+
+WrenchCells = tuple[bytes | None, ...]
 
 
 class MessageError(ValueError):
@@ -151,13 +169,10 @@ def _whole(value: int) -> int:
 
 def _rotation(R: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
     # Written so that NaN fails too. Entries of a rotation are small: huge ones would overflow the product.
-    if (
-        R.shape != (3, 3)
-        or not (np.abs(R) < 2).all()
-        or not (np.abs(R.T @ R - np.eye(3)) < _ORTHOGONAL).all()
-    ):
+    if R.shape != (3, 3) or not (np.abs(R) < 2).all() or not (np.abs(R.T @ R - _UNIT) < _ORTHOGONAL).all():
         raise MessageError("the orientation of the flange is no rotation")
-    if np.linalg.det(R) < 0:
+    (a, b, c), (d, e, f), (g, h, i) = R.tolist()
+    if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0:  # all but 1 or -1
         raise MessageError("the orientation of the flange is a reflection")
     return R
 
@@ -199,6 +214,20 @@ def read_wrench(data: bytes) -> WrenchSample:
         _given(body, "temperature"),
         _time(body, "arrival") if "arrival" in body else None,
     )
+
+
+def wrench_cells(data: bytes) -> WrenchCells | None:
+    """
+    Return the numbers of a wrench as they stand in a message: to be read together with those of others.
+
+    Returns
+    -------
+    tuple of bytes or None
+        t, Fx Fy Fz Mx My Mz, status, sequence, device time, temperature and arrival; None: it has no such number. None
+        for all: the message is not written as contactbench writes it.
+    """
+    found = _PLAIN_WRENCH.fullmatch(data) if len(data) <= _LONGEST_SAMPLE else None
+    return None if found is None else found.groups()
 
 
 def read_flange(data: bytes) -> FlangeSample:

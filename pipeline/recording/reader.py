@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from dataclasses import dataclass
-from itertools import groupby, islice
+from itertools import chain, groupby, islice
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.clock import SampleClock
@@ -28,6 +29,7 @@ from contactbench.pipeline.recording.messages import (
     read_event,
     read_flange,
     read_wrench,
+    wrench_cells,
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
     from types import TracebackType
+
+    from contactbench.pipeline.recording.messages import WrenchCells
 
 _DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] = {
     WRENCH_SCHEMA: read_wrench,
@@ -155,6 +159,22 @@ class RecordingReader:
         """Close the file."""
         self._stream.close()
 
+    def samples_or_cells(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event | WrenchCells]]:
+        """Yield the same as an iteration, but of most wrenches only their cells: several times as fast to collect."""
+        if self._format <= ARRIVALS_ONLY:
+            yield from self
+            return
+        first = () if self._first is None else (self._first,)
+        for record in chain(first, self._records):
+            if isinstance(record, McapMessage):
+                channel = record.channel
+                plain = channel.schema_name == WRENCH_SCHEMA and channel.encoding == "json"
+                cells = wrench_cells(record.data) if plain else None
+                if cells is None:
+                    yield from self._decoded(record)
+                else:
+                    yield channel.topic, cells
+
     def bound_events(self, room: int) -> None:
         """Leave out the events for which `room` bytes of memory are too few: for those who keep them all."""
         self._event_room = room
@@ -221,18 +241,20 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
     RecordingError
         The file cannot be read, is no recording of contactbench, or is too long for arrays.
     """
-    wrenches: dict[str, WrenchColumns] = {}
-    flanges: dict[str, FlangeColumns] = {}
+    wrenches: defaultdict[str, WrenchColumns] = defaultdict(WrenchColumns)
+    flanges: defaultdict[str, FlangeColumns] = defaultdict(FlangeColumns)
     events: list[Event] = []
     room = MOST_SAMPLES
     with RecordingReader(path, progress) as reader:
         reader.bound_events(MOST_EVENT_BYTES)
-        for topic, sample in reader:
+        for topic, sample in reader.samples_or_cells():
             room -= 1
-            if isinstance(sample, WrenchSample):
-                wrenches.setdefault(topic, WrenchColumns()).add(sample)
+            if isinstance(sample, tuple):
+                wrenches[topic].add_cells(sample)
+            elif isinstance(sample, WrenchSample):
+                wrenches[topic].add(sample)
             elif isinstance(sample, FlangeSample):
-                flanges.setdefault(topic, FlangeColumns()).add(sample)
+                flanges[topic].add(sample)
             else:
                 events.append(sample)
             if room < 0:

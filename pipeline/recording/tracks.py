@@ -11,14 +11,17 @@ import numpy as np
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSample
+from contactbench.pipeline.tables.decimals import floats_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.recording.messages import WrenchCells
 
+_TOGETHER = 4096  # samples whose numbers are read at once
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 
 
@@ -116,15 +119,34 @@ class WrenchColumns:
     def __init__(self) -> None:
         self._numbers = array("d")
         self._counts = array("q")
+        self._cells: list[WrenchCells] = []
+
+    def add_cells(self, cells: WrenchCells) -> None:
+        """Append a sample, see `wrench_cells`; they are read thousands at a time."""
+        self._cells.append(cells)
+        if len(self._cells) == _TOGETHER:
+            self._read_cells()
 
     def add(self, sample: WrenchSample) -> None:
         """Append a sample."""
+        self._read_cells()
         self._numbers.extend((sample.time, _or_nan(sample.device_time), _or_nan(sample.temperature)))
         self._numbers.extend((_or_nan(sample.arrival), *sample.force, *sample.torque))
         self._counts.extend((-1 if sample.sequence is None else sample.sequence, sample.status))
 
+    def _read_cells(self) -> None:
+        if not self._cells:
+            return
+        time, *wrench, status, sequence, device_time, temperature, arrival = zip(*self._cells, strict=True)
+        self._cells.clear()
+        numbers = [_numbers(column) for column in (time, device_time, temperature, arrival, *wrench)]
+        self._numbers.frombytes(np.column_stack(numbers).tobytes())
+        counts = [[-1 if cell is None else int(cell) for cell in column] for column in (sequence, status)]
+        self._counts.frombytes(np.column_stack(counts).astype(np.int64).tobytes())
+
     def track(self) -> WrenchTrack:
         """Return the samples so far."""
+        self._read_cells()
         numbers = np.array(self._numbers).reshape(-1, 10)
         counts = np.array(self._counts).reshape(-1, 2)
         return WrenchTrack(
@@ -169,6 +191,13 @@ class FlangeColumns:
             device_time=numbers[:, 1].copy(),
             arrivals=numbers[:, 2].copy(),
         )
+
+
+def _numbers(cells: Sequence[bytes | None]) -> NDArray[np.float64]:
+    """Read cells (n,) as numbers; NaN where there is none."""
+    if not any(cells):
+        return np.full(len(cells), np.nan)
+    return floats_of([cell or b"" for cell in cells])
 
 
 def _or_nan(value: float | None) -> float:

@@ -1,6 +1,6 @@
 """Tables from CSV: blocks of rows, fast where the file is plain, careful where it is not.
 
-A block whose lines all have as many commas as the header goes through NumPy as a whole. Any other block
+A block whose lines all have as many commas as the header goes through NumPy as a whole, see `floats`. Any other block
 (quoted or blank cells, blank lines, anything wrong) is read once more, cell by cell: that reading either
 succeeds or knows the line and the column to name.
 """
@@ -8,7 +8,6 @@ succeeds or knows the line and the column to name.
 from __future__ import annotations
 
 import csv
-import io
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables.decimals import MARGIN, floats
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
@@ -29,7 +29,10 @@ BLOCK_BYTES = 4 * 2**20
 _LONGEST_LINE = 2**20
 _LONGEST_TEXT = 256
 
-_COMMA, _NEWLINE = b",\n"
+# As many as the processor's cache holds with what is worked out from them.
+_CELLS_AT_ONCE = 16_384
+
+_COMMA, _NEWLINE, _POINT = b",\n."
 _BOM = b"\xef\xbb\xbf"  # some programs put it before UTF-8
 
 
@@ -206,7 +209,7 @@ class TableReader:
         if bad >= 0:
             line = self._line + block.count(b"\n", 0, bad)
             raise self.error("this is not UTF-8 text: save the table as CSV (UTF-8).", line)
-        return block.replace(b"\r\n", b"\n")
+        return block.replace(b"\r\n", b"\n") if b"\r" in block else block
 
     # ---- header ------------------------------------------------------------------------------
 
@@ -255,27 +258,53 @@ class TableReader:
 
     def _parse_plain(self, block: bytes) -> TableRows | None:
         """Read a block in which every line has as many cells as the header, or return None."""
-        data = np.frombuffer(block, dtype=np.uint8)
-        newlines = data == _NEWLINE
-        ends = np.flatnonzero(newlines | (data == _COMMA))
+        data = np.frombuffer(bytes(MARGIN) + block, dtype=np.uint8)
+        marks = np.flatnonzero((data == _COMMA) | (data == _NEWLINE) | (data == _POINT))
+        kinds = data[marks]
+        places = np.flatnonzero(kinds != _POINT)  # of the cells' ends, among the marks
         cells = len(self.names)
-        count, surplus = divmod(len(ends), cells)
-        if surplus or np.count_nonzero(newlines) != count or not newlines[ends[cells - 1 :: cells]].all():
+        count, surplus = divmod(len(places), cells)
+        newlines = kinds[places] == _NEWLINE
+        if surplus or np.count_nonzero(newlines) != count or not newlines[cells - 1 :: cells].all():
             return None
         text = None
         if self._text is not None:
-            text = self._plain_text(data, ends, self._text)
+            text = self._plain_text(data, marks[places], self._text)
             if text is None:
                 return None
+        rows = max(1, _CELLS_AT_ONCE // len(self._indices))
+        parts = []
+        for row in range(0, count, rows):
+            numbers = self._plain_numbers(data, marks, places, row, min(row + rows, count))
+            if numbers is None:
+                return None
+            parts.append(numbers)
+        return TableRows(self.columns, np.concatenate(parts), text, np.arange(self._line, self._line + count))
+
+    def _plain_numbers(
+        self,
+        data: npt.NDArray[np.uint8],
+        marks: npt.NDArray[np.int64],
+        places: npt.NDArray[np.int64],
+        begin: int,
+        end: int,
+    ) -> npt.NDArray[np.float64] | None:
+        """Read rows of a block; None: some cell is no number, or empty where it must not be."""
+        cells = len(self.names)
+        ends = (np.arange(begin, end)[:, None] * cells + np.array(self._indices)).ravel()
+        here = places[ends]
+        before = np.where(ends > 0, places[ends - 1], -1)
+        first = np.where(before >= 0, marks[before] + 1, MARGIN)
+        last = marks[here]
+        points = np.choose(np.minimum(here - before - 1, 2), [last, marks[before + 1], -1])
+        empty = first == last
+        if empty.any() and (cells == 1 or self._finite[np.flatnonzero(empty) % len(self._indices)].any()):
+            return None
         try:
-            numbers = np.loadtxt(
-                io.StringIO(block.decode()), delimiter=",", comments=None, usecols=self._indices, ndmin=2
-            )
+            numbers = floats(data, first, last, points)
         except ValueError:
             return None
-        if len(numbers) != count:  # a blank line in a table of one column
-            return None
-        return TableRows(self.columns, numbers, text, np.arange(self._line, self._line + count))
+        return numbers.reshape(end - begin, -1)
 
     def _plain_text(
         self, data: npt.NDArray[np.uint8], ends: npt.NDArray[np.int64], column: int
@@ -283,7 +312,11 @@ class TableReader:
         cells = len(self.names)
         last = ends[column::cells]
         # The first cell of a line begins behind the line before it, the first of all at 0.
-        before = ends[column - 1 :: cells] if column else np.concatenate(([-1], ends[cells - 1 : -1 : cells]))
+        before = (
+            ends[column - 1 :: cells]
+            if column
+            else np.concatenate(([MARGIN - 1], ends[cells - 1 : -1 : cells]))
+        )
         first = before + 1
         lengths = last - first
         width = max(int(lengths.max()), 1)

@@ -15,11 +15,11 @@ import contactbench.pipeline.contact.stream as stream_module
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
 from contactbench.pipeline.contact.facet_marks import MARKS
-from contactbench.pipeline.contact.shortest import shortest
 from contactbench.pipeline.contact.stream import WrenchFileError, locate_file
 from contactbench.pipeline.contact.wrench_csv import RAW_COLUMNS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe, load_probe
+from contactbench.pipeline.tables.shortest import shortest
 
 COLUMNS = "t,fx,fy,fz,mx,my,mz"
 GOOD = "0.1,0,0,-5,0,0,0"

@@ -57,6 +57,15 @@ def test_a_density_adds_up_to_the_number_of_contacts(probe, bandwidth):
     assert made.total == 500
 
 
+def test_many_contacts_are_spread_to_the_bit_as_few_are(probe, monkeypatch):
+    """On two threads, and with cells that are numbered by a table instead of sorted."""
+    at = touched(probe, 500)
+    few = heatmap(probe, at, bandwidth=0.003)
+    monkeypatch.setattr("contactbench.pipeline.heatmap.surface_kde._MANY", 0)
+    monkeypatch.setattr("contactbench.pipeline.heatmap.surface_kde._MOST_PLACES", 0)
+    np.testing.assert_array_equal(heatmap(probe, at, bandwidth=0.003).values, few.values)
+
+
 def test_a_density_adds_up_to_the_seconds_or_the_contacts_per_second(probe):
     points, seconds = touched(probe, 200), np.linspace(0.001, 0.01, 200)
     held = heatmap(probe, points, seconds, bandwidth=0.003, normalisation="seconds")

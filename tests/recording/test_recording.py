@@ -27,6 +27,8 @@ from contactbench.pipeline.recording import (
     SampleError,
     read_recording,
 )
+from contactbench.pipeline.recording.messages import read_wrench, wrench_cells, wrench_message
+from contactbench.pipeline.recording.tracks import WrenchColumns
 
 NUMBERS = st.floats(width=64, allow_infinity=False)
 TIMES = st.floats(-1e6, 1e6)
@@ -386,3 +388,65 @@ def test_times_that_arrays_cannot_subtract_are_refused(tmp_path: Path) -> None:
     with pytest.raises(SampleError, match="no time near the start"):
         writer.wrench(WrenchSample(1.7e308, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     writer.close()
+
+
+@pytest.mark.parametrize(
+    "sample",
+    [
+        WrenchSample(1000.0, (1.0, -2.5, 3e-7), (0.1, -0.0, 1e300)),
+        WrenchSample(1000.5, (math.nan, math.inf, 1.0), (1.0, 2.0, 3.0), 0, Status.LATE, 0.0, -21.5, 1000.25),
+        WrenchSample(1001.0, (0.1, 0.2, 0.3), (0.4, 0.5, 0.6), 2**63 - 1, Status(2**20), None, None, 1001.5),
+        WrenchSample(-1e14, (1.5, 2.5, 3.5), (4.5, 5.5, 6.5), None, Status.OK, 5e-324, None, -1e-9),
+    ],
+)
+def test_cells_of_a_wrench_are_the_wrench(sample):
+    data = wrench_message(sample, 1_700_000_000_000_000_123)
+    one, other = WrenchColumns(), WrenchColumns()
+    one.add(read_wrench(data))
+    cells = wrench_cells(data)
+    if cells is None:  # a moment or a count that is beyond what is usual is read as JSON
+        assert abs(sample.time) > 1e12 or (sample.sequence or 0) > 10**18
+        return
+    other.add_cells(cells)
+    for name, values in vars(one.track()).items():
+        # As bytes: -0.0 is not 0.0, and NaN is NaN.
+        assert vars(other.track())[name].tobytes() == values.tobytes(), name
+
+
+PLAIN = wrench_message(WrenchSample(1000.0, (1.0, -2.5, 3.0), (0.5, 1.5, 2.5), 7), 5)
+
+
+@pytest.mark.parametrize(
+    ("was", "now"),
+    [
+        (b"1000.0", b"01000.0"),
+        (b"1000.0", b"1000"),
+        (b"1000.0", b"1e400"),
+        (b"1000.0", b"null"),
+        (b"-2.5", b"-0"),
+        (b"-2.5", b"NaN"),
+        (b"-2.5", b"+2.5"),
+        (b"-2.5", b'"2.5"'),
+        (b"-2.5", b"-2."),
+        (b"-2.5", b"-2_0.5"),
+        (b'"y"', b'"x"'),
+        (b'"sequence":7', b'"sequence":-7'),
+        (b'"sequence":7', b'"sequence":7,"more":1'),
+        (b"{", b" {"),
+    ],
+)
+def test_what_is_not_written_as_contactbench_does_is_read_as_json(was, now):
+    data = PLAIN.replace(was, now, 1)
+    assert wrench_cells(PLAIN) is not None
+    assert data != PLAIN
+    assert wrench_cells(data) is None
+
+
+def test_samples_stay_in_order_whether_they_are_read_as_json_or_not():
+    columns = WrenchColumns()
+    for number in range(5):
+        data = wrench_message(WrenchSample(1000.0 + number, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), 5)
+        cells = wrench_cells(data)
+        assert cells is not None
+        columns.add_cells(cells) if number % 2 else columns.add(read_wrench(data))
+    assert columns.track().times.tolist() == [1000.0, 1001.0, 1002.0, 1003.0, 1004.0]

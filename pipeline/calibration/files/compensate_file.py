@@ -19,7 +19,6 @@ from contactbench.pipeline.calibration.files.pose_csv import (
 )
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
 from contactbench.pipeline.calibration.verdict import Level
-from contactbench.pipeline.contact.shortest import csv_rows
 from contactbench.pipeline.contact.stream import (
     Progress,
     WrenchFileError,
@@ -30,6 +29,7 @@ from contactbench.pipeline.contact.stream import (
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
+from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

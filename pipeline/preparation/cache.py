@@ -1,0 +1,141 @@
+"""
+What was made of a mesh before, in the user's cache folder: the same mesh and settings need no second wait.
+
+An entry is found by a hash of all that has a say: the bytes that went in, the settings, and the versions of
+contactbench and of the libraries. One that is lost, damaged or foreign costs no more than doing the work again.
+
+``CONTACTBENCH_CACHE`` names another folder; ``off``: nothing is kept, and nothing is looked for.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import platform
+import sys
+from functools import cache
+from importlib.metadata import distributions
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import contactbench
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.installation import component_folders
+from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+VARIABLE = "CONTACTBENCH_CACHE"
+_OFF = "off"
+_SUFFIX = ".kept"
+_MOST_BYTES = 512 * 2**20  # of all entries; those that were used longest ago go first
+_LARGEST = 64 * 2**20  # of one
+_LIBRARIES = ("numpy", "scipy", "manifold3d", "pymeshlab", "libigl")
+
+
+def made_once(
+    given: Callable[[], object], make: Callable[[], tuple[Any, ...]], types: tuple[type[Any], ...]
+) -> tuple[Any, ...]:
+    """
+    Return what was made before of the same, or make it.
+
+    Parameters
+    ----------
+    given : callable
+        Returns what decides the result, as JSON values; bytes by their hash. Asked again at the end: what was made of
+        files that changed meanwhile is not kept.
+    make : callable
+        Makes the values: of the classes in `cache_entry`, or plain ones.
+    types : tuple of type
+        Of the values, each.
+    """
+    folder = _folder()
+    if folder is None:
+        return make()
+    key = _key(given())
+    file = folder / f"{key}{_SUFFIX}"
+    found = _read(file, key, types)
+    if found is not None:
+        return found
+    values = make()
+    if _key(given()) == key:
+        _keep(file, encode(key, values))
+    return values
+
+
+def _folder() -> Path | None:
+    said = os.environ.get(VARIABLE, "")
+    if said == _OFF:
+        return None
+    if said:
+        return Path(said)
+    from platformdirs import user_cache_path
+
+    return user_cache_path("contactbench", appauthor=False) / "preparation"
+
+
+def _key(given: object) -> str:
+    said = {"given": given, "versions": _versions()}
+    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+
+
+@cache
+def _versions() -> dict[str, str]:
+    """Return the versions of all that has a say in the result."""
+    folders = [*sys.path, *map(str, component_folders("meshlab"))]
+    installed = {}
+    for name in _LIBRARIES:
+        found = next(iter(distributions(name=name, path=folders)), None)
+        installed[name] = "" if found is None else found.version
+    return {
+        **installed,
+        "contactbench": contactbench.__version__,
+        "modules": _modules(),
+        "python": platform.python_version(),
+        "machine": f"{sys.platform} {platform.machine()}",
+    }
+
+
+def _modules() -> str:
+    """Return a hash that changes with the modules of a checkout: there the version stays while they are worked on."""
+    root = Path(contactbench.__file__).parent / "pipeline"
+    stated = hashlib.sha256()
+    for file in sorted(root.rglob("*.py")):
+        state = file.stat()
+        stated.update(f"{file.relative_to(root)} {state.st_size} {state.st_mtime_ns}\n".encode())
+    from contactbench.pipeline import kernel
+
+    compiled = Path(sys.modules[kernel.Geodesic.__module__].__file__ or "")
+    if compiled.is_file():
+        stated.update(f"{compiled.stat().st_size} {compiled.stat().st_mtime_ns}".encode())
+    return stated.hexdigest()
+
+
+def _read(file: Path, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ...] | None:
+    try:
+        if file.stat().st_size > _LARGEST:
+            return None
+        values = decode(file.read_bytes(), key, types)
+    except (OSError, EntryError):
+        return None
+    with contextlib.suppress(OSError):  # a folder that others filled for us may be read-only
+        os.utime(file)
+    return values
+
+
+def _keep(file: Path, data: bytes) -> None:
+    """Write an entry, and make room for it; a folder that cannot be written costs only the next wait."""
+    if len(data) > _LARGEST:
+        return
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        room = _MOST_BYTES - len(data)
+        entries = [(each.stat(), each) for each in file.parent.glob(f"*{_SUFFIX}")]
+        for state, each in sorted(entries, key=lambda entry: entry[0].st_mtime_ns, reverse=True):
+            room -= state.st_size
+            if room < 0:
+                each.unlink(missing_ok=True)
+        write_durably(file, data)

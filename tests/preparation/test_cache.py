@@ -1,0 +1,219 @@
+"""A mesh that was prepared before is not prepared again; whatever is wrong with what was kept costs only the work."""
+
+import hashlib
+import json
+import struct
+
+import numpy as np
+import pytest
+
+from contactbench.assets import make
+from contactbench.pipeline.mesh import Probe, save_probe
+from contactbench.pipeline.mesh.shell import Shell
+from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
+from contactbench.pipeline.preparation import cache, prepare
+from contactbench.pipeline.preparation.cache import VARIABLE, made_once
+from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
+from contactbench.pipeline.settings import ProbeSettings
+
+START = 20 + 32  # magic and hash
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Give a cache of one's own."""
+    place = tmp_path / "kept"
+    monkeypatch.setenv(VARIABLE, str(place))
+    return place
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    """Write a mesh that is closed as it is."""
+    file = tmp_path / "mesh.ply"
+    save_probe(Probe.from_arrays(*make("linear", 600), name="linear"), file)
+    return file
+
+
+@pytest.fixture
+def works(monkeypatch):
+    """Count the outer surfaces that are made, without those that this process remembers."""
+    made = []
+
+    def counted(*arguments, **control):
+        made.append(arguments)
+        return whole(*arguments, **control)
+
+    whole = prepare.shell_step
+    monkeypatch.setattr(prepare, "shell_step", counted)
+    monkeypatch.setattr(prepare, "_REMEMBERED", 0)
+    return made
+
+
+def prepared(mesh, **settings):
+    done = prepare.prepared({"mesh": mesh}, ProbeSettings(**{"facets": 300, **settings}), remember=True)
+    return encode_probe_file(done.content, "probe.ply"), done.to_json(), done.sentences
+
+
+def test_the_same_comes_from_the_cache_to_the_byte(mesh, folder, works, monkeypatch):
+    first = prepared(mesh)
+    assert prepared(mesh) == first
+    assert len(works) == 1
+    monkeypatch.setenv(VARIABLE, "off")
+    assert prepared(mesh) == first
+    assert len(works) == 2
+    assert len([*folder.iterdir()]) == 2  # the outer surface, and the probe
+    monkeypatch.setenv(VARIABLE, str(folder))
+    prepared(mesh, facets=200)  # needs no other outer surface
+    assert len(works) == 2
+    assert len([*folder.iterdir()]) == 3
+
+
+@pytest.mark.parametrize("settings", [{"gap": 3.0}, {"alpha": 2.0}, {"close": ("hull",)}, {"units": "m"}])
+def test_settings_have_a_say(mesh, settings):
+    assert prepare._key(mesh, ProbeSettings(**settings)) != prepare._key(mesh, ProbeSettings())
+
+
+def test_a_mesh_its_name_and_what_is_beside_it_have_a_say(mesh):
+    said = [prepare._key(mesh, ProbeSettings())]
+    mesh.with_suffix(".json").write_text("{}", encoding="utf-8")
+    said.append(prepare._key(mesh, ProbeSettings()))
+    mesh.write_bytes(mesh.read_bytes() + b" ")
+    said.append(prepare._key(mesh, ProbeSettings()))
+    said.append(prepare._key(mesh.rename(mesh.with_name("other.ply")), ProbeSettings()))
+    assert len(set(said)) == 4
+
+
+def test_versions_have_a_say(folder, monkeypatch):
+    assert made_once(lambda: "it", lambda: (1,), (int,)) == (1,)
+    monkeypatch.setattr(cache, "_versions", lambda: {"contactbench": "9.9"})
+    assert made_once(lambda: "it", lambda: (2,), (int,)) == (2,)
+    assert len([*folder.iterdir()]) == 2
+
+
+def test_all_classes_come_back_as_they_were(mesh):
+    done = prepare.prepared({"mesh": mesh}, ProbeSettings(facets=300))
+    values = (done.content, done.shell, done.simplified, done.carried)
+    data = encode("k", values)
+    assert data == encode("k", values)
+    again = decode(data, "k", (ProbeFile, Shell, object, tuple))
+    assert encode("k", again) == data
+    assert values[0].probe.faces is values[2].probe.faces
+    assert again[0].probe.faces is again[2].probe.faces  # one array stays one
+    assert not again[0].probe.vertices.flags.writeable
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: data[:0],
+        lambda data: data[: len(data) // 2],
+        lambda data: data + b"x",
+        lambda data: data[:-1] + bytes([data[-1] ^ 1]),
+        lambda data: data[: START + 9] + bytes([data[START + 9] ^ 1]) + data[START + 10 :],
+        lambda data: b"another " + data,
+    ],
+)
+def test_a_damaged_entry_is_made_again(folder, damage):
+    values = (np.arange(5.0),)
+    calls = []
+
+    def work():
+        calls.append(1)
+        return values
+
+    made_once(lambda: "it", work, (np.ndarray,))
+    (file,) = folder.iterdir()
+    whole = file.read_bytes()
+    file.write_bytes(damage(whole))
+    np.testing.assert_array_equal(made_once(lambda: "it", work, (np.ndarray,))[0], values[0])
+    assert len(calls) == 2
+    assert file.read_bytes() == whole
+    made_once(lambda: "it", work, (np.ndarray,))
+    assert len(calls) == 2
+
+
+def test_an_entry_under_another_name_is_not_believed(folder):
+    made_once(lambda: "a", lambda: (1,), (int,))
+    (first,) = folder.iterdir()
+    made_once(lambda: "b", lambda: (2,), (int,))
+    (second,) = {*folder.iterdir()} - {first}
+    second.write_bytes(first.read_bytes())
+    assert made_once(lambda: "b", lambda: (2,), (int,)) == (2,)
+
+
+def _hashed(tree, rest=b""):
+    text = json.dumps(tree).encode()
+    body = struct.pack("<I", len(text)) + text + rest
+    return b"contactbench kept 1\n" + hashlib.sha256(body).digest() + body
+
+
+HEALTH = {"class": "MeshHealth", "fields": [True, True, True, 1, 0, 0, 0, 0]}
+
+
+@pytest.mark.parametrize(
+    "tree",
+    [
+        [],
+        {"key": "k", "values": [], "arrays": []},
+        {"key": "k", "values": [{"class": "Path", "fields": ["/"]}], "arrays": []},
+        {"key": "k", "values": [{"class": "MeshHealth", "fields": [True]}], "arrays": []},
+        {"key": "k", "values": [{"again": 0}], "arrays": []},
+        {"key": "k", "values": [{"array": -1}], "arrays": [["<f8", [0], True]]},
+        {"key": "k", "values": [{"array": 0}], "arrays": [["<f8", [2**40, 2**40], True]]},
+        {"key": "k", "values": [{"array": 0}], "arrays": [["<f8", [-1], True]]},
+        {"key": "k", "values": [{"array": 0}], "arrays": [["|O", [1], True]]},
+        {"key": "k", "values": [{"closing": "nonsense"}], "arrays": []},
+        {"key": "k", "values": [{"map": [[[], 1]]}], "arrays": []},
+    ],
+)
+def test_what_is_hashed_rightly_is_not_believed_for_that(tree):
+    with pytest.raises(EntryError):
+        decode(_hashed(tree), "k", (object,))
+
+
+def test_a_mesh_whose_facets_point_beyond_it_is_refused():
+    faces = np.array([[0, 1, 7]], dtype="<i4")
+    arrays = [["<f8", [3, 3], False], ["<i4", [1, 3], False], ["<i4", [1], False], ["|b1", [1], False]]
+    parts = [*({"array": number} for number in range(4)), "p", HEALTH, {"tuple": []}]
+    data = bytes(72) + faces.tobytes() + bytes(5)
+    with pytest.raises(EntryError) as refused:
+        decode(
+            _hashed({"key": "k", "values": [{"class": "Probe", "fields": parts}], "arrays": arrays}, data),
+            "k",
+            (Probe,),
+        )
+    assert "faces" in str(refused.value.__cause__)
+
+
+def test_what_changed_meanwhile_is_not_kept(folder):
+    said = iter(["before", "after"])
+    assert made_once(lambda: next(said), lambda: (1,), (int,)) == (1,)
+    assert not folder.exists()
+
+
+def test_the_cache_is_bounded_and_drops_what_was_used_longest_ago(folder, monkeypatch):
+    entry = len(encode("0" * 64, (np.zeros(1000),)))
+    monkeypatch.setattr(cache, "_MOST_BYTES", 3 * entry + 100)
+
+    def ask(name):
+        made_once(lambda: name, lambda: (np.zeros(1000),), (np.ndarray,))
+        newest = max(folder.iterdir(), key=lambda file: file.stat().st_mtime_ns)
+        # As if a while passed between one and the next, whatever the file system's clock.
+        for file in folder.iterdir():
+            if file != newest:
+                cache.os.utime(file, ns=(0, file.stat().st_mtime_ns - 10**9))
+        return newest
+
+    first, second, third = map(ask, "abc")
+    assert ask("a") == first  # used again: now the second is the oldest
+    ask("d")
+    assert first.exists()
+    assert not second.exists()
+    assert third.exists()
+
+
+def test_a_folder_that_cannot_be_written_costs_only_the_work(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("no folder")
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "file" / "kept"))
+    assert made_once(lambda: "it", lambda: (1,), (int,)) == (1,)

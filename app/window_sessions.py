@@ -215,7 +215,6 @@ class Sessions(QObject):
         self.close()
         self._start.question.clear()
         self._start.set_busy(True)
-        self._window.garbage.stop()
 
         def prepared(progress: object, cancelled: object) -> OpenedSession:
             opened = work(progress, cancelled)  # first: what cannot be opened is said at once
@@ -226,14 +225,16 @@ class Sessions(QObject):
                 raise
             return opened
 
-        self._classes.when_made(
-            lambda: self._jobs.start(
+        def start() -> None:
+            self._window.garbage.stop()  # until it came, or was refused
+            self._jobs.start(
                 title,
                 prepared,
                 lambda opened: self._came(opened, step),
                 lambda error: self._refused(error, folder),
             )
-        )
+
+        self._classes.when_made(start)
 
     def _came(self, opened: OpenedSession, step: Step | None) -> None:
         self._window.garbage.start()

@@ -26,7 +26,8 @@ def bar(qtbot, work):
     strip.watch()
     found = strip.findChild(QProgressBar)
     qtbot.waitUntil(found.isVisible)
-    return found
+    yield found
+    strip.close()
 
 
 def test_work_that_does_not_tell_how_far_it_is_counts_seconds(bar):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QIcon, QPixmapCache
@@ -17,14 +17,13 @@ from contactbench.app.window import MainWindow
 from contactbench.widgets.software_gl import spare_cores
 from contactbench.widgets.theme import follow_system, use_theme
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 # Streams and workers share one interpreter with the window, which waits so long for each of them at most: Python's
 # 5 ms, a hundred times in a frame, are a window that hangs.
 _SWITCH_S = 0.0005
 # The axes of the charts are kept as pictures: 1 MB each on a large screen, and Qt keeps ten.
 _PIXMAPS_KB = 64 * 1024
+# Its package is not asked: that would load the probes in it, and with them scipy, before the window is there.
+_ICON = Path(__file__).parents[1] / "assets" / "icon.svg"
 
 
 def run(session: Path | None = None, *, virtual: bool = False, language: str = "") -> int:
@@ -81,8 +80,5 @@ def prepared() -> QApplication:
     application.setDesktopFileName("contactbench")
     application.setStyle("Fusion")  # the same everywhere, and it keeps to the palette
     QPixmapCache.setCacheLimit(_PIXMAPS_KB)
-    from importlib.resources import as_file, files
-
-    with as_file(files("contactbench.assets") / "icon.svg") as file:
-        application.setWindowIcon(QIcon(str(file)))
+    application.setWindowIcon(QIcon(str(_ICON)))
     return application

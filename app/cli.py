@@ -9,12 +9,12 @@ from contactbench.pipeline.cli import ENTRIES, Entry, app
 
 __all__ = ["app", "main"]
 
-_PLACE = "contactbench.app.commands"
-
 ENTRIES["gui"] = Entry(
-    "Begin", f"{_PLACE}:gui_app", "Open the window for the bench; contactbench alone does it too"
+    "Begin",
+    "contactbench.app.commands:gui_app",
+    "Open the window for the bench; contactbench alone does it too",
 )
-ENTRIES["heatmap"] = replace(ENTRIES["heatmap"], place=f"{_PLACE}:heatmap_app")
+ENTRIES["heatmap"] = replace(ENTRIES["heatmap"], place="contactbench.app.heatmap_commands:heatmap_app")
 
 
 def main() -> None:

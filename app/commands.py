@@ -1,4 +1,4 @@
-"""Commands that open a window: ``contactbench gui`` and ``contactbench heatmap view``."""
+"""``contactbench gui``, and whether a window can be opened at all."""
 
 from __future__ import annotations
 
@@ -10,12 +10,9 @@ from typing import Annotated
 
 import typer
 
-from contactbench.pipeline.commands.heatmap import heatmap_app
 from contactbench.pipeline.console import Noun
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.installation import remedy
-
-__all__ = ["gui_app", "heatmap_app"]
 
 gui_app = Noun()
 
@@ -42,28 +39,6 @@ def gui(
     from contactbench.app.application import run
 
     raise typer.Exit(run(file or session, virtual=virtual, language=language))
-
-
-@heatmap_app.command(example="heatmap view my-session", as_json=False)
-def view(
-    files: Annotated[
-        list[Path] | None, typer.Argument(metavar="[FILES]...", help="Recordings, contacts or sessions.")
-    ] = None,
-) -> None:
-    """Look at heatmaps in a window: play back, compare, read values, save pictures and films."""
-    check_screen()
-    from contactbench.app.application import prepared
-
-    application = prepared()
-    from contactbench.app.heatmap_viewer import run
-    from contactbench.app.settings import WindowSettings
-    from contactbench.app.translation import load
-    from contactbench.widgets.theme import use_theme
-
-    remembered = WindowSettings().now
-    load(application, remembered.language)
-    use_theme(remembered.theme)
-    raise typer.Exit(run(list(files or ())))
 
 
 def check_screen() -> None:

@@ -28,7 +28,7 @@ class Garbage(QObject):
 
         Garbage._there += 1
         gc.disable()
-        self._timer.start()
+        self.start()
         self.destroyed.connect(Garbage._give_back)
 
     @staticmethod
@@ -39,8 +39,17 @@ class Garbage(QObject):
             gc.collect()  # here, and not in the next thread that allocates
             gc.enable()
 
+    def start(self) -> None:
+        """Collect from now on."""
+        self._timer.start()
+
     def stop(self) -> None:
-        """Collect nothing more: the window is closed, and might itself be what is collected, by its own timer."""
+        """
+        Collect nothing for now.
+
+        While a worker imports, nearly all that is new stays, and to look through it is a window that hangs. A window
+        that is closed might itself be what is collected, by its own timer.
+        """
         self._timer.stop()
 
     def settle(self) -> None:

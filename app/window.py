@@ -32,7 +32,7 @@ from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.message_list import NewestMessage
 from contactbench.widgets.progress_strip import ProgressStrip
-from contactbench.widgets.theme import is_dark, use_theme
+from contactbench.widgets.theme import dress, is_dark, use_theme
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
@@ -116,6 +116,7 @@ class MainWindow(QMainWindow):
         self._tick.timeout.connect(self._show_live)
         self._slow = QTimer(self, interval=_SLOW_MS)
         self._slow.timeout.connect(self._show_rates)
+        dress(self)
         if not restore_geometry(self, self.settings.now.geometry):
             self.resize(first_size(self))
         self._show_start()

@@ -21,6 +21,7 @@ from contactbench.app.window_docks import first_size
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
+from contactbench.widgets.theme import dress
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -206,6 +207,7 @@ class Menus(QObject):
     def _show_beside(self, viewer: QWidget, title: str) -> None:
         viewer.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         viewer.setWindowTitle(title)
+        dress(viewer)
         self._viewers = [each for each in self._viewers if isValid(each)] + [viewer]
         viewer.resize(first_size(viewer))
         viewer.show()

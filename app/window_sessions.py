@@ -42,14 +42,27 @@ if TYPE_CHECKING:
 
 _NEEDED = (
     "contactbench.widgets.scene",
+    "vtkmodules.vtkInteractionWidgets",  # of a scene that is made
+    "vtkmodules.vtkViewsContext2D",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
+    "contactbench.pipeline.workbench.live_outputs",
     "contactbench.pipeline.workbench.standings",
+    "contactbench.app.trouble_watch",
+    "contactbench.app.undo",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
-
 _MOST_NAMED = 8
+
+
+def _load() -> None:
+    """Import VTK, scipy and whatever else a session needs; in a worker, so that the window answers meanwhile."""
+    for name in _NEEDED:
+        import_module(name)
+    from contactbench.pipeline.devices.protocols.registry import drivers
+
+    drivers()  # which are loaded one by one when they are asked for
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -206,23 +219,25 @@ class Sessions(QObject):
         def prepared(progress: object, cancelled: object) -> OpenedSession:
             opened = work(progress, cancelled)  # first: what cannot be opened is said at once
             try:
-                for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
-                    import_module(name)
+                _load()
             except BaseException:
                 opened.desk.close()
                 raise
             return opened
 
-        self._classes.when_made(
-            lambda: self._jobs.start(
+        def start() -> None:
+            self._window.garbage.stop()  # until it came, or was refused
+            self._jobs.start(
                 title,
                 prepared,
                 lambda opened: self._came(opened, step),
                 lambda error: self._refused(error, folder),
             )
-        )
+
+        self._classes.when_made(start)
 
     def _came(self, opened: OpenedSession, step: Step | None) -> None:
+        self._window.garbage.start()
         self._start.set_busy(False)
         self._why_read_only, self._history = opened.why_read_only, opened.history
         for sentence in opened.found:
@@ -295,6 +310,7 @@ class Sessions(QObject):
         self.opened.emit(opened, step)
 
     def _refused(self, error: BaseException, folder: Path | None) -> None:
+        self._window.garbage.start()
         self._start.set_busy(False)
         problem = problem_with(error)
         if problem is None:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench import __version__
 from contactbench.pipeline.console import Nouns, print_json, report_error
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.installation import remedy
@@ -191,6 +190,7 @@ def main() -> None:
 
 def _show_version(ctx: typer.Context, value: bool) -> None:
     if value:
+        from contactbench import __version__
         from contactbench.pipeline import kernel
         from contactbench.pipeline.kernel.build import build
 

@@ -70,7 +70,7 @@ def _as_it_was():
 
     for translator in application.findChildren(QTranslator):
         application.removeTranslator(translator)
-    application.setStyleSheet("")
+    application.setProperty("sheet", None)
     application.setPalette(QPalette())
     # What is to be deleted later is deleted by the next event loop: after the last test there is none.
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

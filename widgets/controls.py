@@ -204,7 +204,9 @@ class ElidedLabel(QLabel):
         return self._words
 
     def setText(self, words: str) -> None:
-        """Show other words."""
+        """Show other words; the same ones ask for no new layout."""
+        if words == self._words:
+            return
         self._words = words
         self.updateGeometry()
         self._elide()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QColor, QFont
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout, QWidget
 
@@ -92,6 +92,12 @@ class Pane(QWidget):
         self.dress()
 
     # ---- looks -------------------------------------------------------------------------------------
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Give the unit the room that it needs in another font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.StyleChange:
+            self._unit.adjustSize()
 
     def dress(self) -> None:
         """Take the colours of the running application's theme."""

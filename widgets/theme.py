@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette
+from PySide6.QtWidgets import QApplication
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from PySide6.QtWidgets import QWidget
+
 _PICTURES = Path(__file__).parent / "pictures"  # a style sheet takes pictures from files only
+_SHEET_IN_USE, _DRESSED = "sheet", "dressed"  # properties of the application, of a window
 OKABE_ITO = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 
 
@@ -138,7 +142,21 @@ def use_theme(choice: str = "system") -> None:
     if choice == "system":
         dark = application.styleHints().colorScheme() == Qt.ColorScheme.Dark
     application.setPalette(palette(dark))
-    application.setStyleSheet(style_sheet(dark))  # type: ignore[attr-defined]
+    application.setProperty(_SHEET_IN_USE, style_sheet(dark))
+    for window in QApplication.topLevelWidgets():
+        if window.property(_DRESSED):
+            dress(window)
+
+
+def dress(window: QWidget) -> None:
+    """
+    Have a window, and all that is in it and above it, look as the theme in use says, also when another one is chosen.
+
+    The application has no style sheet of its own: every part would then be styled anew, with all that is in it, for
+    each parent that it is given while a page is built. That takes three times as long as building it.
+    """
+    window.setProperty(_DRESSED, True)
+    window.setStyleSheet(QApplication.instance().property(_SHEET_IN_USE) or "")  # type: ignore[union-attr]
 
 
 def follow_system(choice: Callable[[], str]) -> None:

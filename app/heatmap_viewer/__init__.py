@@ -30,12 +30,12 @@ def run(paths: list[Path]) -> int:
     from PySide6.QtCore import QCoreApplication
     from PySide6.QtWidgets import QApplication
 
-    from contactbench.widgets.theme import use_theme
+    from contactbench.widgets.theme import dress
 
     application = QApplication.instance() or QApplication(sys.argv[:1])
-    use_theme()
     viewer = HeatmapViewer()
     viewer.setWindowTitle(QCoreApplication.translate("HeatmapViewer", "Heatmaps - contactbench"))
+    dress(viewer)
     viewer.resize(1280, 800)
     viewer.show()
     if paths:

@@ -3280,6 +3280,10 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <source>Stopping</source>
         <translation>Wird angehalten</translation>
     </message>
+    <message>
+        <source>{} s</source>
+        <translation>{} s</translation>
+    </message>
 </context>
 <context>
     <name>ReadOnlyView</name>

@@ -68,6 +68,32 @@ def test_the_window_opens_and_ends(tmp_path):
     assert (home / "log" / "contactbench.log").exists()
 
 
+def test_the_window_is_painted_before_anything_heavy_is_loaded(tmp_path):
+    if not os.environ.get("DISPLAY"):
+        pytest.skip("needs a screen")
+    code = """
+import sys
+from PySide6.QtCore import QEvent, QTimer
+from contactbench.app import application, cli
+class Window(application.MainWindow):
+    def event(self, event):
+        if event.type() == QEvent.Type.Paint:
+            heavy = ("numpy", "scipy", "vtkmodules", "pyvista", "mujoco", "contactbench.pipeline.settings")
+            print(*(name for name in heavy if name in sys.modules), file=sys.stderr, flush=True)
+            QTimer.singleShot(0, self, self.close)
+        return super().event(event)
+application.MainWindow = Window
+sys.argv = ["contactbench", "gui"]
+cli.main()
+"""
+    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
+    result = subprocess.run(
+        [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert result.returncode == 0, result.stderr
+    assert not result.stderr.strip(), "loaded while somebody waits for the window"
+
+
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals as there")
 def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
     if not os.environ.get("DISPLAY"):

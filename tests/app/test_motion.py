@@ -11,7 +11,7 @@ from workbench.touch_session import make_session, verify
 from contactbench.app.motion import MotionWindow
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.widgets.theme import use_theme
+from contactbench.widgets.theme import dress, use_theme
 
 LONG_MS = 60_000
 
@@ -26,6 +26,7 @@ def bundle(tmp_path_factory):
 @pytest.fixture
 def window(qtbot):
     made = MotionWindow(lambda: None)
+    dress(made)
     made.resize(1100, 700)
     made.show()
     qtbot.waitExposed(made)

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import weakref
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,19 @@ def window(make_window, plain_pages):  # noqa: ARG001 - for what it does
 
 def asked(window):
     return window.start.question.sentence
+
+
+class Ring:
+    """Holds itself."""
+
+    def __init__(self):
+        self.me = self
+
+
+def rubbish_goes(qtbot):
+    """Check that what holds itself is collected, as it is not while modules are imported."""
+    rings = [weakref.ref(Ring()) for _ in range(2_000)]
+    qtbot.waitUntil(lambda: not any(each() for each in rings), timeout=10_000)
 
 
 def test_the_virtual_bench_is_one_click_away(qtbot, window):
@@ -63,6 +77,12 @@ def test_a_folder_of_something_else_is_refused_in_words(qtbot, window, tmp_path)
     window.sessions.open(tmp_path / "photos")
     qtbot.waitUntil(lambda: "session" in asked(window), timeout=10_000)
     assert window.start.virtual_button.isEnabled()
+    rubbish_goes(qtbot)
+
+
+def test_rubbish_goes_again_once_a_session_has_come(qtbot, window, tmp_path):
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "a"))
+    rubbish_goes(qtbot)
 
 
 def test_a_session_that_is_open_elsewhere_can_be_looked_at(qtbot, window, tmp_path):

@@ -2,10 +2,12 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLabel, QVBoxLayout, QWidget
 
 from contactbench.widgets.strip_chart import ChartHistory, StripChart
 from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
+from contactbench.widgets.strip_chart_pane import Curves, Pane
+from contactbench.widgets.theme import dress, use_theme
 
 
 def history(count=2000, rate=200.0, start=50.0, bias=0.0):
@@ -217,3 +219,16 @@ class Updates(QObject):
     def eventFilter(self, _watched, event):
         self.count += event.type() == QEvent.Type.UpdateRequest
         return False
+
+
+def test_the_unit_has_the_room_that_the_font_of_its_window_needs(qtbot):
+    use_theme("light")
+    window, pane = QWidget(), Pane(Curves("Force", ("force", "target"), "N", 2, 1.0))
+    qtbot.addWidget(window)
+    dress(window)
+    window.show()
+    pane.show_data(np.arange(2.0) - 1.0, np.zeros((2, 2)), -1.0, 0.0)
+    QVBoxLayout(window).addWidget(pane)
+    unit = next(each for each in pane.findChildren(QLabel) if each.text() == "N")
+    qtbot.waitUntil(unit.isVisible)
+    assert unit.width() >= unit.sizeHint().width()

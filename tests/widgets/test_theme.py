@@ -4,9 +4,10 @@ import re
 from dataclasses import fields
 
 import pytest
+from PySide6.QtWidgets import QLabel, QWidget
 
 from contactbench.widgets import theme
-from contactbench.widgets.theme import colours, contrast, is_dark, style_sheet, use_theme
+from contactbench.widgets.theme import colours, contrast, dress, is_dark, style_sheet, use_theme
 
 _WRITTEN = ("text", "muted", "accent", "good", "warning", "bad", "stale")
 
@@ -42,13 +43,28 @@ def test_the_style_sheet_uses_colours_of_the_theme_only(dark):
         assert theme.Path(picture).is_file()
 
 
-def test_a_running_application_is_dressed(qapp):
-    before, sheet = qapp.palette(), qapp.styleSheet()
-    try:
-        use_theme("dark")
-        assert is_dark()
-        use_theme("light")
-        assert not is_dark()
-    finally:
-        qapp.setPalette(before)
-        qapp.setStyleSheet(sheet)
+def test_a_window_is_dressed_as_the_theme_in_use_says(qtbot):
+    before, window, other = QWidget(), QWidget(), QWidget()
+    for each in (before, window, other):
+        qtbot.addWidget(each)
+    dress(before)
+    assert not before.styleSheet(), "no theme was chosen"
+    use_theme("dark")
+    dress(window)
+    assert is_dark()
+    assert before.styleSheet() == window.styleSheet() == style_sheet(True)
+    use_theme("light")
+    assert not is_dark()
+    assert before.styleSheet() == window.styleSheet() == style_sheet(False)
+    assert not other.styleSheet()
+
+
+def test_what_a_dressed_window_is_given_looks_like_it(qtbot):
+    window, label = QWidget(), QLabel("words")
+    qtbot.addWidget(window)
+    use_theme("light")
+    dress(window)
+    label.setProperty("role", "title")
+    label.setParent(window)
+    label.ensurePolished()
+    assert label.font().pointSizeF() == pytest.approx(15)

@@ -2,7 +2,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from contactbench.pipeline.workbench.probe_ladder import Trade, TradePoint
-from contactbench.widgets.theme import use_theme
+from contactbench.widgets.theme import dress, use_theme
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 TRADE = Trade(
@@ -61,6 +61,7 @@ def test_from_a_number_between_the_points_keys_go_to_the_next_one(qtbot, chart):
 
 
 def test_it_fits_into_the_panel_in_both_themes_and_shows_each_quantity(qtbot, chart):
+    dress(chart)
     for theme in ("dark", "light"):
         use_theme(theme)
         for across in range(chart.across.count()):

@@ -21,7 +21,7 @@ from contactbench.app.window import MainWindow
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.steps import Step
-from contactbench.widgets.theme import use_theme
+from contactbench.widgets.theme import dress, use_theme
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -171,6 +171,7 @@ class _Tour:
 
     def _heatmap(self) -> QPixmap:
         viewer = HeatmapViewer()
+        dress(viewer)
         self._place(viewer)
         viewer.open([self._session])
         self._until(lambda: not viewer.jobs.running)

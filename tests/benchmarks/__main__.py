@@ -22,6 +22,7 @@ BENCHMARKS = {
     "alignment": "preparation.alignment:run",
     "bundles": "bundle_fuzz:run",
     "calibration-doubt": "calibration_doubt:run",
+    "chain": "chain:run",
     "control-safety": "control_safety:run",
     "control-scenarios": "control_scenarios:run",
     "control-speed": "control_speed:run",

@@ -31,6 +31,7 @@ BENCHMARKS = {
     "fleet": "fleet:run",
     "gravity": "gravity:run",
     "live": "live.report:run",
+    "memory": "memory:run",
     "mesh-fuzz": "mesh_fuzz.fuzz:run",
     "mistakes": "mistakes:run",
     "outputs": "outputs:run",

@@ -4,8 +4,8 @@
 //                                         the heap and of locks. `fault` is made on purpose: malloc, lock or syscall.
 //   chain run BUNDLE FRAMES COUNT PERIOD_NS CORE OTHER_CORE TIMES URGENT
 //                                         frames by UDP, each decoded, located and published by UDP; TIMES gets five
-//                                         int64 a frame. Period 0: the next frame follows the last contact. URGENT 1: with
-//                                         real-time priority, if permitted.
+//                                         int64 a frame. Period 0: the next frame follows the last contact. URGENT 1:
+//                                         with real-time priority, if permitted.
 //
 // FRAMES: an RDT record (36 bytes, big endian, a million counts a unit) and R_WS (9 doubles) each; repeated as needed.
 #include <arpa/inet.h>
@@ -86,6 +86,10 @@ std::int64_t now(clockid_t clock = CLOCK_MONOTONIC) {
 
 std::uint32_t number_at(const unsigned char* p) {
     return std::uint32_t(p[0]) << 24 | std::uint32_t(p[1]) << 16 | std::uint32_t(p[2]) << 8 | p[3];
+}
+
+void put_number(std::uint32_t n, unsigned char* p) {
+    for (int i = 0; i < 4; ++i) p[i] = static_cast<unsigned char>(n >> (24 - 8 * i));
 }
 
 void decode(const unsigned char* record, double wrench[6]) {
@@ -193,8 +197,10 @@ long sense(int s, const std::vector<Frame>& frames, long count, std::int64_t per
             const timespec at{due / 1000000000, due % 1000000000};
             clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
         }
+        Frame frame = frames[std::size_t(i) % frames.size()];
+        put_number(std::uint32_t(i), frame.record);  // what is lost is known by it
         times[i].sent = now();
-        if (send(s, frames[std::size_t(i) % frames.size()].record, record_bytes, 0) != record_bytes) fail("send");
+        if (send(s, frame.record, record_bytes, 0) != record_bytes) fail("send");
         if (period == 0) came += recv(s, &contact, sizeof contact, 0) == sizeof contact;
         while (period > 0 && recv(s, &contact, sizeof contact, MSG_DONTWAIT) == sizeof contact) ++came;
     }
@@ -234,16 +240,18 @@ int run(char** argv) {
     long done = 0;
     rusage before, after;
     getrusage(RUSAGE_THREAD, &before);
-    for (; done < count; ++done) {
+    for (std::size_t number = 0; long(number) + 1 < count; ++done) {
         unsigned char record[record_bytes];
         if (recv(in, record, sizeof record, 0) != record_bytes) break;
-        Times& t = times[done];
-        const std::int64_t used = now(CLOCK_THREAD_CPUTIME_ID);
-        t.received = now();
+        const std::int64_t used = now(CLOCK_THREAD_CPUTIME_ID), received = now();
+        number = number_at(record);
+        if (number >= std::size_t(count)) break;
+        Times& t = times[number];
+        t.received = received;
         double wrench[6];
         decode(record, wrench);
-        const double time = double(done + 1) * sample_s;
-        cb_update(runtime, wrench, frames[std::size_t(done) % frames.size()].R_WS, time, &contact);
+        const double time = double(number + 1) * sample_s;
+        cb_update(runtime, wrench, frames[number % frames.size()].R_WS, time, &contact);
         t.located = now();
         if (send(in, &contact, sizeof contact, 0) != sizeof contact) fail("publish");
         t.published = now();
@@ -252,7 +260,7 @@ int run(char** argv) {
     getrusage(RUSAGE_THREAD, &after);
     waitpid(sensor, nullptr, 0);
     std::FILE* file = std::fopen(argv[6], "wb");
-    if (!file || std::fwrite(times, sizeof(Times), std::size_t(done), file) != std::size_t(done) || std::fclose(file))
+    if (!file || std::fwrite(times, sizeof(Times), std::size_t(count), file) != std::size_t(count) || std::fclose(file))
         fail(argv[6]);
     std::printf("{\"done\":%ld,\"came\":%ld,\"faults\":%ld,\"switched\":%ld,\"urgent\":%d}\n", done, *came,
                 after.ru_minflt - before.ru_minflt, after.ru_nivcsw - before.ru_nivcsw, urgent);

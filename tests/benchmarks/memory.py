@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
+from string import Formatter
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 _MORE_MB = 8.0  # more for the longest input: what a heap may waste
 _PAUSE_S = 0.005  # between two copies
+_CLI = (sys.executable, "-m", "contactbench.pipeline.cli")
 # Of itself a child has what its parent had when it was made: this one has next to nothing.
 _LAUNCHER = (
     "import resource, subprocess, sys\n"
@@ -98,20 +100,22 @@ def run(
         raise InputError(f"--copies {','.join(map(str, copies))}: give two numbers of copies or more.")
     if unknown := [name for name in only if name not in COMMANDS]:
         raise InputError(f"--only {unknown[0]}: choose from {', '.join(COMMANDS)}.")
+    chosen = only or [*COMMANDS]
+    needs = {field for name in chosen for _, field, _, _ in Formatter().parse(COMMANDS[name].words) if field}
     rows = []
     figures = []
     with TemporaryDirectory(prefix="contactbench-") as place:
         folder = Path(place)
-        files = _sample(folder)
+        files = _sample(folder, needs)
         samples = {}
         for number in lengths:
             progress(f"{number} copies of the tutorial's recordings")
-            samples[number] = _copies(folder, files, number)
-        for name in only or COMMANDS:
+            samples[number] = _copies(folder, files, number, needs)
+        for name in chosen:
             command = COMMANDS[name]
             peaks = []
             for number in lengths:
-                peaks.append(_peak(_words(folder, command, number), command.codes))
+                peaks.append(peak([*_CLI, *_words(folder, command, number), "--quiet"], command.codes))
                 progress(f"{name}, {number} copies: {peaks[-1]:.0f} MB")
             more = peaks[-1] - peaks[0]
             each = 1e6 * more / (samples[lengths[-1]][command.of] - samples[lengths[0]][command.of])
@@ -124,20 +128,26 @@ def run(
     return StudyReport("Memory", {"copies": lengths}, tuple(figures), (note,), sheets=(sheet,))
 
 
-def _sample(folder: Path) -> dict[str, Path]:
+def _sample(folder: Path, needs: set[str]) -> dict[str, Path]:
     """Write sample data, and what is made of it: a calibration, a probe, a bundle, a session."""
     files = {name: folder / name for name in ("sample", "bundle", "session")}
     sample = files["sample"]
     _call("tutorial", sample)
     files |= {"calibration": sample / "calibration.json", "probe": sample / "probe.ply"}
-    _call("calibrate", "fit", sample / "poses.csv", "--out", files["calibration"])
-    _call(*("probe", "prepare", sample / "housing.stl", "--place", "0,0,150,90,0,0"), "--out", files["probe"])
-    _call("session", "new", files["session"])
-    example_config(1_000).write(files["bundle"])
+    # Only what is needed: each takes a while.
+    if needs & {"calibration", "wrenches", "contacts"}:
+        _call("calibrate", "fit", sample / "poses.csv", "--out", files["calibration"])
+    if needs & {"probe", "contacts"}:
+        placed = (sample / "housing.stl", "--place", "0,0,150,90,0,0")
+        _call("probe", "prepare", *placed, "--out", files["probe"])
+    if "session" in needs:
+        _call("session", "new", files["session"])
+    if "bundle" in needs:
+        example_config(1_000).write(files["bundle"])
     return files
 
 
-def _copies(folder: Path, files: dict[str, Path], number: int) -> dict[str, int]:
+def _copies(folder: Path, files: dict[str, Path], number: int, needs: set[str]) -> dict[str, int]:
     """Write the files of a length; return how many samples each holds."""
     at = folder / str(number)
     at.mkdir()
@@ -145,9 +155,12 @@ def _copies(folder: Path, files: dict[str, Path], number: int) -> dict[str, int]
     for name in ("gravity", "touches"):
         counts[name] = repeat(files["sample"] / f"{name}.mcap", at / f"{name}.mcap", number)
     counts["readings"] = _repeat_table(files["sample"] / "recording.csv", at / "readings.csv", number)
-    _call("calibrate", "compensate", files["calibration"], at / "readings.csv", "--out", at / "wrenches.csv")
-    located = ("locate", "--probe", files["probe"], at / "wrenches.csv", "--out", at / "contacts.csv")
-    _call(*located, codes=(0, 1))
+    if needs & {"wrenches", "contacts"}:
+        compensated = (files["calibration"], at / "readings.csv", "--out", at / "wrenches.csv")
+        _call("calibrate", "compensate", *compensated)
+    if "contacts" in needs:
+        located = ("--probe", files["probe"], at / "wrenches.csv", "--out", at / "contacts.csv")
+        _call("locate", *located, codes=(0, 1))
     return counts | dict.fromkeys(("wrenches", "contacts"), counts["readings"])
 
 
@@ -203,16 +216,15 @@ def _words(folder: Path, command: Command, number: int) -> list[str]:
 
 
 def _call(*words: object, codes: tuple[int, ...] = (0,)) -> None:
-    _peak([*map(str, words)], codes)
+    peak([*_CLI, *map(str, words), "--quiet"], codes)
 
 
-def _peak(words: Sequence[str], codes: tuple[int, ...]) -> float:
-    """Run a command; return the most memory that it had, MB."""
-    program = [sys.executable, "-m", "contactbench.pipeline.cli", *words, "--quiet"]
+def peak(command: Sequence[str], codes: tuple[int, ...]) -> float:
+    """Run a program; return the most memory that it had, MB."""
     done = subprocess.run(
-        [sys.executable, "-c", _LAUNCHER, *program], capture_output=True, text=True, check=False
+        [sys.executable, "-c", _LAUNCHER, *command], capture_output=True, text=True, check=False
     )
-    code, peak = (int(word) for word in done.stdout.split())
+    code, most = (int(word) for word in done.stdout.split())
     if code not in codes:
-        raise InputError(f"contactbench {' '.join(words)}: ended with {code}: {done.stderr[-1000:]}")
-    return peak / (1024.0 if sys.platform == "linux" else 1024.0**2)
+        raise InputError(f"{' '.join(command)}: ended with {code}: {done.stderr[-1000:]}")
+    return most / 1e6 * (1 if sys.platform == "darwin" else 1024)

@@ -208,9 +208,12 @@ def _by_dask(
     timed: bool,
     cancelled: Callable[[], bool],
 ) -> Iterator[dict[str, Any]]:
+    import dask
     from distributed import Client, LocalCluster, as_completed
 
     with ExitStack() as stack:
+        # Workers would look a hundred times a second at what they do, for a page that nobody opens.
+        stack.enter_context(dask.config.set({"distributed.worker.profile.enabled": False}))
         try:
             address: Any = scheduler or stack.enter_context(
                 LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, processes=True)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.sweep.plan import SweepPlan
 
 study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
 
@@ -217,6 +218,17 @@ def run(
     touches: Annotated[int | None, typer.Option(help="Touches per cell [the plan's].")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed of the touches [the plan's].")] = None,
     times: Annotated[bool, typer.Option(help="Also measure times.")] = True,
+    part: Annotated[
+        str | None,
+        typer.Option(
+            metavar="K/N",
+            help="Compute only this of N parts, each on a machine of its own, into one shared folder [1/1].",
+        ),
+    ] = None,
+    dry_run: Annotated[
+        bool,
+        typer.Option("--dry-run", help="Measure a few cells, and estimate the time and memory of all."),
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
     """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
@@ -235,6 +247,8 @@ def run(
             "--workers": workers,
             "--scheduler": scheduler,
             "--no-times": not times,
+            "--part": part,
+            "--dry-run": dry_run,
             "--touches": None if preset == "hard" else touches,
         }
         if unknown := [name for name, value in given.items() if value]:
@@ -258,6 +272,9 @@ def run(
         touches=touches,
         seed=seed,
     )
+    if dry_run:
+        _estimate(plan, workers, times, as_json)
+        return
     say(f"{plan.name}: up to {len(plan):,} cells of {plan.touches:,} touches")
     with Bar("computing", counted=True) as bar:
         done = sweep(
@@ -266,6 +283,7 @@ def run(
             command=command,
             scheduler=scheduler,
             workers=workers,
+            part=_part(part),
             timed=times,
             progress=bar,
         )
@@ -273,11 +291,38 @@ def run(
         say(f"left out: {missing}", "yellow")
     for fault in done.faults:
         say(f"not computed: {fault}", "red")
-    say(f"{done.results}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
+    where = done.results or f"{out}: not all parts are done"
+    say(f"{where}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
     if as_json:
         print_json(done.to_json())
     if done.failed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _part(text: str | None) -> tuple[int, int]:
+    number, slash, of = (text or "1/1").partition("/")
+    if not (slash and number.isdecimal() and of.isdecimal()):
+        raise InputError(f"--part {text}: give which of how many, such as 2/8.")
+    return int(number), int(of)
+
+
+def _estimate(plan: SweepPlan, workers: int | None, timed: bool, as_json: bool) -> None:
+    from contactbench.pipeline.study.sweep.estimate import estimate
+
+    with Bar("measuring", counted=True) as bar:
+        found = estimate(plan, workers=workers, timed=timed, progress=bar)
+    memory = "" if found.worker_MB is None else f", {found.worker_MB:,.0f} MB of memory for each"
+    say(
+        f"{plan.name}: {found.cells:,} cells, {found.touches:,} touches in {found.tasks:,} tasks. Measured on"
+        f" {found.measured:,} cells: {_hours(found.core_hours)} of one core; {_hours(found.hours)} on"
+        f" {found.workers:,}{memory}. The results take {found.results_MB:,.1f} MB."
+    )
+    if as_json:
+        print_json(found.to_json())
+
+
+def _hours(hours: float) -> str:
+    return f"{hours:,.1f} hours" if hours >= 1 else f"{60 * hours:,.1f} minutes"
 
 
 @study_app.command(example="study compare quick-study full-study")

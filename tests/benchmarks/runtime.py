@@ -45,11 +45,12 @@ def run(
     *,
     facets: int = 20_000,
     seed: int = 0,
+    sensors: int = 4,
     progress: Callable[[str], None] = lambda _: None,
 ) -> StudyReport:
-    """Measure the Python runtime."""
-    if not seconds >= 1 or not minutes > 0:
-        raise InputError("give at least 1 second, and a number of minutes above 0.")
+    """Measure the Python runtime: one sensor, several in one process, and a replay."""
+    if not seconds >= 1 or not minutes > 0 or sensors < 2:
+        raise InputError("give at least 1 second, a number of minutes above 0, and at least 2 sensors.")
     config = example_config(facets)
     figures: list[Figure] = []
     with TemporaryDirectory(prefix="contactbench-") as name:
@@ -57,13 +58,19 @@ def run(
         config.write(folder / "bundle")
         for busy in (False, True):
             progress(f"a sensor at 1 kHz for {seconds:g} s" + (", beside a busy core" if busy else ""))
-            figures += _latency_figures(latency(folder, seconds, busy=busy), busy=busy)
+            subject = "1 kHz, one core busy" if busy else "1 kHz"
+            (one,) = latency(folder, seconds, busy=busy)
+            figures += _latency_figures(one, subject)
+        progress(f"{sensors} sensors at 1 kHz for {seconds:g} s, in one process")
+        for number, each in enumerate(latency(folder, seconds, sensors), 1):
+            # What several sensors cost one another in lateness depends on the cores that there are: not judged.
+            figures += _latency_figures(each, f"{sensors} sensors at 1 kHz, number {number}", judged=False)
         progress(f"replaying {minutes:g} minutes at 1 kHz")
         count = round(60_000 * minutes)
         tape = folder / "tape.mcap"
         write_tape(tape, config, count, seed)
         figures += _soak_figures(_child(folder, "replay", str(tape)), count)
-    settings = {"seconds": seconds, "minutes": minutes, "facets": facets, "seed": seed}
+    settings = {"seconds": seconds, "minutes": minutes, "facets": facets, "seed": seed, "sensors": sensors}
     note = (
         "From a frame's first byte given to the line to its contact in the reading process, lines written to a file"
         " and datagrams sent meanwhile. How late the machine itself wakes an idle process is a floor for that."
@@ -79,41 +86,51 @@ class Latency:
     """What one run showed."""
 
     pair: Comparison  # Frames sent beside contacts given
-    # Time of the processor that the reading process used for one sample, s, all of its threads together
+    # Time of the processor that the reading process used for one sample of one sensor, s, all of its threads together
     processor: float
     # 99th percentile of how much later than it asked for an idle process was woken meanwhile, s
     machine: float
     lost: int  # Contacts that were not published
 
 
-def latency(folder: Path, seconds: float, *, busy: bool) -> Latency:
-    """Run a bundle on an emulated SRI sensor at 1 kHz."""
-    sent, given = folder / "sent.bin", folder / "given.bin"
+def latency(folder: Path, seconds: float, sensors: int = 1, *, busy: bool = False) -> list[Latency]:
+    """Run a bundle on emulated SRI sensors at 1 kHz, all in one process."""
+    sent = [folder / f"sent-{number}.bin" for number in range(sensors)]
     with ExitStack() as stack:
-        url = stack.enter_context(sensor_process(sent, 1000.0))
+        urls = [stack.enter_context(sensor_process(file, 1000.0)) for file in sent]
         if busy:
             stack.enter_context(busy_process(seconds + _MARGIN_S))
         sleeper = stack.enter_context(Sleeper())
-        said = _child(folder, "live", url, f"{seconds:g}", str(given))
+        said = _child(folder, "live", f"{seconds:g}", *urls)
         machine = sleeper.late
     until = float(said["ended"]) - _GRACE_S
-    pair = compare(read_back(sent, SENT_TYPE), read_back(given, GIVEN_TYPE), until)
-    return Latency(pair, said["processor"] / max(pair.given, 1), machine, int(said["lost"]))
+    pairs = [
+        compare(read_back(file, SENT_TYPE), read_back(folder / f"given-{number}.bin", GIVEN_TYPE), until)
+        for number, file in enumerate(sent)
+    ]
+    return [Latency(pair, said["processor"], machine, int(said["lost"])) for pair in pairs]
 
 
-def _latency_figures(measured: Latency, *, busy: bool) -> list[Figure]:
+def _latency_figures(measured: Latency, subject: str, *, judged: bool = True) -> list[Figure]:
     pair = measured.pair
-    subject = "1 kHz, one core busy" if busy else "1 kHz"
     late = 1e3 * pair.latency
     return [
         Figure(subject, "frames sent", pair.sent, least=1),
         Figure(subject, "frames without a contact", pair.lost, most=0),
         Figure(subject, "contacts not published", measured.lost, most=0),
         Figure(subject, "bytes to contact, median", float(np.median(late)), "ms"),
-        Figure(subject, "bytes to contact, p99", float(np.percentile(late, 99)), "ms", most=_LATE_MS),
+        Figure(
+            subject,
+            "bytes to contact, p99",
+            float(np.percentile(late, 99)),
+            "ms",
+            most=_LATE_MS if judged else None,
+        ),
+        Figure(subject, "bytes to contact, p99.9", float(np.percentile(late, 99.9)), "ms"),
         Figure(subject, "bytes to contact, longest", float(late.max()), "ms"),
         Figure(subject, "an idle process is woken late, p99", 1e3 * measured.machine, "ms"),
         Figure(subject, "processor for one sample", 1e6 * measured.processor, "µs"),
+        Figure(subject, "such sensors that one core carries", 1e-3 / measured.processor),
     ]
 
 

@@ -1,8 +1,7 @@
 """A child process of the study: runs a bundle, and notes when contacts were there or how much memory it took.
 
-Started as ``python -m benchmarks.runtime_child FOLDER live URL SECONDS FILE`` or ``... FOLDER
-replay TAPE``; the
-last line that it writes is JSON.
+Started as ``python -m benchmarks.runtime_child FOLDER live SECONDS URL...`` or ``... FOLDER
+replay TAPE``; the last line that it writes is JSON.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ import math
 import sys
 import time
 from array import array
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,9 @@ from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTar
 from contactbench.pipeline.streams import open_pair
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import BinaryIO
+
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.runtime import Answer
 
@@ -35,28 +38,36 @@ _NOWHERE = "127.0.0.1:9"  # datagrams to the discard port
 _STILL = "still://?rpy=0,0,0"
 
 
-def live(folder: Path, url: str, seconds: float, notes: Path) -> dict[str, float]:
-    """Run on a sensor for a time, and note each contact when it is there."""
+def live(folder: Path, seconds: float, urls: Sequence[str]) -> dict[str, float]:
+    """Run on sensors for a time, and note each contact of the n-th in given-n.bin when it is there."""
     config = RuntimeConfig.load(folder / "bundle")
-    lines = folder / "live.jsonl"
-    lines.unlink(missing_ok=True)
-    outlets = (Outlet(LineTarget.new(lines)), Outlet(UdpTarget(_NOWHERE)))
-    with notes.open("wb") as file:
+    outlets: list[Outlet] = []
+    runners = []
+    with ExitStack() as stack:
+        stack.enter_context(responsive())
+        for number, url in enumerate(urls):
+            lines = folder / f"live-{number}.jsonl"
+            lines.unlink(missing_ok=True)
+            outlets += (own := (Outlet(LineTarget.new(lines)), Outlet(UdpTarget(_NOWHERE))))
+            file = stack.enter_context((folder / f"given-{number}.bin").open("wb"))
 
-        def note(sample: WrenchSample, _: Answer) -> None:
-            file.write(GIVEN.pack(time.monotonic(), sample.sequence or 0, *sample.force, *sample.torque))
+            def note(sample: WrenchSample, _: Answer, file: BinaryIO = file) -> None:
+                file.write(GIVEN.pack(time.monotonic(), sample.sequence or 0, *sample.force, *sample.torque))
 
-        runner = Run(config, outlets, hold=math.inf, on_answer=note)
-        with responsive(), runner, open_pair(url, _STILL, runner.wrenches, runner.poses):
-            deadline = time.monotonic() + _PATIENCE_S
-            while not runner.reasons:
-                if time.monotonic() > deadline:
-                    raise TimeoutError(f"the sensor gave nothing for {_PATIENCE_S:g} s")
-                time.sleep(_POLL_S)
-            used = time.process_time()
-            time.sleep(seconds)
-            ended, processor = time.monotonic(), time.process_time() - used
-    return {"ended": ended, "processor": processor, "lost": sum(outlet.lost for outlet in outlets)}
+            runner = stack.enter_context(Run(config, own, hold=math.inf, on_answer=note))
+            stack.enter_context(open_pair(url, _STILL, runner.wrenches, runner.poses))
+            runners.append(runner)
+        deadline = time.monotonic() + _PATIENCE_S
+        while not all(runner.reasons for runner in runners):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"a sensor gave nothing for {_PATIENCE_S:g} s")
+            time.sleep(_POLL_S)
+        used, begun = time.process_time(), sum(sum(runner.reasons.values()) for runner in runners)
+        time.sleep(seconds)
+        ended, processor = time.monotonic(), time.process_time() - used
+        located = sum(sum(runner.reasons.values()) for runner in runners) - begun
+    lost = sum(outlet.lost for outlet in outlets)
+    return {"ended": ended, "processor": processor / max(located, 1), "lost": lost}
 
 
 def replay(folder: Path, tape: Path) -> dict[str, float]:
@@ -89,8 +100,8 @@ def replay(folder: Path, tape: Path) -> dict[str, float]:
 def main(folder: str, what: str, *arguments: str) -> None:
     """Run, and write what it took to standard output as JSON."""
     if what == "live":
-        url, seconds, notes = arguments
-        said = live(Path(folder), url, float(seconds), Path(notes))
+        seconds, *urls = arguments
+        said = live(Path(folder), float(seconds), urls)
     else:
         said = replay(Path(folder), Path(arguments[0]))
     sys.stdout.write(json.dumps(said) + "\n")

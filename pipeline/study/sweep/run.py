@@ -22,14 +22,15 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
 
 KIND = "sweep"  # of the results
-_TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled
+_TOGETHER = 24  # cells of a task at most: few enough that little is lost when it is cancelled
+_EACH = 4  # tasks of a worker at least, if there are as many cells: so that all end together
 
 
 @dataclass(frozen=True)
 class Swept:
     """What a run did."""
 
-    results: Path | None  # the Parquet file; None: it was cancelled before all was done
+    results: Path | None  # the Parquet file; None: cancelled before all was done, or parts are missing
     # cells, computed, failed: all of them, those computed now, and those that could not be
     cells: int
     computed: int
@@ -49,6 +50,7 @@ def run(
     command: str = "contactbench study run",
     scheduler: str | None = None,
     workers: int | None = None,
+    part: tuple[int, int] = (1, 1),
     timed: bool = True,
     progress: Callable[[int, int], None] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
@@ -69,10 +71,13 @@ def run(
         Address of a Dask scheduler, tcp://...; left out, a cluster of processes on this machine.
     workers : int, optional
         Processes on this machine; left out, one for each core. 1: in this process, without a cluster.
+    part : (int, int)
+        Which of how many parts to compute, from 1: others compute the others into the same folder, which machines may
+        share. Who finds all done writes the results.
     timed : bool
         Whether to measure times.
     progress : callable, optional
-        Gets the number of cells that are done, and of all.
+        Gets the number of cells that are done, and of all of the part.
     cancelled : callable
         Asked between cells.
 
@@ -81,20 +86,21 @@ def run(
     InputError
         The folder or the scheduler cannot be used.
     """
-    cells, left_out = _distinct(plan)
+    cells, left_out = distinct(plan)
     count = workers or os.cpu_count() or 1
     with Store(out) as store:
-        todo = [cell for cell in cells if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
-        done = len(cells) - len(todo)
+        mine = share(cells, *part)
+        todo = [cell for cell in mine if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
+        computed = 0
         for row in _rows(todo, scheduler, count, timed, cancelled):
             store.keep(row)
-            done += 1
+            computed += 1
             if progress is not None:
-                progress(done, len(cells))
+                progress(len(mine) - len(todo) + computed, len(mine))
+        store.look()
         rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
-    computed = done - (len(cells) - len(todo))
     failed, faults = sum(bool(row["failed"]) for row in rows), tuple(faults_of(rows))
-    if done < len(cells):
+    if computed < len(todo) or len(rows) < len(cells):
         return Swept(None, len(cells), computed, failed, left_out, faults)
     facts = environment(workers=count, scheduler="a cluster" if scheduler else "this machine")
     file = write_results(out, KIND, command, rows, facts, _about(plan) | {"left_out": list(left_out)})
@@ -110,7 +116,7 @@ def faults_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [f"{', '.join(sorted(who))}: {reason}" for reason, who in found.items()]
 
 
-def _distinct(plan: SweepPlan) -> tuple[list[Cell], tuple[str, ...]]:
+def distinct(plan: SweepPlan) -> tuple[list[Cell], tuple[str, ...]]:
     """
     Return the cells of a plan, and which meshes a file cannot be made into, and why.
 
@@ -144,13 +150,28 @@ def _about(plan: SweepPlan) -> dict[str, Any]:
     return {"plan": named.model_dump(mode="json"), "meshes": meshes}
 
 
-def tasks_of(cells: list[Cell]) -> list[list[Cell]]:
+def share(cells: list[Cell], part: int, of: int) -> list[Cell]:
+    """
+    Return the part of the cells, from 1, that is computed here; all parts cost about the same.
+
+    Raises
+    ------
+    InputError
+        There is no such part.
+    """
+    if not 1 <= part <= of:
+        raise InputError(f"--part {part}/{of}: give one of the parts 1/{of} to {of}/{of}.")
+    return cells if of == 1 else [cell for task in tasks_of(cells, of)[part - 1 :: of] for cell in task]
+
+
+def tasks_of(cells: list[Cell], workers: int = 1) -> list[list[Cell]]:
     """Return cells in parts that share a mesh and its methods: making them may take longer than locating by them."""
+    together = max(1, min(_TOGETHER, len(cells) // (_EACH * workers)))
     ordered = sorted(cells, key=_heaviest_first)
     parts = []
     for _, group in groupby(ordered, key=_heaviest_first):
         alike = list(group)
-        parts += [alike[first : first + _TOGETHER] for first in range(0, len(alike), _TOGETHER)]
+        parts += [alike[first : first + together] for first in range(0, len(alike), together)]
     return parts
 
 
@@ -170,26 +191,29 @@ def _rows(
         return
     if scheduler is None and workers == 1:
         try:
-            for cell in (cell for part in tasks_of(cells) for cell in part):
+            for cell in sorted(cells, key=_heaviest_first):
                 if cancelled():
                     return
                 yield run_cell(cell, timed=timed)
         finally:
             forget()
         return
-    yield from _by_dask(tasks_of(cells), scheduler, workers, timed, cancelled)
+    yield from _by_dask(cells, scheduler, workers, timed, cancelled)
 
 
 def _by_dask(
-    parts: list[list[Cell]],
+    cells: list[Cell],
     scheduler: str | None,
     workers: int,
     timed: bool,
     cancelled: Callable[[], bool],
 ) -> Iterator[dict[str, Any]]:
+    import dask
     from distributed import Client, LocalCluster, as_completed
 
     with ExitStack() as stack:
+        # Workers would look a hundred times a second at what they do, for a page that nobody opens.
+        stack.enter_context(dask.config.set({"distributed.worker.profile.enabled": False}))
         try:
             address: Any = scheduler or stack.enter_context(
                 LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, processes=True)
@@ -199,7 +223,8 @@ def _by_dask(
             raise InputError(
                 f"scheduler {scheduler or 'on this machine'}: no connection ({error}): check the address."
             ) from error
-        futures = client.map(run_task, parts, timed=timed, pure=False, retries=1)
+        there = max(workers if scheduler is None else sum(client.nthreads().values()), 1)
+        futures = client.map(run_task, tasks_of(cells, there), timed=timed, pure=False, retries=1)
         for future in as_completed(futures):
             if cancelled():
                 client.cancel(futures)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
@@ -14,15 +16,17 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-DONE = "done.jsonl"
+_STEM, _SUFFIX = "done", ".jsonl"
+DONE = _STEM + _SUFFIX  # of the first that writes; the others' names are longer
 
 
 class Store:
     """
     The cells of a sweep that are done, in a folder; use it in a ``with`` statement.
 
-    A line for each cell is appended when it is done; a last line that a crash cut off is dropped. Cells of other plans
-    may lie beside: a cell is known by what it is.
+    A line for each cell is appended when it is done; a last line that a crash cut off is not read. Cells of other plans
+    may lie beside: a cell is known by what it is. Several processes, on several machines, may write into one folder:
+    each has a file of its own there, because file systems of networks do not append for two.
 
     Parameters
     ----------
@@ -38,13 +42,16 @@ class Store:
     def __init__(self, folder: Path) -> None:
         make_folder(folder)
         self.folder = folder
-        self._file = folder / DONE
         self.rows: dict[str, dict[str, Any]] = {}
-        whole = self._read()
+        self._read: dict[Path, int] = {}  # bytes of each file that are known
+        self.look()
+        self._file = folder / DONE
         try:
-            self._stream = self._file.open("r+b" if self._file.exists() else "w+b")
-            self._stream.seek(whole)
-            self._stream.truncate()
+            try:
+                self._stream = self._file.open("xb")
+            except FileExistsError:
+                self._file = folder / f"{_STEM}-{uuid4().hex[:12]}{_SUFFIX}"
+                self._stream = self._file.open("xb")
         except OSError as error:
             raise InputError(
                 f"{self._file}: results cannot be kept ({error}): choose another folder."
@@ -56,30 +63,41 @@ class Store:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        empty = not self._stream.tell()
         self._stream.close()
+        if empty:
+            with suppress(OSError):
+                self._file.unlink()
 
     def keep(self, row: dict[str, Any]) -> None:
         """Keep a cell's figures; they are on the disk when this returns."""
-        self.rows[row["key"]] = row
+        self._take(row)
         self._stream.write(json.dumps(row, sort_keys=True).encode() + b"\n")
         self._stream.flush()
         os.fsync(self._stream.fileno())
 
-    def _read(self) -> int:
-        """Read what is done; return the length of what is whole."""
-        if not self._file.exists():
-            return 0
-        try:
-            content = self._file.read_bytes()
-        except OSError as error:
-            raise InputError(f"{self._file}: cannot be read ({error}): check the rights.") from error
-        whole = content.rfind(b"\n") + 1
-        for number, line in enumerate(content[:whole].splitlines(), 1):
+    def look(self) -> None:
+        """Read what others have done meanwhile."""
+        for file in sorted(self.folder.glob(f"{_STEM}*{_SUFFIX}")):
+            known = self._read.get(file, 0)
             try:
-                row = json.loads(line)
-                self.rows[str(row["key"])] = row
-            except (ValueError, KeyError, TypeError) as error:
-                raise InputError(
-                    f"{self._file}, line {number}: no result of a study ({error}): choose an empty folder."
-                ) from error
-        return whole
+                with file.open("rb") as stream:
+                    stream.seek(known)
+                    content = stream.read()
+            except OSError as error:
+                raise InputError(f"{file}: cannot be read ({error}): check the rights.") from error
+            whole = content.rfind(b"\n") + 1  # what follows is torn, or is being written
+            for number, line in enumerate(content[:whole].splitlines(), 1):
+                try:
+                    row = json.loads(line)
+                    self._take(row | {"key": str(row["key"]), "failed": str(row["failed"])})
+                except (ValueError, KeyError, TypeError) as error:
+                    raise InputError(
+                        f"{file}, line {number}: no result of a study ({error}): choose an empty folder."
+                    ) from error
+            self._read[file] = known + whole
+
+    def _take(self, row: dict[str, Any]) -> None:
+        before = self.rows.get(row["key"])
+        if before is None or before["failed"] or not row["failed"]:  # one machine may lack what another has
+            self.rows[row["key"]] = row

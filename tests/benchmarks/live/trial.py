@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
@@ -124,9 +125,11 @@ def sensor_process(notes: Path, rate: float) -> Iterator[str]:
 
 
 @contextmanager
-def busy_process(at_most: float) -> Iterator[None]:
-    """Keep one core busy, for some seconds at most."""
+def busy_process(at_most: float, core: int | None = None) -> Iterator[None]:
+    """Keep one core busy, this one or whichever, for some seconds at most."""
     process = subprocess.Popen([sys.executable, "-c", _SPIN, f"{at_most:g}"])
+    if core is not None:
+        os.sched_setaffinity(process.pid, {core})
     try:
         yield
     finally:

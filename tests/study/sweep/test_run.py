@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.save import save_probe
 from contactbench.pipeline.study.results import RESULTS, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
 from contactbench.pipeline.study.sweep.plan import SweepPlan
-from contactbench.pipeline.study.sweep.run import run
+from contactbench.pipeline.study.sweep.run import run, tasks_of
 from contactbench.pipeline.study.sweep.store import DONE, Store
 
 _TINY = SweepPlan(
@@ -119,6 +119,53 @@ def test_a_plan_that_grows_computes_only_what_is_new(tmp_path):
     more = _TINY.model_copy(update={"forces": (9.0, 5.0)})
     assert run(more, tmp_path, workers=1, timed=False).computed == len(_TINY)
     assert len(read_results(tmp_path).rows) == 2 * len(_TINY)
+
+
+def test_two_processes_that_write_at_the_same_time_lose_nothing(tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from contactbench.pipeline.study.sweep.store import Store\n"
+        "with Store(Path(sys.argv[1])) as store:\n"
+        "    print(flush=True); sys.stdin.readline()\n"
+        "    for i in range(200): store.keep({'key': f'{sys.argv[2]}-{i}', 'failed': '', 'text': 'x' * 5000})\n"
+    )
+    pipe = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    both = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path), name], **pipe) for name in "ab"]
+    for process in both:
+        process.stdout.readline()  # both have opened the folder before either writes
+    for process in both:
+        process.stdin.write("\n")
+        process.stdin.flush()
+    assert [process.communicate(timeout=120) and process.returncode for process in both] == [0, 0]
+    with Store(tmp_path) as store:
+        assert set(store.rows) == {f"{name}-{i}" for name in "ab" for i in range(200)}
+    assert len([*tmp_path.iterdir()]) == 2  # who keeps nothing leaves nothing
+
+
+def test_what_another_does_meanwhile_is_seen(tmp_path):
+    with Store(tmp_path) as one, Store(tmp_path) as other:
+        other.keep({"key": "a", "failed": ""})
+        one.keep({"key": "a", "failed": "lacks a library"})
+        one.look()
+        other.look()
+        assert one.rows == other.rows == {"a": {"key": "a", "failed": ""}}
+
+
+def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
+    parts = [run(_TINY, tmp_path, workers=1, timed=False, part=(number, 3)) for number in (1, 2, 3)]
+    assert [part.results is None for part in parts] == [True, True, False]
+    assert sum(part.computed for part in parts) == len(_TINY)
+    assert all(part.computed for part in parts)
+    assert _table(tmp_path) == alone
+    with pytest.raises(InputError, match=r"--part 4/3: give one of the parts 1/3 to 3/3"):
+        run(_TINY, tmp_path, part=(4, 3))
+
+
+def test_more_workers_have_more_tasks_and_no_cell_is_lost():
+    cells = list(SweepPlan(forces=tuple(range(1, 101))).cells())
+    few, many = tasks_of(cells, 1), tasks_of(cells, 100)
+    assert max(map(len, few)) == 24
+    assert len(many) >= 4 * 100
+    assert sorted((cell for task in many for cell in task), key=repr) == sorted(cells, key=repr)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")

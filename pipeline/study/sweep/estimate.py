@@ -1,0 +1,131 @@
+"""What a sweep will take, before it is begun: measured on a few of its cells."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from dataclasses import asdict, dataclass, replace
+from time import process_time
+from typing import TYPE_CHECKING, Any
+
+from contactbench.pipeline.study.sweep import cell as cells_module
+from contactbench.pipeline.study.sweep.run import distinct, tasks_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
+
+_MOST, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
+_TOUCH_BYTES = 2_000  # of memory, for each touch of a cell: wrenches, answers and what they are judged by
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What a sweep takes."""
+
+    cells: int
+    touches: int  # of all cells
+    tasks: int
+    measured: int  # cells that were tried
+    core_hours: float  # processor time
+    workers: int
+    hours: float  # on so many cores that do nothing else
+    worker_MB: float | None  # memory of each; None: this system does not say
+    results_MB: float  # on the disk, while it is computed
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return asdict(self)
+
+
+def estimate(
+    plan: SweepPlan,
+    *,
+    workers: int | None = None,
+    timed: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+    clock: Callable[[], float] = process_time,
+) -> Estimate:
+    """
+    Estimate what a plan takes: of each method on each mesh one cell is computed, with few touches.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Cores, on one machine or on many; left out, those of this one.
+    timed : bool
+        Whether times are to be measured, too.
+    progress : callable, optional
+        Gets the number of cells that are measured, and of all that will be.
+    clock : callable
+        Processor time, s.
+
+    Raises
+    ------
+    InputError
+        A probe of the plan cannot be read.
+    """
+    cells, _ = distinct(plan)
+    count = workers or os.cpu_count() or 1
+    tasks = tasks_of(cells, count)
+    alike: dict[tuple[str, str, int], list[Cell]] = {}
+    for cell in cells:
+        alike.setdefault((cell.method, cell.probe, cell.facets), []).append(cell)
+    making: dict[tuple[str, str, int], float] = {}
+    costs: dict[tuple[str, str, int], float] = {}
+    line = 0
+    for number, (kind, group) in enumerate(alike.items(), 1):
+        most = min(plan.touches, _MOST)
+        few = replace(group[0], touches=max(most // _FEWER, 10))
+        first, _ = _seconds(few, timed, clock)
+        again, _ = _seconds(few, timed, clock)
+        full, row = _seconds(replace(group[0], touches=most), timed, clock)
+        each = max(full - again, 0.0) / max(most - few.touches, 1)
+        making[kind] = max(first - again, 0.0)
+        costs[kind] = full + each * (plan.touches - most)
+        line = max(line, len(json.dumps(row)))
+        if progress is not None:
+            progress(number, len(alike))
+    cells_module.forget()
+    by_task = [_task(task, making, costs) for task in tasks]
+    # Nobody ends before the longest task does.
+    seconds = max(sum(by_task) / count, max(by_task, default=0.0))
+    peak = _peak_bytes()
+    return Estimate(
+        cells=len(cells),
+        touches=len(cells) * plan.touches,
+        tasks=len(tasks),
+        measured=len(alike),
+        core_hours=sum(by_task) / 3600,
+        workers=count,
+        hours=seconds / 3600,
+        worker_MB=None if peak is None else (peak + _TOUCH_BYTES * plan.touches) / 1e6,
+        results_MB=line * len(cells) / 1e6,
+    )
+
+
+def _seconds(cell: Cell, timed: bool, clock: Callable[[], float]) -> tuple[float, dict[str, Any]]:
+    begin = clock()
+    row = cells_module.run_cell(cell, timed=timed)
+    return clock() - begin, row
+
+
+def _task(
+    task: list[Cell],
+    making: dict[tuple[str, str, int], float],
+    costs: dict[tuple[str, str, int], float],
+) -> float:
+    kinds = [(cell.method, cell.probe, cell.facets) for cell in task]
+    return sum(making[kind] for kind in set(kinds)) + sum(costs[kind] for kind in kinds)
+
+
+def _peak_bytes() -> int | None:
+    """Return the most memory that this process has had."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else 1024 * peak

@@ -1,0 +1,38 @@
+"""The memory of commands, short: what reads on stays flat, and what holds everything is seen to."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+from benchmarks import memory
+
+from contactbench.pipeline.errors import InputError
+
+pytestmark = pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason="rusage")
+
+
+def test_reading_on_is_flat_and_holding_all_is_not() -> None:
+    report = memory.run((1, 4), ["record start from a replay", "record info"])
+    flat, held = report.figures
+    assert flat.most is not None
+    assert flat.passed, flat
+    assert held.most is None
+    assert held.measured > 5
+    (sheet,) = report.sheets
+    assert [row[0] for row in sheet.rows] == ["record start from a replay", "record info"]
+    assert all(30 < peak < 1_000 for row in sheet.rows for peak in row[1:3])
+
+
+def test_a_process_that_takes_more_is_seen_to() -> None:
+    small, large = (
+        memory.peak([sys.executable, "-c", f"bytearray({size})"], (0,)) for size in (1, 50_000_000)
+    )
+    assert large - small == pytest.approx(50, abs=10)
+
+
+def test_nonsense_is_refused() -> None:
+    with pytest.raises(InputError, match="two numbers"):
+        memory.run((3,))
+    with pytest.raises(InputError, match="--only tea: choose from record info"):
+        memory.run((1, 2), ["tea"])

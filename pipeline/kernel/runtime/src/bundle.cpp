@@ -135,7 +135,7 @@ Bundle load_bundle(const std::string& folder) {
     } catch (const std::invalid_argument& error) {
         refuse_file(CB_ERROR_MESH, bundle.config.probe_file, error.what());
     }
-    if (bundle.config.verified && !(bundle.model->topology.closed() && outward))
+    if (bundle.config.verified && !(bundle.model->closed && outward))
         refuse_file(CB_ERROR_MESH, bundle.config.probe_file, "a surface that is open or inside out was never verified");
     return bundle;
 }

@@ -53,22 +53,22 @@ def made_once(
         Of the values, each.
     """
     folder = _folder()
-    if folder is None:
+    key = None if folder is None else _key(given)
+    if folder is None or key is None:
         return make()
-    key = _key(given())
     file = folder / f"{key}{_SUFFIX}"
     found = _read(file, key, types)
     if found is not None:
         return found
     values = make()
-    if _key(given()) == key:
+    if _key(given) == key:
         _keep(file, encode(key, values))
     return values
 
 
 def _folder() -> Path | None:
     said = os.environ.get(VARIABLE, "")
-    if said == _OFF:
+    if said.lower() == _OFF:
         return None
     if said:
         return Path(said)
@@ -77,8 +77,11 @@ def _folder() -> Path | None:
     return user_cache_path("contactbench", appauthor=False) / "preparation"
 
 
-def _key(given: object) -> str:
-    said = {"given": given, "versions": _versions()}
+def _key(given: Callable[[], object]) -> str | None:
+    try:
+        said = {"given": given(), "versions": _versions()}
+    except OSError:  # a file that cannot be read, or no more: its reader says so, if it matters
+        return None
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
 
 
@@ -116,9 +119,13 @@ def _modules() -> str:
 
 def _read(file: Path, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ...] | None:
     try:
-        if file.stat().st_size > _LARGEST:
+        if not file.is_file():  # a pipe would be waited for
             return None
-        values = decode(file.read_bytes(), key, types)
+        with file.open("rb") as opened:
+            data = opened.read(_LARGEST + 1)
+        if len(data) > _LARGEST:
+            return None
+        values = decode(data, key, types)
     except (OSError, EntryError):
         return None
     with contextlib.suppress(OSError):  # a folder that others filled for us may be read-only

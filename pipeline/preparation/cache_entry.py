@@ -88,6 +88,7 @@ def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ..
         tree = json.loads(text)
         reader = _Reader(tree["arrays"], rest)
         values = tuple(reader.value(node) for node in tree["values"])
+        named = tree["key"]
     except EntryError:
         raise
     # What is hashed rightly but made wrongly can go wrong in any of these ways.
@@ -101,7 +102,7 @@ def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ..
         RecursionError,
     ) as error:
         raise EntryError from error
-    if tree["key"] != key or len(values) != len(types) or not all(map(isinstance, values, types)):
+    if named != key or len(values) != len(types) or not all(map(isinstance, values, types)):
         raise EntryError
     return values
 

@@ -233,7 +233,12 @@ def dense_of(
     progress, cancelled : callable, optional
         The share that is done, and whether to stop.
     """
-    key = _key(mesh, given) if remember else ()
+    key: tuple[object, ...] = ()
+    if remember:
+        try:
+            key = _key(mesh, given)
+        except OSError:  # a file that cannot be read: the reader says so, if it needs it
+            remember = False
     with _lock:
         known = _dense.get(key) if remember else None
     if known is not None:

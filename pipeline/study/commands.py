@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
 
 _NOT_GOOD_ENOUGH = 1
+_MOST_PARTS = 1_000_000
 _OTHERS = ("hard", "ablation", "rivals")
 
 SeedOption = Annotated[int, typer.Option(help="Seed of the touches and the noise.")]
@@ -273,6 +274,8 @@ def run(
         seed=seed,
     )
     if dry_run:
+        if part is not None:
+            raise InputError("--dry-run estimates the whole plan: leave out --part, and divide.")
         _estimate(plan, workers, times, as_json)
         return
     say(f"{plan.name}: up to {len(plan):,} cells of {plan.touches:,} touches")
@@ -301,8 +304,8 @@ def run(
 
 def _part(text: str | None) -> tuple[int, int]:
     number, slash, of = (text or "1/1").partition("/")
-    if not (slash and number.isdecimal() and of.isdecimal()):
-        raise InputError(f"--part {text}: give which of how many, such as 2/8.")
+    if not (slash and number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of) <= _MOST_PARTS):
+        raise InputError(f"--part {text}: give which of how many, such as 2/8, and at most {_MOST_PARTS:,}.")
     return int(number), int(of)
 
 

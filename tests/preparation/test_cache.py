@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import struct
 
 import numpy as np
@@ -156,6 +157,7 @@ HEALTH = {"class": "MeshHealth", "fields": [True, True, True, 1, 0, 0, 0, 0]}
     [
         [],
         {"key": "k", "values": [], "arrays": []},
+        {"values": [1], "arrays": []},
         {"key": "k", "values": [{"class": "Path", "fields": ["/"]}], "arrays": []},
         {"key": "k", "values": [{"class": "MeshHealth", "fields": [True]}], "arrays": []},
         {"key": "k", "values": [{"again": 0}], "arrays": []},
@@ -184,6 +186,46 @@ def test_a_mesh_whose_facets_point_beyond_it_is_refused():
             (Probe,),
         )
     assert "faces" in str(refused.value.__cause__)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_in_an_entrys_place_is_not_waited_for(folder):
+    assert made_once(lambda: "given", lambda: (1,), (int,)) == (1,)
+    (entry,) = folder.iterdir()
+    entry.unlink()
+    os.mkfifo(entry)
+    assert made_once(lambda: "given", lambda: (2,), (int,)) == (2,)
+
+
+def test_a_file_that_cannot_be_read_costs_only_the_cache(folder):
+    def given():
+        raise PermissionError(13, "denied", "mesh.json")
+
+    assert made_once(given, lambda: (1,), (int,)) == (1,)
+    asked = iter(["given"])
+    assert made_once(lambda: next(asked, None) or given(), lambda: (2,), (int,)) == (2,)
+    assert not folder.exists()
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_mesh_is_prepared_beside_a_file_that_cannot_be_read(mesh, monkeypatch):
+    whole = prepare._key
+
+    def refused(*_):
+        raise PermissionError(13, "denied", "mesh.json")
+
+    monkeypatch.setattr(prepare, "_key", refused)
+    unkept = prepared(mesh)
+    monkeypatch.setattr(prepare, "_key", whole)
+    assert prepared(mesh) == unkept
+
+
+@pytest.mark.parametrize("said", ["off", "OFF"])
+def test_nothing_is_kept_where_it_is_off(tmp_path, monkeypatch, said):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv(VARIABLE, said)
+    assert made_once(lambda: "given", lambda: (1,), (int,)) == (1,)
+    assert not [*tmp_path.iterdir()]
 
 
 def test_what_changed_meanwhile_is_not_kept(folder):

@@ -40,7 +40,7 @@ class Swept:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
-        return asdict(self) | {"results": str(self.results)}
+        return asdict(self) | {"results": None if self.results is None else str(self.results)}
 
 
 def run(
@@ -176,7 +176,7 @@ def tasks_of(cells: list[Cell], workers: int = 1) -> list[list[Cell]]:
 
 
 def _heaviest_first(cell: Cell) -> tuple[int, str, str, str, float]:
-    return -cell.facets, cell.probe, cell.noise, cell.filter, gates_for(cell.angle).friction_angle
+    return -cell.facets, identity(cell.probe), cell.noise, cell.filter, gates_for(cell.angle).friction_angle
 
 
 def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:

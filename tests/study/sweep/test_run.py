@@ -13,7 +13,7 @@ from waiting import until
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.mesh.save import encode_probe, save_probe
 from contactbench.pipeline.study.results import RESULTS, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
 from contactbench.pipeline.study.sweep.plan import SweepPlan
@@ -156,8 +156,22 @@ def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
     assert sum(part.computed for part in parts) == len(_TINY)
     assert all(part.computed for part in parts)
     assert _table(tmp_path) == alone
+    assert parts[0].to_json()["results"] is None
     with pytest.raises(InputError, match=r"--part 4/3: give one of the parts 1/3 to 3/3"):
         run(_TINY, tmp_path, part=(4, 3))
+
+
+def test_parts_do_not_depend_on_where_a_probes_file_lies(tmp_path):
+    data = [encode_probe(Probe.from_arrays(*assets.make(name, 400))) for name in ("linear", "convex")]
+    keys = []
+    for first, second in (("a", "b"), ("z", "b")):
+        files = [tmp_path / first / "x.ply", tmp_path / second / "y.ply"]
+        for file, content in zip(files, data, strict=True):
+            file.parent.mkdir(exist_ok=True)
+            file.write_bytes(content)
+        cells = SweepPlan(probes=tuple(map(str, files)), facets=(400,)).cells()
+        keys.append([[cell.key for cell in task] for task in tasks_of(list(cells), 1)])
+    assert keys[0] == keys[1]
 
 
 def test_more_workers_have_more_tasks_and_no_cell_is_lost():

@@ -49,6 +49,13 @@ struct InDepth {
     CONTACTBENCH_INLINE R at(R t) const {
         return c[0] + t * (c[1] + t * c[2]);
     }
+
+    // How large the terms are that `at` adds, whatever is left of them, |t| given.
+    template <class R>
+    CONTACTBENCH_INLINE R terms(R t) const {
+        const auto size = [](S x) { return x < 0 ? -x : x; };
+        return size(c[0]) + t * (size(c[1]) + t * size(c[2]));
+    }
 };
 
 // What a facet is judged by, in double or single precision S.
@@ -281,8 +288,9 @@ CONTACTBENCH_INLINE Bounds bound_facets(const Float8 (&p)[3][3], const Float8 (&
     const Float8 met = (along(n, q.foot) - plane) / larger(cosine, Float8{} + 1e-6f);
     const Float8 depth = smaller(larger(met, smaller(smaller(d0, d1), d2)), larger(larger(d0, d1), d2));
     Conditional<Float8> g = condition(q, cosine, along(n, q.a), along(n, q.b), depth, e);
-    // What correlation with the force takes from V is a difference, and as exact as what it is taken from.
-    const Float8 give = 1e-6f * (q.aa.at(depth) + q.bb.at(depth)) + loose;
+    // V is a sum of terms that may cancel, less what h tells of w: no more exact than the largest of them.
+    const Float8 far = magnitude(depth), told = q.fa.terms(far) + q.fb.terms(far);
+    const Float8 give = 1e-6f * (q.aa.terms(far) + q.bb.terms(far) + told * told * (1.0f / q.ff)) + loose;
     g.aa += give, g.bb += give;
     Float8 x[3], y[3], miss2{};
     for (int i = 0; i < 3; ++i) x[i] = q.ma - along(p[i], q.b) - g.wa, y[i] = q.mb + along(p[i], q.a) - g.wb;

@@ -336,7 +336,8 @@ def _ended() -> Iterator[_Ended]:
         yield ended
     finally:
         for number, handler in before.items():
-            signal.signal(number, handler)
+            # One more signal must not kill a process that is about to end.
+            signal.signal(number, signal.SIG_IGN if ended.by_signal else handler)
 
 
 def _emulate(device: Emulator, ended: _Ended, seconds: float | None) -> None:

@@ -62,9 +62,14 @@ def test_it_runs_until_it_is_ended(number: signal.Signals):
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="this system has no such signal")
 def test_a_closed_terminal_leaves_nothing_behind():
-    with subprocess.Popen(
-        [*COMMAND, "sri", "--pty"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    ) as process:
+    heard = signal.signal(
+        signal.SIGHUP, signal.SIG_DFL
+    )  # tests under nohup would have it ignored, as is right
+    try:
+        process = subprocess.Popen([*COMMAND, "sri", "--pty"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    finally:
+        signal.signal(signal.SIGHUP, heard)
+    with process:
         assert process.stdout is not None
         link = Path(process.stdout.readline().decode().strip().removeprefix("sri+serial://"))
         assert link.is_symlink()

@@ -137,7 +137,7 @@ private:
 
     void fill_leaf(std::size_t index) {
         Leaf& leaf = out_.leaves[index];
-        const Vec3 lowest = box_of(index, index + 1).first, highest = box_of(index, index + 1).second;
+        const auto [lowest, highest] = box_of(index, index + 1);
         const double low[3] = {lowest.x, lowest.y, lowest.z}, high[3] = {highest.x, highest.y, highest.z};
         double widest = 0.0;
         for (int a = 0; a < 3; ++a) {

@@ -29,7 +29,7 @@ struct Model {
     bool closed = false;                     // every edge has exactly two facets of matching winding
     Hierarchy tree;
     double reach = 0.0;  // largest distance of a facet's corner from the sensor origin, m
-    double least_bonus = 0.0, most_bonus = 0.0;
+    double most_bonus = 0.0;
 
     // About frame.centre, over frame.scale.
     Vec3 normalised(std::int32_t vertex) const {
@@ -165,7 +165,6 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
         if (added) m.kinds.push_back(at->first);
         m.kind.push_back(at->second);
     }
-    m.least_bonus = *std::min_element(odds.begin(), odds.end());
     m.most_bonus = *std::max_element(odds.begin(), odds.end());
     return m;
 }

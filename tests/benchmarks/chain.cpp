@@ -30,24 +30,14 @@
 #include <vector>
 
 #include "contactbench_runtime.h"
+#include "counted_heap.hpp"
 
 namespace {
-long requests = 0, locks = 0;
-bool counting = false;
-}  // namespace
+long locks = 0;
+}
 
 // These stand in front of the C library's own for the whole process.
 extern "C" {
-void* __libc_malloc(size_t);
-void* __libc_calloc(size_t, size_t);
-void* __libc_realloc(void*, size_t);
-void* __libc_memalign(size_t, size_t);
-void __libc_free(void*);
-void* malloc(size_t n) { return requests += counting, __libc_malloc(n); }
-void* calloc(size_t n, size_t size) { return requests += counting, __libc_calloc(n, size); }
-void* realloc(void* p, size_t n) { return requests += counting, __libc_realloc(p, n); }
-void* aligned_alloc(size_t to, size_t n) { return requests += counting, __libc_memalign(to, n); }
-void free(void* p) { requests += counting && p, __libc_free(p); }
 #define COUNTED(name, type)                                                           \
     int name(type* lock) noexcept {                                                   \
         static const auto real = reinterpret_cast<int (*)(type*)>(dlsym(RTLD_NEXT, #name)); \

@@ -119,7 +119,8 @@ def build(folder: Path) -> Path:
         raise InputError("this needs Linux, cmake and g++: install them, or use such a machine.")
     library, program = native.built(), folder / "chain"
     source = Path(__file__).with_suffix(".cpp")
-    command = [compiler, "-std=c++20", "-O2", "-rdynamic", source, f"-I{native.SOURCE}/include"]
+    include = [f"-I{native.SOURCE}/{part}" for part in ("include", "tools")]
+    command = [compiler, "-std=c++20", "-O2", "-rdynamic", source, *include]
     command += [f"-L{library}", "-lcontactbench_runtime", f"-Wl,-rpath,{library}", "-o", program]
     done = native.run(*command)
     if done.returncode != 0:

@@ -1,31 +1,10 @@
 // contactbench-no_allocation BUNDLE SAMPLES: counts what the heap is asked for between cb_open and cb_close, and
-// fails if it is anything. malloc itself is counted, so nothing can go past operator new.
+// fails if it is anything.
 #include <cstdio>
-#include <cstdlib>
 
 #include "contactbench_runtime.h"
+#include "counted_heap.hpp"
 #include "samples.hpp"
-
-namespace {
-long requests = 0;
-bool counting = false;
-}  // namespace
-
-// glibc's own names: these definitions stand in front of malloc for the whole process.
-extern "C" {
-void* __libc_malloc(size_t);
-void* __libc_calloc(size_t, size_t);
-void* __libc_realloc(void*, size_t);
-void* __libc_memalign(size_t, size_t);
-void __libc_free(void*);
-#define COUNTED __attribute__((visibility("default")))
-COUNTED void* malloc(size_t n) { return requests += counting, __libc_malloc(n); }
-COUNTED void* calloc(size_t n, size_t size) { return requests += counting, __libc_calloc(n, size); }
-COUNTED void* realloc(void* p, size_t n) { return requests += counting, __libc_realloc(p, n); }
-COUNTED void* aligned_alloc(size_t to, size_t n) { return requests += counting, __libc_memalign(to, n); }
-COUNTED void* memalign(size_t to, size_t n) { return requests += counting, __libc_memalign(to, n); }
-COUNTED void free(void* p) { requests += counting && p, __libc_free(p); }
-}
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;

@@ -5,6 +5,7 @@
 // the auto-vectoriser the same loops were unrolled to scalar code (3x slower).
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -60,14 +61,39 @@ CONTACTBENCH_INLINE Float8 magnitude(Float8 a) {
     return Float8(_mm256_andnot_ps(_mm256_set1_ps(-0.0f), __m256(a)));
 }
 CONTACTBENCH_INLINE Float8 root(Float8 a) { return Float8(_mm256_sqrt_ps(__m256(a))); }
+CONTACTBENCH_INLINE Float8 select(Int8 which, Float8 a, Float8 b) { return which ? a : b; }
+CONTACTBENCH_INLINE float least_of(Float8 a) {
+    const __m128 four = _mm_min_ps(_mm256_castps256_ps128(__m256(a)), _mm256_extractf128_ps(__m256(a), 1));
+    const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)));
+}
 #else
-CONTACTBENCH_INLINE Float8 larger(Float8 a, Float8 b) { return a < b ? b : a; }
-CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) { return b < a ? b : a; }
-CONTACTBENCH_INLINE Float8 magnitude(Float8 a) { return larger(a, -a); }
+// Half by half: GCC compares lane by lane what a processor has no register for.
+typedef float Float4 __attribute__((vector_size(16)));
+struct Halves {
+    Float4 low, high;
+};
+CONTACTBENCH_INLINE Float8 larger(Float8 a, Float8 b) {
+    const Halves x = std::bit_cast<Halves>(a), y = std::bit_cast<Halves>(b);
+    return std::bit_cast<Float8>(Halves{x.low < y.low ? y.low : x.low, x.high < y.high ? y.high : x.high});
+}
+CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) {
+    const Halves x = std::bit_cast<Halves>(a), y = std::bit_cast<Halves>(b);
+    return std::bit_cast<Float8>(Halves{y.low < x.low ? y.low : x.low, y.high < x.high ? y.high : x.high});
+}
+CONTACTBENCH_INLINE Float8 magnitude(Float8 a) { return Float8(Int8(a) & 0x7fffffff); }
 CONTACTBENCH_INLINE Float8 root(Float8 a) {
     Float8 out{};
     for (int l = 0; l < lanes; ++l) out[l] = std::sqrt(a[l]);
     return out;
+}
+CONTACTBENCH_INLINE Float8 select(Int8 which, Float8 a, Float8 b) {
+    return Float8((which & Int8(a)) | (~which & Int8(b)));
+}
+CONTACTBENCH_INLINE float least_of(Float8 a) {
+    float least = a[0];
+    for (int l = 1; l < lanes; ++l) least = a[l] < least ? a[l] : least;
+    return least;
 }
 #endif
 
@@ -82,7 +108,10 @@ CONTACTBENCH_INLINE unsigned mask_of(Int8 a) {
 #endif
 }
 
-CONTACTBENCH_INLINE Float8 select(Int8 which, Float8 a, Float8 b) { return which ? a : b; }
+inline constexpr Int8 lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+
+// True in the lanes whose bit is set.
+CONTACTBENCH_INLINE Int8 lanes_of(unsigned bits) { return ((Int8{} + int(bits)) >> lane_numbers & 1) != 0; }
 
 // The same names for one number, so that a formula is written once.
 CONTACTBENCH_INLINE double larger(double a, double b) { return a < b ? b : a; }

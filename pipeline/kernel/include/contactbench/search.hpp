@@ -80,31 +80,26 @@ inline Near near_touch(const Model& m, Vec3 centre, Vec3 slope, double radius) {
 
 inline float beyond_rounding(double x) { return x < 1e30 ? float(x + 1e-6 * std::fabs(x) + 1e-6) : 1e30f; }
 
-// What a descent looked at: the eight children of a node that were not opened themselves, or the facets of a leaf
-// (node < 0), with their bounds.
+// What a descent looked at, and what of it is left to look at: nodes that were opened, with the children that were not,
+// and leaves, with the bounds of their facets.
 struct Opened {
     struct Place {
         Bounds bounds;
-        std::int32_t node;
-        unsigned lanes;
+        std::int32_t index;  // of the node or leaf
+        unsigned lanes;      // children that are left
     };
-    static constexpr int capacity = 128;
-    Place place[capacity];
-    int count = 0;
+    static constexpr int most_nodes = 128, most_leaves = 64;
+    Place nodes[most_nodes], leaves[most_leaves];
+    int node_count = 0, leaf_count = 0;
     bool all = true;  // nothing was forgotten
-
-    Place* add(const Bounds& bounds, std::int32_t node, unsigned children) {
-        if (count == capacity) return all = false, nullptr;
-        place[count] = {bounds, node, children};
-        return &place[count++];
-    }
 };
 
 class Descent {
 public:
-    Descent(const Model& m, const Query& q, const Form<float>& form, const NodeQuery& node, const Hunt& hunt, Found& best)
-        : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), most_misfit_(beyond_rounding(hunt.most_misfit)),
-          least_prior_(float(std::max(hunt.least_prior, -1e30))),
+    Descent(const Model& m, const Query& q, const Form<float>& form, const NodeQuery& node, const Hunt& hunt, Found& best,
+            Opened& opened)
+        : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), opened_(opened),
+          most_misfit_(beyond_rounding(hunt.most_misfit)), least_prior_(float(std::max(hunt.least_prior, -1e30))),
           follow_cost_(hunt.previous ? beyond_rounding(hunt.follow_cost) : 0.0f) {
         for (int i = 0; i < hunt.away_count; ++i) away_[i] = near_touch(m, hunt.away[i].point, hunt.away[i].slope, hunt.radius[i]);
         if (hunt.previous) follow_ = near_touch(m, *hunt.previous, {}, hunt.follow_distance);
@@ -114,64 +109,69 @@ public:
         depth_ = float(dot(c, q.f));
     }
 
-    // From the root; what is looked at is kept.
-    void from_root(Opened* opened) {
-        opened_ = opened;
+    // From the root.
+    void from_root() {
         open(m_.tree.root());
         run();
     }
 
-    void from(const Opened& opened) {
-        for (int i = 0; i < opened.count; ++i) {
-            const Opened::Place& p = opened.place[i];
-            if (p.node < 0) {
-                judge_facets(std::size_t(~p.node), p.bounds);
-                continue;
-            }
-            const Node& node = m_.tree.nodes[std::size_t(p.node)];
+    // On from what was looked at before.
+    void go_on() {
+        for (int i = 0; i < opened_.leaf_count; ++i) {
+            const Opened::Place& p = opened_.leaves[i];
+            judge_facets(std::size_t(p.index), p.bounds);
+        }
+        for (int i = 0; i < opened_.node_count; ++i) {
+            const Opened::Place& p = opened_.nodes[i];
+            const Node& node = m_.tree.nodes[std::size_t(p.index)];
+            if (i % lanes == 0) least_[i / lanes] = Float8{} + never;
             if ((mask_of(p.bounds.d2 - prior(node.bonus) - follow_cost_ <= cut()) & p.lanes) == 0) continue;
-            push(p.node, node_keys(node, boxes_of(node), p.bounds), p.lanes, nullptr);
+            queue(i, select(lanes_of(p.lanes), node_keys(node, boxes_of(node), p.bounds), Float8{} + never));
         }
         run();
     }
 
 private:
-    struct Place {
-        float key;
-        std::int32_t node, lane;
-        Opened::Place* from;
-    };
+    static constexpr float never = 1e38f;
 
     // Keys beyond this are of no use: single precision, rounded up.
     float cut() const { return beyond_rounding(std::min(best_.key, hunt_.limit)); }
 
     // The least key first, wherever it is in the tree: going down the first good branch to its end would look at all
-    // that is better than the best so far, which is bad at first.
+    // that is better than the best so far, which is bad at first. The least is found by looking at all: they are few, and
+    // a heap's branches cannot be foretold.
     void run() {
-        while (size_ > 0) {
-            std::pop_heap(heap_, heap_ + size_, Later{});
-            const Place p = heap_[--size_];
-            if (p.key > cut()) {
-                size_ = 0;
-                return;
-            }
-            visit(p);
+        while (true) {
+            const int groups = (opened_.node_count + lanes - 1) / lanes;
+            Float8 each = least_[0];
+            for (int g = 1; g < groups; ++g) each = smaller(each, least_[g]);
+            const float key = least_of(each);
+            if (!(key <= cut())) return;
+            int g = 0;
+            while (mask_of(least_[g] == key) == 0) ++g;
+            const int i = lanes * g + std::countr_zero(mask_of(least_[g] == key));
+            const int lane = std::countr_zero(mask_of(keys_[i] == key));
+            Opened::Place& p = opened_.nodes[i];
+            p.lanes &= ~(1u << lane);
+            queue(i, select(lane_numbers == lane, Float8{} + never, keys_[i]));
+            visit(m_.tree.child(p.index, lane));
         }
     }
 
-    struct Later {
-        bool operator()(const Place& a, const Place& b) const { return a.key > b.key; }
-    };
+    // Whole packs are written, as whole packs are read: a processor waits where a read spans a shorter write.
+    void queue(int i, Float8 keys) {
+        keys_[i] = keys;
+        Float8& group = least_[i / lanes];
+        group = select(lane_numbers == i % lanes, Float8{} + least_of(keys), group);
+    }
+
+    void visit(std::int32_t child) {
+        if (child < 0) judge_leaf(std::size_t(~child));
+        else open(child);
+    }
 
     CONTACTBENCH_INLINE Float8 prior(const std::uint8_t* bonus) const {
         return larger(m_.tree.priors.of(bonus), Float8{} + least_prior_);
-    }
-
-    void visit(const Place& p) {
-        const std::int32_t child = m_.tree.child(p.node, p.lane);
-        if (p.from) p.from->lanes &= ~(1u << p.lane);
-        if (child < 0) judge_leaf(std::size_t(~child));
-        else open(child);
     }
 
     void open(std::int32_t index) {
@@ -179,19 +179,60 @@ private:
         const Boxes boxes = boxes_of(node);
         const Bounds bounds = node_bound(node, boxes, node_);
         const unsigned children = m_.tree.children(index);
-        push(index, node_keys(node, boxes, bounds), children, opened_ ? opened_->add(bounds, index, children) : nullptr);
+        const Float8 keys = select(lanes_of(children), node_keys(node, boxes, bounds), Float8{} + never);
+        fetch_children(index, mask_of(keys <= cut()));
+        if (opened_.node_count < Opened::most_nodes) {
+            const int i = opened_.node_count++;
+            opened_.nodes[i] = {bounds, index, children};
+            if (i % lanes == 0) least_[i / lanes] = Float8{} + never;
+            return queue(i, keys);
+        }
+        opened_.all = false;  // from here as deep as the tree at most
+        for (unsigned left = mask_of(keys <= cut()); left != 0; left &= left - 1) {
+            const int l = std::countr_zero(left);
+            if (keys[l] <= cut()) visit(m_.tree.child(index, l));
+        }
+    }
+
+    // On a large mesh most of the time is waiting for memory. All that may be looked at is asked for at once.
+    CONTACTBENCH_INLINE void fetch_children(std::int32_t index, unsigned which) const {
+        for (; which != 0; which &= which - 1) {
+            const std::int32_t child = m_.tree.child(index, std::countr_zero(which));
+            if (child >= 0) {
+                fetch(m_.tree.nodes[std::size_t(child)]);
+                continue;
+            }
+            fetch(m_.tree.leaves[std::size_t(~child)]);
+            __builtin_prefetch(&m_.tree.face[lanes * std::size_t(~child)]);
+        }
+    }
+
+    CONTACTBENCH_INLINE void fetch_facets(std::size_t index, unsigned which) const {
+        for (; which != 0; which &= which - 1) {
+            const std::int32_t face = m_.tree.face[index * lanes + std::size_t(std::countr_zero(which))];
+            if (face < 0) continue;
+            for (const std::int32_t v : m_.faces[std::size_t(face)]) __builtin_prefetch(&m_.vertices[std::size_t(v)]);
+            __builtin_prefetch(&m_.normals[std::size_t(face)]);
+            __builtin_prefetch(&m_.errors[std::size_t(face)]);
+            __builtin_prefetch(&m_.kind[std::size_t(face)]);
+        }
+    }
+
+    template <class T>
+    CONTACTBENCH_INLINE static void fetch(const T& of) {
+        for (std::size_t at = 0; at < sizeof of; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(&of) + at);
     }
 
     // Lower bounds of the key in each child; 1e38 where there can be nothing.
     CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Boxes& box, const Bounds& bounds) const {
         const auto& [cx, cy, cz, ex, ey, ez] = box;
-        const Float8 zero{}, never = zero + 1e38f;
+        const Float8 zero{}, nothing = zero + never;
         Float8 d2 = bounds.d2;
         for (int i = 0; i < hunt_.away_count; ++i) {
             const Near& b = away_[i];
             const Float8 x = cx - b.x, y = cy - b.y, z = cz - b.z, down = x * b.sx + y * b.sy + z * b.sz;
             const Float8 from_centre = root(larger(x * x + y * y + z * z - down * down, zero));
-            d2 = select(from_centre + root(ex * ex + ey * ey + ez * ez) < b.inner, never, d2);
+            d2 = select(from_centre + root(ex * ex + ey * ey + ez * ez) < b.inner, nothing, d2);
         }
         if (hunt_.away_count > 0) {
             const NodeQuery& q = node_;
@@ -204,7 +245,7 @@ private:
                          z = larger(magnitude(cz - follow_.z) - ez, zero);
             key = select(x * x + y * y + z * z <= follow_.outer * follow_.outer, key - follow_cost_, key);
         }
-        return select(bounds.faces_force & (d2 <= most_misfit_), key, never);
+        return select(bounds.faces_force & (d2 <= most_misfit_), key, nothing);
     }
 
     // A lower bound of d2 away from the likeliest touch, for what reaches no further than `along` from it along
@@ -216,36 +257,24 @@ private:
         return miss * miss / bounds.V * (1.0f - 2e-3f);
     }
 
-    void push(std::int32_t index, Float8 keys, unsigned lanes_left, Opened::Place* kept) {
-        for (unsigned mask = mask_of(keys <= cut()) & lanes_left; mask != 0; mask &= mask - 1) {
-            const int l = std::countr_zero(mask);
-            const Place place{keys[l], index, l, kept};
-            if (size_ == capacity) {  // as deep as the tree at most
-                visit(place);
-                continue;
-            }
-            heap_[size_++] = place;
-            std::push_heap(heap_, heap_ + size_, Later{});
-        }
-    }
-
     void judge_leaf(std::size_t index) {
         const Leaf& leaf = m_.tree.leaves[index];
         Float8 p[3][3];
         corners_of(leaf, p);
         const Bounds bounds = leaf_bound(leaf, p, form_, node_);
-        if (opened_) opened_->add(bounds, ~std::int32_t(index), 0);
+        if (opened_.leaf_count < Opened::most_leaves) opened_.leaves[opened_.leaf_count++] = {bounds, std::int32_t(index), 0};
+        else opened_.all = false;
         judge_facets(index, bounds);
     }
 
     void judge_facets(std::size_t index, const Bounds& bounds) {
         const Leaf& leaf = m_.tree.leaves[index];
-        const Float8 never = Float8{} + 1e38f;
         Float8 d2 = bounds.d2;
         const Float8 better = prior(leaf.bonus) + follow_cost_;
         if (mask_of(bounds.faces_force & (d2 - better <= cut()) & (d2 <= most_misfit_)) == 0) return;
         if (hunt_.away_count > 0) d2 = away(leaf, bounds);
-        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, never);
+        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, Float8{} + never);
+        fetch_facets(index, mask_of(key <= cut()));
         for (unsigned left = mask_of(key <= cut()); left != 0;) {
             int l = std::countr_zero(left);
             for (unsigned mask = left & (left - 1); mask != 0; mask &= mask - 1)
@@ -285,13 +314,12 @@ private:
     const Hunt& hunt_;
     const NodeQuery& node_;
     Found& best_;
+    Opened& opened_;
     float most_misfit_, least_prior_, follow_cost_;
     float wa_ = 0.0f, wb_ = 0.0f, depth_ = 0.0f;  // of the likeliest touch: w, and how far along the force
     Near away_[Answer::capacity], follow_{};
-    static constexpr int capacity = 512;
-    Place heap_[capacity];
-    int size_ = 0;
-    Opened* opened_ = nullptr;
+    Float8 keys_[Opened::most_nodes];           // of the children that are left
+    Float8 least_[Opened::most_nodes / lanes];  // of those, by node
 };
 
 }  // namespace detail
@@ -324,16 +352,16 @@ public:
     detail::Found first(const Hunt& hunt, std::int32_t hint) {
         detail::Found best;
         if (hint >= 0) detail::judge_facet(m_, std::size_t(hint), q_, hunt, best);
-        detail::Descent(m_, q_, form_, node_, hunt, best).from_root(&opened_);
+        detail::Descent(m_, q_, form_, node_, hunt, best, opened_).from_root();
         return best;
     }
 
-    detail::Found next(const Hunt& hunt) const {
+    detail::Found next(const Hunt& hunt) {
         detail::Found best;
-        detail::Descent descent(m_, q_, form_, node_, hunt, best);
-        if (opened_.all) descent.from(opened_);
-        else descent.from_root(nullptr);
-        return best;
+        detail::Descent descent(m_, q_, form_, node_, hunt, best, opened_);
+        if (opened_.all) return descent.go_on(), best;
+        opened_.node_count = opened_.leaf_count = 0;
+        return descent.from_root(), best;
     }
 
 private:

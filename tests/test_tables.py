@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import plain_rows
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
 POSES = Wording(
@@ -384,6 +385,56 @@ def test_numbers_are_those_of_python(cells):
     # As texts: -0.0 is not 0.0, and NaN is NaN.
     assert [*map(repr, found[:, 0].tolist())] == [*map(repr, expected)]
     assert (found[:, 1] == 8).all()
+
+
+def test_threads_share_a_block():
+    """Lines of every length, so that parts begin inside them; in each something that only Python reads."""
+    rng = np.random.default_rng(4)
+    rows = [
+        (repr(x), f"{'n' * int(n)}", "1e3" if n == 0 else "" if n == 1 else f"{x:.3f}")
+        for x, n in zip(rng.normal(size=40_000).tolist(), rng.integers(0, 60, 40_000), strict=True)
+    ]
+    text = table("x,t,y", *map(",".join, rows))
+    assert len(text) > 2**20
+    stream = io.BytesIO(text.encode())
+    found = read_table(stream, columns("y", "x", text="t", allow_nan={"y"}), POSES)
+    expected = [[float(y or "nan"), float(x)] for x, _, y in rows]
+    np.testing.assert_array_equal(found.numbers, expected)
+    assert found.text is not None
+    assert found.text.tolist() == [t.encode() for _, t, _ in rows]
+    assert found.lines.tolist() == list(range(2, 40_002))
+
+
+@pytest.mark.parametrize("row", [0, 20_000, 39_999])
+def test_one_bad_cell_among_many_is_named(row):
+    cells = ["0.25,1"] * 40_000
+    for bad, message in (
+        ("x,1", "holds 'x'"),
+        (",1", "is empty"),
+        ("1", "1 cell, but"),
+        ("1,2,3", "3 cells, but"),
+    ):
+        text = table("a,b", *cells[:row], bad, *cells[row + 1 :])
+        with pytest.raises(TableError, match=f"line {row + 2}: .*{message}"):
+            read(text, columns("a"))
+
+
+@pytest.mark.parametrize(
+    ("call", "error"),
+    [
+        ((b"", 1, [0], [True]), ValueError),
+        ((b"1", 1, [0], [True]), ValueError),
+        ((b"1\n", 1, [], []), ValueError),
+        ((b"1\n", 1, [0], []), ValueError),
+        ((b"1\n", 1, [1], [True]), IndexError),
+        ((b"1\n", 0, [0], [True]), IndexError),
+        ((b"1\n", 1, [0], [True], 1), IndexError),
+        ((b"1\n", 1, [-1], [True]), TypeError),
+    ],
+)
+def test_the_kernel_refuses_columns_that_are_not_there(call, error):
+    with pytest.raises(error):
+        plain_rows(*call)
 
 
 def test_halfway_between_two_floats():

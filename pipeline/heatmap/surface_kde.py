@@ -9,7 +9,6 @@ so large that a bell reaches no corner, a source is shared among the corners of 
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
 
 REACH = 3.0  # bandwidths
 _CELL = 0.5  # bandwidths
-_MANY = 2_000  # sources: with more, a second thread is worth its start
 _MOST_PLACES = 2**25  # where a table of them is faster than sorting
 
 
@@ -116,21 +114,9 @@ class Bells:
     @cached_property
     def _reached(self) -> tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.float64]]:
         """Pairs of a source and a vertex within reach, and how far they are apart, m."""
-        parts = np.array_split(np.arange(len(self._faces)), 1 + (len(self._faces) > _MANY))
-        with ThreadPoolExecutor(len(parts)) as pool:
-            found = [pair for part in pool.map(self._around, parts) for pair in part]
-        counts = [len(vertices) for vertices, _ in found]
-        vertices, distances = (np.concatenate(column) for column in zip(*found, strict=True))
-        return np.repeat(np.arange(len(found)), counts), vertices, distances
-
-    def _around(self, sources: NDArray[np.intp]) -> list[tuple[NDArray[np.int32], NDArray[np.float64]]]:
-        """Return the vertices within reach of each of these sources, and how far they are; any thread may call it."""
-        geodesic = Geodesic(self._probe.vertices, self._probe.faces)  # it answers one thread at a time
-        limit = REACH * self._bandwidth
-        return [
-            geodesic.around(face, point, limit)
-            for face, point in zip(self._faces[sources].tolist(), self._middles[sources], strict=True)
-        ]
+        geodesic = Geodesic(self._probe.vertices, self._probe.faces)
+        first, vertices, distances = geodesic.around(self._faces, self._middles, REACH * self._bandwidth)
+        return np.repeat(np.arange(len(self._faces)), np.diff(first)), vertices, distances
 
     @cached_property
     def _matrix(self) -> csr_array:
@@ -170,23 +156,30 @@ def _cells(
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Return for each point (n, 3) the number of its source, (n,), and the middles (k, 3) of the sources."""
     # Two sides of a thin wall are near each other and must not become one: they face different ways.
-    facing = (probe.normals[faces] > 0) @ np.array([1, 2, 4])
-    places = np.floor((points - probe.bounds[0]) / cell).astype(np.int64)
-    group = _numbered(np.column_stack([places, facing]))
+    facing = ((probe.normals > 0) @ np.array([1, 2, 4])).take(faces)
+    places = [np.floor((points[:, k] - probe.bounds[0, k]) / cell).astype(np.int64) for k in range(3)]
+    group = _numbered([*places, facing])
     sums = np.column_stack([np.bincount(group, points[:, k]) for k in range(3)])
     return group, np.ascontiguousarray(np.divide(sums, np.bincount(group)[:, None]))
 
 
-def _numbered(rows: NDArray[np.int64]) -> NDArray[np.intp]:
-    """Return for each row of integers (n, k) its place (n,) among the different ones in ascending order."""
-    lowest = rows.min(axis=0)
-    sizes = [int(size) for size in rows.max(axis=0) - lowest + 1]
+def _numbered(columns: list[NDArray[np.int64]]) -> NDArray[np.intp]:
+    """Return for each row of columns of integers (n,) its place (n,) among the different ones in ascending order."""
+    lowest = [int(column.min()) for column in columns]
+    sizes = [int(column.max()) - low + 1 for column, low in zip(columns, lowest, strict=True)]
     if prod(sizes) > _MOST_PLACES:
+        rows = np.column_stack(columns)
         return np.asarray(np.unique(rows, axis=0, return_inverse=True)[1].ravel(), dtype=np.intp)
-    place = np.ravel_multi_index(tuple((rows - lowest).T), sizes)
+    place = np.zeros(len(columns[0]), dtype=np.int64)
+    for column, low, size in zip(columns, lowest, sizes, strict=True):
+        place *= size
+        place += column
+        place -= low
     taken = np.zeros(prod(sizes), dtype=bool)
     taken[place] = True
-    numbers: NDArray[np.intp] = np.cumsum(taken) - 1
+    there = np.flatnonzero(taken)
+    numbers = np.empty(len(taken), dtype=np.intp)  # most of it is never touched
+    numbers[there] = np.arange(len(there))
     return np.asarray(numbers[place])
 
 

@@ -44,6 +44,7 @@ ZeroWatch = _module.ZeroWatch
 collapse_edges = _module.collapse_edges
 crossings = _module.crossings
 frozen = _module.frozen
+plain_rows = _module.plain_rows
 poses_at = _module.poses_at
 
 __all__ = [
@@ -67,6 +68,7 @@ __all__ = [
     "compiler",
     "crossings",
     "frozen",
+    "plain_rows",
     "poses_at",
     "variant",
 ]

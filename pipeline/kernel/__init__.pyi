@@ -26,6 +26,7 @@ __all__ = [
     "compiler",
     "crossings",
     "frozen",
+    "plain_rows",
     "poses_at",
     "variant",
 ]
@@ -48,6 +49,14 @@ def collapse_edges(
 def crossings(
     vertices: NDArray[np.float64], faces: NDArray[np.int32], limit: int = 100_000
 ) -> tuple[NDArray[np.int32], NDArray[np.uint8], NDArray[np.int64], bool]: ...
+def plain_rows(
+    block: bytes,
+    cells: int,
+    columns: list[int],
+    required: list[bool],
+    text: int = -1,
+    longest_text: int = 256,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8] | None] | None: ...
 def poses_at(
     moments: NDArray[np.float64],
     R: NDArray[np.float64],
@@ -420,8 +429,8 @@ class Geodesic:
     def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> None: ...
     def neighbours(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
     def around(
-        self, face: int, point: NDArray[np.float64], limit: float
-    ) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
+        self, faces: NDArray[np.int32], points: NDArray[np.float64], limit: float
+    ) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]: ...
     def spread(
         self, vertices: NDArray[np.int32], limit: float
     ) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...

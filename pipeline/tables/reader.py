@@ -1,7 +1,7 @@
 """Tables from CSV: blocks of rows, fast where the file is plain, careful where it is not.
 
-A block whose lines all have as many commas as the header goes through NumPy as a whole, see `floats`. Any other block
-(quoted or blank cells, blank lines, anything wrong) is read once more, cell by cell: that reading either
+A block whose lines all have as many commas as the header goes through the kernel, see `numbers_of`. Any other
+block (quoted or blank cells, blank lines, anything wrong) is read once more, cell by cell: that reading either
 succeeds or knows the line and the column to name.
 """
 
@@ -15,24 +15,20 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.tables.decimals import MARGIN, floats
+from contactbench.pipeline.tables.decimals import numbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
 
     import numpy.typing as npt
 
-# About 64,000 rows of seven columns: large enough for NumPy, small enough for the processor's cache.
+# About 64,000 rows of seven columns: large enough to be split, small enough for the processor's cache.
 BLOCK_BYTES = 4 * 2**20
 
 # Longer than any line of numbers. Without such limits a file that is no CSV would fill the memory.
 _LONGEST_LINE = 2**20
 _LONGEST_TEXT = 256
 
-# As many as the processor's cache holds with what is worked out from them.
-_CELLS_AT_ONCE = 16_384
-
-_COMMA, _NEWLINE, _POINT = b",\n."
 _BOM = b"\xef\xbb\xbf"  # some programs put it before UTF-8
 
 
@@ -161,7 +157,6 @@ class TableReader:
                 empty = False
                 self._refuse_not_finite(rows)
                 yield rows
-            self._line += self._pending.count(b"\n")
             self._pending = next(self._blocks, b"")
         if empty:
             raise self.error("there is a header but no row below it: record again or choose another file.")
@@ -248,9 +243,8 @@ class TableReader:
     # ---- rows --------------------------------------------------------------------------------
 
     def _parse(self, block: bytes) -> TableRows:
-        # A carriage return inside a line ends it for NumPy, but not for the text and the line numbers.
-        # Of nothing but blank lines, which a table of one column may consist of, NumPy would warn.
-        if b'"' not in block and b"\r" not in block and not block.isspace():
+        # A carriage return inside a line is refused in words.
+        if b'"' not in block and b"\r" not in block:
             rows = self._parse_plain(block)
             if rows is not None:
                 return rows
@@ -258,74 +252,15 @@ class TableReader:
 
     def _parse_plain(self, block: bytes) -> TableRows | None:
         """Read a block in which every line has as many cells as the header, or return None."""
-        data = np.frombuffer(bytes(MARGIN) + block, dtype=np.uint8)
-        marks = np.flatnonzero((data == _COMMA) | (data == _NEWLINE) | (data == _POINT))
-        kinds = data[marks]
-        places = np.flatnonzero(kinds != _POINT)  # of the cells' ends, among the marks
         cells = len(self.names)
-        count, surplus = divmod(len(places), cells)
-        newlines = kinds[places] == _NEWLINE
-        if surplus or np.count_nonzero(newlines) != count or not newlines[cells - 1 :: cells].all():
+        required = [cells == 1 or finite for finite in self._finite.tolist()]
+        found = numbers_of(block, cells, self._indices, required, self._text, _LONGEST_TEXT)
+        if found is None:
             return None
-        text = None
-        if self._text is not None:
-            text = self._plain_text(data, marks[places], self._text)
-            if text is None:
-                return None
-        rows = max(1, _CELLS_AT_ONCE // len(self._indices))
-        parts = []
-        for row in range(0, count, rows):
-            numbers = self._plain_numbers(data, marks, places, row, min(row + rows, count))
-            if numbers is None:
-                return None
-            parts.append(numbers)
-        return TableRows(self.columns, np.concatenate(parts), text, np.arange(self._line, self._line + count))
-
-    def _plain_numbers(
-        self,
-        data: npt.NDArray[np.uint8],
-        marks: npt.NDArray[np.int64],
-        places: npt.NDArray[np.int64],
-        begin: int,
-        end: int,
-    ) -> npt.NDArray[np.float64] | None:
-        """Read rows of a block; None: some cell is no number, or empty where it must not be."""
-        cells = len(self.names)
-        ends = (np.arange(begin, end)[:, None] * cells + np.array(self._indices)).ravel()
-        here = places[ends]
-        before = np.where(ends > 0, places[ends - 1], -1)
-        first = np.where(before >= 0, marks[before] + 1, MARGIN)
-        last = marks[here]
-        points = np.choose(np.minimum(here - before - 1, 2), [last, marks[before + 1], -1])
-        empty = first == last
-        if empty.any() and (cells == 1 or self._finite[np.flatnonzero(empty) % len(self._indices)].any()):
-            return None
-        try:
-            numbers = floats(data, first, last, points)
-        except ValueError:
-            return None
-        return numbers.reshape(end - begin, -1)
-
-    def _plain_text(
-        self, data: npt.NDArray[np.uint8], ends: npt.NDArray[np.int64], column: int
-    ) -> npt.NDArray[np.bytes_] | None:
-        cells = len(self.names)
-        last = ends[column::cells]
-        # The first cell of a line begins behind the line before it, the first of all at 0.
-        before = (
-            ends[column - 1 :: cells]
-            if column
-            else np.concatenate(([MARGIN - 1], ends[cells - 1 : -1 : cells]))
-        )
-        first = before + 1
-        lengths = last - first
-        width = max(int(lengths.max()), 1)
-        if width > _LONGEST_TEXT:
-            return None
-        place = np.arange(width)
-        texts = data.take(first[:, None] + place, mode="clip")
-        texts[place >= lengths[:, None]] = 0
-        return texts.view(f"S{width}")[:, 0]
+        numbers, text = found
+        begin = self._line
+        self._line += len(numbers)
+        return TableRows(self.columns, numbers, text, np.arange(begin, self._line))
 
     def _parse_carefully(self, block: bytes) -> TableRows:
         texts: list[bytes] = []
@@ -340,6 +275,7 @@ class TableReader:
             if self._text is not None:
                 texts.append(self._text_cell(cells[self._text], line))
             lines.append(line)
+        self._line += block.count(b"\n")
         table = np.array(numbers, dtype=np.float64).reshape(-1, len(self.columns))
         text = None if self._text is None else np.array(texts, dtype=np.bytes_)
         return TableRows(self.columns, table, text, np.array(lines, dtype=np.int64))

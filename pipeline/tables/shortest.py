@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.tables.decimals import exact_product
-
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -20,6 +18,7 @@ WIDTH = 24
 
 # Decimal exponents done here; all other numbers are left to repr. In this range every step below is exact.
 _LOWEST, _END = -4, 3
+_SPLITTER = float(2**27 + 1)
 _BOUNDS = np.array([float(f"1e{e}") for e in range(_LOWEST, _END + 1)])
 
 _QUADS = np.array([f"{i:04}" for i in range(10_000)], dtype="S4")
@@ -89,7 +88,7 @@ def csv_rows(*columns: npt.NDArray[Any]) -> bytes:
 
 def _digits(x: npt.NDArray[np.float64], p: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_]]:
     """Seventeen digits of the shortest text of x, as an integer near x 10^p, and whether that is certain."""
-    high, low = exact_product(x, float(10**p))
+    high, low = _exact_product(x, float(10**p))
     below = np.floor(low)
     part = low - below  # exact: low has at most 50 bits
     whole = high.astype(np.int64) + below.astype(np.int64)
@@ -130,3 +129,18 @@ def _layout(digits: npt.NDArray[np.int64], e: int) -> npt.NDArray[np.uint8]:
         out[:, 1 : e + 2] = out[:, 2 : e + 3].copy()
         out[:, e + 2] = ord(".")
     return out
+
+
+def _exact_product(
+    x: npt.NDArray[np.float64], y: Any
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Veltkamp's and Dekker's product: the rounded x y, and what rounding took away."""
+    big = _SPLITTER * x
+    x_high = big - (big - x)
+    x_low = x - x_high
+    big = _SPLITTER * y
+    y_high = big - (big - y)
+    y_low = y - y_high
+    product = x * y
+    error = ((x_high * y_high - product) + x_high * y_low + x_low * y_high) + x_low * y_low
+    return product, error

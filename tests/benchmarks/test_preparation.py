@@ -124,9 +124,9 @@ def test_wrong_distances_are_seen(monkeypatch):
         def __init__(self, vertices, faces):
             self._inner = Geodesic(vertices, faces)
 
-        def around(self, face, point, limit):
-            there, distance = self._inner.around(face, point, limit)
-            return there, 1.03 * distance
+        def around(self, faces, points, limit):
+            first, there, distance = self._inner.around(faces, points, limit)
+            return first, there, 1.03 * distance
 
     monkeypatch.setattr("benchmarks.preparation.regions.Geodesic", Longer)
     for _, errors in distance_errors(np.random.default_rng(5), 2_000):

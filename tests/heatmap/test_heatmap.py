@@ -57,11 +57,9 @@ def test_a_density_adds_up_to_the_number_of_contacts(probe, bandwidth):
     assert made.total == 500
 
 
-def test_many_contacts_are_spread_to_the_bit_as_few_are(probe, monkeypatch):
-    """On two threads, and with cells that are numbered by a table instead of sorted."""
+def test_cells_numbered_by_sorting_are_those_numbered_by_a_table(probe, monkeypatch):
     at = touched(probe, 500)
     few = heatmap(probe, at, bandwidth=0.003)
-    monkeypatch.setattr("contactbench.pipeline.heatmap.surface_kde._MANY", 0)
     monkeypatch.setattr("contactbench.pipeline.heatmap.surface_kde._MOST_PLACES", 0)
     np.testing.assert_array_equal(heatmap(probe, at, bandwidth=0.003).values, few.values)
 

@@ -48,6 +48,11 @@ def cylinder(count: int = 4000) -> tuple[np.ndarray, np.ndarray]:
     return vertices, faces.astype(np.int32)
 
 
+def around(geodesic: Geodesic, face: int, point: np.ndarray, limit: float) -> tuple[np.ndarray, np.ndarray]:
+    _, found, distance = geodesic.around(np.array([face], dtype=np.int32), point[None], limit)
+    return found, distance
+
+
 def edge_of(vertices: np.ndarray, faces: np.ndarray) -> float:
     return float(np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean())
 
@@ -64,7 +69,7 @@ def source(
 def test_distances_on_a_plane_are_exact(seed: int) -> None:
     vertices, faces = flat(seed=seed)
     face, point = source(vertices, faces, (0, 0, 0))
-    found, distance = Geodesic(vertices, faces).around(face, point, 0.7)
+    found, distance = around(Geodesic(vertices, faces), face, point, 0.7)
     exact = np.linalg.norm(vertices - point, axis=1)
     np.testing.assert_allclose(distance, exact[found], atol=1e-12)
     assert found.tolist() == np.flatnonzero(exact <= 0.7).tolist()
@@ -74,7 +79,7 @@ def test_distances_on_a_plane_are_exact(seed: int) -> None:
 def test_distances_on_a_sphere_are_within_one_percent(level: int) -> None:
     vertices, faces = sphere(level)
     face, point = source(vertices, faces, (0.3, 0.5, 0.8))
-    found, distance = Geodesic(vertices, faces).around(face, point, 1.5)
+    found, distance = around(Geodesic(vertices, faces), face, point, 1.5)
     exact = np.arccos(np.clip(vertices[found] @ (point / np.linalg.norm(point)), -1, 1))
     far = exact >= 5 * edge_of(vertices, faces)
     assert np.count_nonzero(far) > 100
@@ -84,7 +89,7 @@ def test_distances_on_a_sphere_are_within_one_percent(level: int) -> None:
 def test_distances_on_a_cylinder_are_within_half_a_percent() -> None:
     vertices, faces = cylinder()
     face, point = source(vertices, faces, (1, 0, 0))
-    found, distance = Geodesic(vertices, faces).around(face, point, 1.5)
+    found, distance = around(Geodesic(vertices, faces), face, point, 1.5)
     turn = np.arctan2(vertices[found, 1], vertices[found, 0]) - np.arctan2(point[1], point[0])
     exact = np.hypot((turn + math.pi) % (2 * math.pi) - math.pi, vertices[found, 2] - point[2])
     far = exact >= 5 * edge_of(vertices, faces)
@@ -176,10 +181,29 @@ def test_a_distance_does_not_disturb_a_stroke() -> None:
         geodesic.begin(0.2, geodesic=True)
         one = geodesic.extend(face, point, True)
         if disturb:
-            geodesic.around(other, there, 0.5)
+            around(geodesic, other, there, 0.5)
             geodesic.path(other, there, face, point)
         covered.append((one.tolist(), geodesic.extend(other, there, True).tolist()))
     assert covered[0] == covered[1]
+
+
+def test_many_sources_are_as_each_alone() -> None:
+    """More than one thread takes, of which one is beside the other's; and none at all."""
+    vertices, faces = flat()
+    geodesic = Geodesic(vertices, faces)
+    rng = np.random.default_rng(5)
+    at = rng.integers(len(faces), size=2_000).astype(np.int32)
+    points = vertices[faces[at]].mean(axis=1)
+    first, found, distance = geodesic.around(at, points, 0.1)
+    assert first.dtype == np.int64
+    assert first[0] == 0
+    assert first[-1] == len(found) == len(distance)
+    for i, (face, point) in enumerate(zip(at.tolist(), points, strict=True)):
+        alone, far = around(geodesic, face, point, 0.1)
+        assert found[first[i] : first[i + 1]].tolist() == alone.tolist() == sorted(set(alone.tolist()))
+        assert distance[first[i] : first[i + 1]].tolist() == far.tolist()
+    first, found, _ = geodesic.around(at[:0], points[:0], 0.1)
+    assert (first.tolist(), len(found)) == ([0], 0)
 
 
 def test_a_way_on_a_sphere_is_the_great_circle() -> None:
@@ -259,7 +283,7 @@ def test_any_triangles_end(seed: int, points: int, count: int, geodesic: bool) -
     surface = Geodesic(vertices, faces)
     face = int(rng.integers(count))
     point = vertices[faces[face]].mean(axis=0)
-    found, distance = surface.around(face, point, 2.0)
+    found, distance = around(surface, face, point, 2.0)
     straight = np.linalg.norm(vertices[found] - point, axis=1)
     assert np.isfinite(distance).all()
     assert (distance <= 2.0).all()
@@ -291,10 +315,12 @@ def test_a_brush_finer_than_any_facet_covers_the_way(geodesic: bool) -> None:
 @pytest.mark.parametrize(
     ("call", "error"),
     [
-        (lambda g: g.around(-1, np.zeros(3), 1.0), IndexError),
-        (lambda g: g.around(10**9, np.zeros(3), 1.0), IndexError),
-        (lambda g: g.around(0, np.array([0, np.nan, 0]), 1.0), ValueError),
-        (lambda g: g.around(0, np.zeros(3), math.inf), ValueError),
+        (lambda g: around(g, -1, np.zeros(3), 1.0), IndexError),
+        (lambda g: around(g, 10**9, np.zeros(3), 1.0), IndexError),
+        (lambda g: around(g, 0, np.array([0, np.nan, 0]), 1.0), ValueError),
+        (lambda g: around(g, 0, np.zeros(3), math.inf), ValueError),
+        (lambda g: g.around(np.zeros(2, dtype=np.int32), np.zeros((1, 3)), 1.0), ValueError),
+        (lambda g: g.around(np.zeros(1), np.zeros((1, 3)), 1.0), TypeError),
         (lambda g: g.spread(np.array([10**6], dtype=np.int32), 1.0), IndexError),
         (lambda g: g.begin(0.0, True), ValueError),
         (lambda g: g.begin(math.nan, True), ValueError),

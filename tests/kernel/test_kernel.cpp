@@ -7,6 +7,7 @@
 #include "search_checks.hpp"
 #include "solver_checks.hpp"
 #include "stream_checks.hpp"
+#include "table_checks.hpp"
 
 namespace {
 long allocation_count = 0;
@@ -43,6 +44,8 @@ int main(int argc, char** argv) {
     testing::check_solver();
     testing::check_geodesic();
     testing::check_streams();
+    testing::check_decimals();
+    testing::check_rows();
     if (counts.failed > 0) {
         std::printf("%ld checks failed, %ld passed\n", counts.failed, counts.passed);
         return 1;

@@ -79,6 +79,17 @@ def test_the_order_and_number_of_queries_changes_nothing():
         assert np.array_equal(one[turned], two)
 
 
+def test_of_facets_around_a_corner_the_lowest_number_answers():
+    """At a distance of exactly 0, which every box around the corner has as well; whatever was asked before."""
+    probe = bundled("convex", 2000)
+    lowest = np.full(len(probe.vertices), len(probe.faces))
+    np.minimum.at(lowest, probe.faces.ravel(), np.repeat(np.arange(len(probe.faces)), 3))
+    turned = np.random.default_rng(3).permutation(len(lowest))
+    distance, face, _ = index_of(probe).closest(np.ascontiguousarray(probe.vertices[turned]))
+    assert (distance == 0).all()
+    assert np.array_equal(face, lowest[turned])
+
+
 def test_a_ray_meets_what_a_search_over_all_facets_meets():
     probe = bundled("t-shape", 500)
     rng = np.random.default_rng(3)

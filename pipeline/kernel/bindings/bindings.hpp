@@ -93,5 +93,6 @@ void bind_surface(nb::module_& m);
 void bind_geodesic(nb::module_& m);
 void bind_collapse(nb::module_& m);
 void bind_runtime(nb::module_& m);
+void bind_table(nb::module_& m);
 
 }  // namespace contactbench::bindings

@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "contactbench/brush.hpp"
+#include "parts.hpp"
 
 namespace contactbench::bindings {
 
@@ -37,9 +38,9 @@ void construct(Geodesic* self, Rows3 vertices, Faces faces) {
     new (self) Geodesic(std::move(points), std::move(triangles));
 }
 
-SurfacePoint surface_point(const Geodesic& g, std::int64_t face, Vector3 point) {
+SurfacePoint surface_point(const Geodesic& g, std::int64_t face, const double* point) {
     if (face < 0 || std::size_t(face) >= g.mesh.faces.size()) throw nb::index_error("face out of range");
-    const Vec3 p{point.data()[0], point.data()[1], point.data()[2]};
+    const Vec3 p{point[0], point[1], point[2]};
     if (!finite(p)) throw nb::value_error("point must be finite");
     return {std::int32_t(face), p};
 }
@@ -59,27 +60,60 @@ nb::object doubles(std::vector<double>&& values) {
     return make_array(std::move(values), {n});
 }
 
-nb::tuple around(Geodesic& g, std::int64_t face, Vector3 point, double limit) {
-    const SurfacePoint source = surface_point(g, face, point);
-    positive(limit, "limit must be a positive length in metres");
+// What one thread finds: of each source how many vertices, and all of them one after the other.
+struct Surroundings {
+    std::vector<std::int64_t> counts;
     std::vector<std::int32_t> vertices;
     std::vector<double> distances;
+
+    void find(DistanceField& field, const SurfacePoint& source, double limit) {
+        field.start(limit);
+        field.seed(source.face, source.point, 0);
+        field.run();
+        near_.clear();
+        for (std::int32_t v : field.touched())
+            if (field.distance(v) <= limit) near_.push_back(v);
+        std::sort(near_.begin(), near_.end());
+        near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+        counts.push_back(std::int64_t(near_.size()));
+        for (std::int32_t v : near_) {
+            vertices.push_back(v);
+            distances.push_back(field.distance(v));
+        }
+    }
+
+private:
+    std::vector<std::int32_t> near_;
+};
+
+// A field takes about as long to make as a hundred sources to spread.
+constexpr std::size_t least_sources = 512;
+
+nb::tuple around(const Geodesic& g, Ints faces, Rows3 points, double limit) {
+    positive(limit, "limit must be a positive length in metres");
+    const std::size_t n = faces.shape(0);
+    if (points.shape(0) != n) throw nb::value_error("faces and points differ in number");
+    std::vector<SurfacePoint> sources(n);
+    for (std::size_t i = 0; i < n; ++i) sources[i] = surface_point(g, faces.data()[i], points.data() + 3 * i);
+    std::vector<std::int64_t> first{0};
+    Surroundings whole;
     {
         const nb::gil_scoped_release release;
-        const std::lock_guard lock(g.busy);
-        g.field.start(limit);
-        g.field.seed(source.face, source.point, 0);
-        g.field.run();
-        std::vector<std::int32_t> touched = g.field.touched();
-        std::sort(touched.begin(), touched.end());
-        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        for (std::int32_t v : touched)
-            if (g.field.distance(v) <= limit) {
-                vertices.push_back(v);
-                distances.push_back(g.field.distance(v));
-            }
+        std::vector<Surroundings> parts(parts_of(n, least_sources));
+        in_parts(n, least_sources, [&](std::size_t from, std::size_t to, std::size_t part) {
+            DistanceField field(g.mesh);
+            for (std::size_t i = from; i < to; ++i) parts[part].find(field, sources[i], limit);
+        });
+        first.reserve(n + 1);
+        for (Surroundings& part : parts) {
+            for (std::int64_t count : part.counts) first.push_back(first.back() + count);
+            whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
+            whole.distances.insert(whole.distances.end(), part.distances.begin(), part.distances.end());
+            part = {};
+        }
     }
-    return nb::make_tuple(ints(std::move(vertices)), doubles(std::move(distances)));
+    return nb::make_tuple(make_array(std::move(first), {n + 1}), ints(std::move(whole.vertices)),
+                          doubles(std::move(whole.distances)));
 }
 
 nb::tuple spread(Geodesic& g, Ints sources, double limit) {
@@ -106,7 +140,7 @@ nb::tuple spread(Geodesic& g, Ints sources, double limit) {
 }
 
 nb::object extend(Geodesic& g, std::int64_t face, Vector3 point, bool joined) {
-    const SurfacePoint to = surface_point(g, face, point);
+    const SurfacePoint to = surface_point(g, face, point.data());
     std::vector<std::int32_t> fresh;
     {
         const nb::gil_scoped_release release;
@@ -119,7 +153,7 @@ nb::object extend(Geodesic& g, std::int64_t face, Vector3 point, bool joined) {
 }
 
 nb::object path(Geodesic& g, std::int64_t from, Vector3 start, std::int64_t to, Vector3 end) {
-    const SurfacePoint first = surface_point(g, from, start), last = surface_point(g, to, end);
+    const SurfacePoint first = surface_point(g, from, start.data()), last = surface_point(g, to, end.data());
     std::vector<double> rows;
     {
         const nb::gil_scoped_release release;
@@ -146,8 +180,9 @@ void bind_geodesic(nb::module_& m) {
         .def("__init__", &construct, nb::arg("vertices"), nb::arg("faces").noconvert())
         .def("neighbours", &neighbours,
              "Facets across the edges: those of facet f are second[first[f]:first[f + 1]]; two int32 arrays.")
-        .def("around", &around, nb::arg("face"), nb::arg("point"), nb::arg("limit"),
-             "Vertices (k,) int32 within `limit` metres, along the surface, of a point of a facet; distances (k,).")
+        .def("around", &around, nb::arg("faces").noconvert(), nb::arg("points"), nb::arg("limit"),
+             "Vertices (k,) int32 within `limit` metres, along the surface, of each of points (n, 3) of facets (n,): those of"
+             " point i number first[i] to first[i + 1], ascending. first (n + 1,) int64, vertices, and distances (k,).")
         .def("spread", &spread, nb::arg("vertices").noconvert(), nb::arg("limit"),
              "Facets (k,) int32 whose centroid lies within `limit` metres of vertices and of the lines between them; "
              "distances (k,).")

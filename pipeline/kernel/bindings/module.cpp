@@ -11,4 +11,5 @@ NB_MODULE(CONTACTBENCH_MODULE, m) {
     contactbench::bindings::bind_geodesic(m);
     contactbench::bindings::bind_collapse(m);
     contactbench::bindings::bind_runtime(m);
+    contactbench::bindings::bind_table(m);
 }

@@ -1,15 +1,16 @@
 // Nearest points and rays, for many queries at once.
 #include <nanobind/stl/tuple.h>
 
-#include <thread>
-
 #include "bindings.hpp"
 #include "contactbench/crossings.hpp"
 #include "contactbench/surface.hpp"
+#include "parts.hpp"
 
 namespace contactbench::bindings {
 
 namespace {
+
+constexpr std::size_t least = 4096;  // queries that are worth a thread
 
 Vec3 row(const Rows3& rows, std::size_t i) {
     const double* p = rows.data() + 3 * i;
@@ -67,17 +68,6 @@ nb::tuple crossings(const Rows3& vertices, const Faces& faces, std::size_t limit
                           found.complete);
 }
 
-// Splits many queries over the processor's cores: each is on its own, so the answer is the same.
-template <class Work>
-void in_parts(std::size_t count, const Work& work) {
-    const std::size_t parts = std::min<std::size_t>({std::max(1u, std::thread::hardware_concurrency()), 8, 1 + count / 4096});
-    std::vector<std::thread> threads;
-    for (std::size_t p = 1; p < parts; ++p)
-        threads.emplace_back([&work, p, parts, count] { work(count * p / parts, count * (p + 1) / parts); });
-    work(0, count / parts);
-    for (std::thread& t : threads) t.join();
-}
-
 nb::tuple closest(const Surface& surface, const Rows3& points) {
     refuse_infinite(points, "points");
     const std::size_t n = points.shape(0);
@@ -85,7 +75,7 @@ nb::tuple closest(const Surface& surface, const Rows3& points) {
     std::vector<std::int32_t> face(n);
     {
         nb::gil_scoped_release release;
-        in_parts(n, [&](std::size_t from, std::size_t to) {
+        in_parts(n, least, [&](std::size_t from, std::size_t to, std::size_t) {
             std::int32_t guess = -1;  // neighbours in the list are often neighbours in space
             for (std::size_t i = from; i < to; ++i) {
                 const Nearest found = surface.nearest(row(points, i), guess);
@@ -111,7 +101,7 @@ nb::tuple best_aligned(const Surface& surface, const Rows3& points, const Rows3&
     {
         nb::gil_scoped_release release;
         const auto normal = [&](std::int32_t facet) { return row(normals, std::size_t(facet)); };
-        in_parts(n, [&](std::size_t from, std::size_t to) {
+        in_parts(n, least, [&](std::size_t from, std::size_t to, std::size_t) {
             for (std::size_t i = from; i < to; ++i) {
                 const auto best = surface.best_aligned(row(points, i), row(directions, i), radius.data()[i], normal, enough);
                 cosine[i] = best.cosine, face[i] = best.face;
@@ -130,7 +120,7 @@ std::pair<std::vector<double>, std::vector<std::int32_t>> cast_all(const Surface
     std::vector<double> t(n);
     std::vector<std::int32_t> face(n);
     nb::gil_scoped_release release;
-    in_parts(n, [&](std::size_t from, std::size_t to) {
+    in_parts(n, least, [&](std::size_t from, std::size_t to, std::size_t) {
         for (std::size_t i = from; i < to; ++i) {
             const RayHit hit = surface.cast(row(origins, i), row(directions, i), any);
             t[i] = hit.t, face[i] = hit.face;

@@ -75,6 +75,7 @@ public:
             Label& label = labels_[std::size_t(vertex)];
             if (!label.waiting || label.turns >= most_turns) continue;
             label.waiting = false;
+            label.turn = ++turn_;
             ++label.turns;
             for (std::int32_t f : mesh_->adjacency.around(vertex)) spread(f, vertex, limit_);
         }
@@ -141,6 +142,7 @@ private:
         std::uint16_t turns = 0;
         bool waiting = false;  // in the queue; entries for higher distances may be there as well
         std::uint64_t run = 0;
+        std::uint64_t turn = 0, lowered = 0;  // the number of its last turn, and of the one that set its distance
         Vec3 way;  // to the source, as if the surface went on flat from here
     };
 
@@ -166,13 +168,14 @@ private:
 
     void lower(std::int32_t vertex, const Arrival& arrival) {
         Label& label = labels_[std::size_t(vertex)];
-        if (label.run != run_) label = {unreached, 0, 0, false, run_, {}};
+        if (label.run != run_) label = {unreached, 0, 0, false, run_, 0, turn_, {}};
         if (!(arrival.distance < label.distance)) return;
         if (label.distance != unreached && label.distance - arrival.distance <= rounding * label.distance) return;
         label.distance = arrival.distance;
         label.source = arrival.source;
         label.way = arrival.way;
         label.waiting = true;
+        label.lowered = turn_;
         touched_.push_back(vertex);
         const double share = arrival.distance / limit_;
         const std::size_t place = share < 1.0 ? std::size_t(share * double(beyond_limit)) : beyond_limit;
@@ -183,31 +186,27 @@ private:
     void spread(std::int32_t f, std::int32_t from, double limit) {
         const Triangle& t = mesh_->face(f);
         const std::size_t c = t[0] == from ? 0 : t[1] == from ? 1 : 2;
-        const std::size_t next = (c + 1) % 3, last = (c + 2) % 3;
-        if (!settled(f, last, from)) reach(t[last], from, t[next], limit);
-        if (!settled(f, next, from)) reach(t[next], from, t[last], limit);
+        const std::size_t next = c == 2 ? 0 : c + 1, last = c == 0 ? 2 : c - 1;
+        reach(f, last, t[last], from, t[next], limit);
+        reach(f, next, t[next], from, t[last], limit);
     }
 
-    // Whether nothing that comes over the edge opposite a corner can lower it any more, `from` being one of the
-    // edge's ends. A straight line through a narrow corner makes less than 80 degrees with both of its sides; if
-    // its source is further than the sides are long times 1 / (2 cos 80), both ends are nearer than the corner.
-    bool settled(std::int32_t f, std::size_t corner, std::int32_t from) const {
-        const std::int32_t v = mesh_->face(f)[corner];
-        const double reached = distance(v);
-        return reached <= label(from).distance && narrow_[3 * std::size_t(f) + corner] &&
-               reached * reached > 9.0 * norm2(mesh_->at(from) - mesh_->at(v));
-    }
-
-    // Lower `target` by what comes over the edge from `a`, which has a label, to `b`, which may.
-    void reach(std::int32_t target, std::int32_t a, std::int32_t b, double limit) {
+    // Lower `target`, a corner of f, by what comes over the edge from `a`, which has a label, to `b`, which may.
+    void reach(std::int32_t f, std::size_t corner, std::int32_t target, std::int32_t a, std::int32_t b, double limit) {
         const double known = distance(target);
-        if (distance(b) != unreached) {
+        const Label& from = label(a);
+        const Vec3 step = mesh_->at(a) - mesh_->at(target);
+        const double step2 = norm2(step);
+        // Nothing that comes over the edge can lower it any more: a straight line through a narrow corner makes less
+        // than 80 degrees with both of its sides; if its source is further than the sides are long times
+        // 1 / (2 cos 80), both ends are nearer than the corner.
+        if (known <= from.distance && known * known > 9.0 * step2 && narrow_[3 * std::size_t(f) + corner]) return;
+        // At b's turn this edge was looked at, unless the distance of `a` is newer.
+        if (const Label& other = label(b); other.run == run_ && (other.waiting || other.turn <= from.lowered)) {
             const Arrival arrival = across(a, b, mesh_->at(target), known, limit);
             if (arrival.distance < known) return lower(target, arrival);
         }
-        const Label& from = label(a);
-        const Vec3 step = mesh_->at(a) - mesh_->at(target);
-        const double gain = known - from.distance, step2 = norm2(step);
+        const double gain = known - from.distance;
         if (!(from.distance <= limit && gain > 0.0 && step2 < gain * gain)) return;
         const double length = std::sqrt(step2), end = from.distance + length;
         lower(target, {end, from.source, end / length * step});
@@ -290,7 +289,7 @@ private:
     std::vector<std::uint64_t> seen_;
     std::vector<std::uint8_t> narrow_;
     std::vector<std::vector<std::int32_t>> queue_;  // by distance, in even steps up to the limit
-    std::uint64_t run_ = 0, sweep_ = 0;
+    std::uint64_t run_ = 0, sweep_ = 0, turn_ = 0;
     std::size_t lowest_ = 0;
     double limit_ = 0.0;
     bool line_ = false;

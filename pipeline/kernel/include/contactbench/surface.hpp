@@ -81,29 +81,24 @@ public:
     Nearest nearest(const Vec3& p, std::int32_t guess = -1) const {
         Nearest best;
         if (guess >= 0) consider(std::size_t(place_[std::size_t(guess)]), p, best);
-        std::array<std::pair<double, std::int32_t>, stack_size> stack;
+        std::array<std::pair<double, std::int32_t>, stack_size> stack;  // further children, to be looked at later
         std::size_t top = 0;
-        stack[top++] = {box_distance2(nodes_[0], p), 0};
-        while (top > 0) {
-            const auto [bound2, index] = stack[--top];
-            if (bound2 > best.distance2) continue;
-            const Node& node = nodes_[std::size_t(index)];
-            if (node.count > 0) {
-                for (std::int32_t i = 0; i < node.count; ++i) consider(std::size_t(node.first + i), p, best);
-                continue;
+        for (const Node* node = &nodes_[0];;) {
+            while (node->count == 0) {
+                const Node* const children = &nodes_[std::size_t(node->first)];
+                const double left = box_distance2(children[0], p), right = box_distance2(children[1], p);
+                const bool second = !(left < right);
+                const double further = second ? left : right;
+                stack[top] = {further, node->first + !second};
+                top += further <= best.distance2;
+                node = children + second;
             }
-            const double left = box_distance2(nodes_[std::size_t(node.first)], p);
-            const double right = box_distance2(nodes_[std::size_t(node.first) + 1], p);
-            // The nearer child is pushed last, and so looked at first.
-            if (left < right) {
-                if (right <= best.distance2) stack[top++] = {right, node.first + 1};
-                if (left <= best.distance2) stack[top++] = {left, node.first};
-            } else {
-                if (left <= best.distance2) stack[top++] = {left, node.first};
-                if (right <= best.distance2) stack[top++] = {right, node.first + 1};
-            }
+            for (std::int32_t i = 0; i < node->count; ++i) consider(std::size_t(node->first + i), p, best);
+            do {
+                if (top == 0) return best;
+                node = &nodes_[std::size_t(stack[--top].second)];
+            } while (stack[top].first > best.distance2);
         }
-        return best;
     }
 
     // What the half-line o + t d, t > 0, meets first; with `any`, whatever it meets.
@@ -258,9 +253,10 @@ private:
     }
 
     static double box_distance2(const Node& node, const Vec3& p) {
-        const Vec3 d{std::max({node.low.x - p.x, 0.0, p.x - node.high.x}),
-                     std::max({node.low.y - p.y, 0.0, p.y - node.high.y}),
-                     std::max({node.low.z - p.z, 0.0, p.z - node.high.z})};
+        // Not the largest of a list, for which compilers make branches.
+        const auto outside = [](double low, double at, double high) { return std::max(std::max(low - at, at - high), 0.0); };
+        const Vec3 d{outside(node.low.x, p.x, node.high.x), outside(node.low.y, p.y, node.high.y),
+                     outside(node.low.z, p.z, node.high.z)};
         // The nearest point of a facet is rounded, and may come out a little nearer than its own box.
         return norm2(d) * (1.0 - 1e-12);
     }

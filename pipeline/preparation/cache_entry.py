@@ -262,11 +262,9 @@ def _consistent(made: Any) -> bool:
             Shell(soundness=Soundness() as found, probe=probe)
             | Simplified(soundness=Soundness() as found, probe=probe)
         ):
-            facets = (found.nested_facets, found.flat_facets, found.folded_facets, found.pairs.ravel())
-            indices = (
-                (np.concatenate(facets), len(probe.faces)),
-                (found.pinched_vertices, len(probe.vertices)),
-            )
+            of_facets = (found.nested_facets, found.flat_facets, found.folded_facets, found.pairs)
+            indices: list[tuple[npt.NDArray[Any], int]] = [(each, len(probe.faces)) for each in of_facets]
+            indices.append((found.pinched_vertices, len(probe.vertices)))
             return len(found.normal_deviation_deg) == len(probe.faces) and all(
                 ((each >= 0) & (each < count)).all() for each, count in indices
             )

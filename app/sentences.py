@@ -25,6 +25,22 @@ _HOLE = re.compile(r"\{[^{}]*\}")
 _WORD = re.compile(r"[A-Za-z]{2,}")
 _CODE = re.compile(r"[<>]\w|\w\(|__|\\|^\s*[-#]|\n\s|://|%[sd]|\w=\w")
 _LEAST_WORDS = 2  # one is a key or a name, but for what begins and ends as a sentence does
+# What sentences are made of, too short to be told from keys and names.
+_PARTS = (
+    *(
+        "{0} and {1}",
+        "{0} by {1}",
+        "{0} in {1}",
+        "{0} on {1}",
+        "{0} or {1}",
+        "{0} to 1",
+        "1 to {0}",
+        "{0} with {1}",
+    ),
+    *("{0} ({1} kg)", "{0} negated", "pose {0}", "row {0}"),
+    *("degrees", "forces", "next", "previous", "radians", "torques", "transposed"),
+    "Correct the sensor's mounting: R_WS becomes R_WS · Rz({0}).",
+)
 
 
 def templates(pipeline: Path) -> tuple[str, ...]:
@@ -36,7 +52,7 @@ def templates(pipeline: Path) -> tuple[str, ...]:
     pipeline : Path
         Its folder.
     """
-    found: set[str] = set()
+    found = set(_PARTS)
     for file in sorted(pipeline.rglob("*.py")):
         place = file.relative_to(pipeline)
         if not _NOT_SHOWN & {each.as_posix() for each in (place, *place.parents)}:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import inspect
 import json
 import math
+import signal
 import sys
+import threading
 import time
+from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import wraps
 from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin, get_type_hints
 
@@ -16,8 +19,8 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
-    from types import TracebackType
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from types import FrameType, TracebackType
 
     from rich.table import Table
 
@@ -320,3 +323,39 @@ class Bar:
         )
         self._task = self._progress.add_task(self._what, total=total or None)
         self._progress.start()
+
+
+# ---- the end ------------------------------------------------------------------------------------
+
+# A closed terminal ends it too: files that are to go would stay behind. Not all systems have SIGHUP.
+_ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+
+
+@dataclass
+class Ended:
+    """Whether somebody has asked a command to end: a flag, for an event's lock may be held by what a signal stops."""
+
+    asked: bool = False
+
+
+@contextmanager
+def ended_by_signals() -> Iterator[Ended]:
+    """
+    Take the signals that end a process, so that a command ends well.
+
+    Those that whoever started it has had ignored, as nohup does, stay so. Only the main thread can hear any.
+    """
+    ended = Ended()
+
+    def take(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
+        ended.asked = True
+
+    main = threading.current_thread() is threading.main_thread()
+    heard = [each for each in _ENDS if main and signal.getsignal(each) is not signal.SIG_IGN]
+    before = {each: signal.signal(each, take) for each in heard}
+    try:
+        yield ended
+    finally:
+        for each, handler in before.items():
+            # Once asked to end, the process is about to: one more signal must not kill it while it says what it wrote.
+            signal.signal(each, signal.SIG_IGN if ended.asked else handler)

@@ -51,7 +51,8 @@ def _frozen():
 
 
 def pytest_unconfigure(config):  # noqa: ARG001 - the hook's name
-    """Take it down again."""
+    """Take it down again, and let the interpreter's last collection come to what was frozen: the kernel counts it."""
+    gc.unfreeze()
     if _screen is not None:
         _screen.terminate()
         _screen.wait(10)

@@ -87,6 +87,9 @@ class StepList(QWidget):
         with QSignalBlocker(self._rows[step]):
             self._rows[step].setChecked(True)
         self._rows[step].update()
+        # The tabulator key stops at one of them, arrows go on from there: Qt leaves it where the focus was last.
+        for each, row in self._rows.items():
+            row.setFocusPolicy(Qt.FocusPolicy.StrongFocus if each is step else Qt.FocusPolicy.ClickFocus)
 
     def _choose(self, step: Step, on: bool) -> None:
         if on:

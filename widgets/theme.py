@@ -230,8 +230,9 @@ QGroupBox::title {{ subcontrol-origin: margin; left: 2px; color: {muted}; }}
 QDockWidget {{ titlebar-close-icon: url({pictures}/close-{which}.svg);
   titlebar-normal-icon: url({pictures}/float-{which}.svg); }}
 QDockWidget::title {{ background: {background}; padding: 6px 8px 2px 8px; border-bottom: 1px solid {line}; }}
-QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; border: 1px solid transparent; border-radius: 4px; }}
-QCheckBox:focus, QRadioButton:focus {{ border-color: {accent}; }}
+QCheckBox, QRadioButton {{ min-height: 28px; spacing: 8px; }}
+QCheckBox, QRadioButton, QSlider {{ border: 1px solid transparent; border-radius: 4px; }}
+QCheckBox:focus, QRadioButton:focus, QSlider:focus {{ border-color: {accent}; }}
 QRadioButton::indicator {{ width: 18px; height: 18px; }}
 QCheckBox::indicator {{ width: 16px; height: 16px; border: 1px solid {muted}; border-radius: 3px;
   background: {panel}; }}

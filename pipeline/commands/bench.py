@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 import threading
 import time
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,12 +12,11 @@ import typer
 
 from contactbench.pipeline.commands.control import control_app
 from contactbench.pipeline.commands.options import RealityOption
-from contactbench.pipeline.console import Noun, answer, as_json, print_json, say
+from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, print_json, say
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-    from types import FrameType
+    from collections.abc import Mapping
 
     from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.url import DeviceAddress
@@ -32,7 +28,7 @@ if TYPE_CHECKING:
 bench_app = Noun("Try without hardware: a virtual bench, emulated devices, and motion control by touch.")
 bench_app.add_typer(control_app, name="control")
 
-_LOOK_S = 0.1
+_LOOK_S = 0.1  # how long an end may go unnoticed
 
 ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="Bundled probe.")]
 MeshOption = Annotated[Path | None, typer.Option(help="Your own probe instead: a mesh file in S.")]
@@ -120,12 +116,11 @@ def serve(
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
     bench = _bench(_address(probe, mesh, sensor, seed, rate, script, reality))
-    before = signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        with ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served:
-            _serve(served)
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    with (
+        ended_by_signals() as ended,
+        ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served,
+    ):
+        _serve(served, ended)
     for sentence in served.findings():
         say(sentence, "yellow")
     if served.error is not None:
@@ -212,17 +207,14 @@ def _bench(where: DeviceAddress) -> VirtualBench:
     return bench_at(where)
 
 
-def _serve(served: ServedBench) -> None:
+def _serve(served: ServedBench, ended: Ended) -> None:
     """Say the addresses, and obey until the script, the devices or somebody ends it."""
-    try:
-        print_json({"sensor": served.sensor.url, "robot": served.robot.url})
-        # A daemon: a line that never comes does not keep the command from ending.
-        threading.Thread(target=_obey, args=(served,), name="commands", daemon=True).start()
-        while not served.over.wait(_LOOK_S):
-            if served.sensor.failure is not None or served.robot.failure is not None:
-                return
-    except KeyboardInterrupt:
-        pass
+    print_json({"sensor": served.sensor.url, "robot": served.robot.url})
+    # A daemon: a line that never comes does not keep the command from ending.
+    threading.Thread(target=_obey, args=(served,), name="commands", daemon=True).start()
+    while not (ended.asked or served.over.wait(_LOOK_S)):
+        if served.sensor.failure is not None or served.robot.failure is not None:
+            return
 
 
 def _obey(served: ServedBench) -> None:
@@ -240,15 +232,6 @@ def _obey(served: ServedBench) -> None:
         else:
             print_json({"line": number, "do": command.name, "at": done.time, "until": done.until})
         sys.stdout.flush()
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
-    raise KeyboardInterrupt
-
-
-_EMULATED_LOOK_S = 0.1  # how long an end may go unnoticed
-# A closed terminal ends it too: a pseudo-terminal's folder would stay behind. Not all systems have SIGHUP.
-_ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 @bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
@@ -294,7 +277,7 @@ def emulate(
         carrier = "serial"
     elif port is not None and not carrier:
         carrier = socket_of(device)
-    with _ended() as ended:  # before there is anything to clear away, until it is
+    with ended_by_signals() as ended:  # before there is anything to clear away, until it is
         made = emulator(
             device,
             carrier or None,
@@ -315,42 +298,15 @@ def emulate(
     say(f"{taken['intact']} frames sent whole, {taken['not intact']} not{late}; {refused} commands refused.")
 
 
-@dataclass
-class _Ended:
-    """Whether somebody has ended it: a flag, since an exception could come in the middle of the clearing away."""
-
-    by_signal: bool = False
-
-    def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
-        """Take a signal."""
-        self.by_signal = True
-
-
-@contextmanager
-def _ended() -> Iterator[_Ended]:
-    """Take the signals that end a process, but for those that whoever started it has had ignored, as nohup does."""
-    ended = _Ended()
-    heard = [number for number in _ENDS if signal.getsignal(number) is not signal.SIG_IGN]
-    before = {number: signal.signal(number, ended) for number in heard}
-    try:
-        yield ended
-    finally:
-        for number, handler in before.items():
-            # One more signal must not kill a process that is about to end.
-            signal.signal(number, signal.SIG_IGN if ended.by_signal else handler)
-
-
-def _emulate(device: Emulator, ended: _Ended, seconds: float | None) -> None:
+def _emulate(device: Emulator, ended: Ended, seconds: float | None) -> None:
     """Say the address, and sleep until the time is up or somebody ends it; both are the expected end."""
     end = None if seconds is None else time.monotonic() + seconds
     if as_json():
         print_json({"url": device.url})
     else:
         typer.echo(device.url)
-    while not ended.by_signal and device.failure is None and (end is None or time.monotonic() < end):
-        time.sleep(
-            _EMULATED_LOOK_S if end is None else max(0.0, min(_EMULATED_LOOK_S, end - time.monotonic()))
-        )
+    while not ended.asked and device.failure is None and (end is None or time.monotonic() < end):
+        time.sleep(_LOOK_S if end is None else max(0.0, min(_LOOK_S, end - time.monotonic())))
 
 
 def _options(given: list[str]) -> dict[str, str]:

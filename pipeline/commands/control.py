@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import write_file
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say, show_tables
+from contactbench.pipeline.console import (
+    Bar,
+    Noun,
+    answer,
+    as_json,
+    ended_by_signals,
+    print_json,
+    say,
+    show_tables,
+)
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import MountSettings
@@ -191,7 +200,6 @@ def run(
     sent to a real robot. Ctrl-C makes it retract and end. Exit code 1: the force exceeded the limit, the
     controller gave up, or it did not end in a safe state; 2: the bundle or the robot is refused.
     """
-    from contactbench.pipeline.commands.record import ended_by_signals
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles
     from contactbench.pipeline.control.loop import run_loop
@@ -224,11 +232,11 @@ def run(
 
         def watch(command: ControlCommand, loop: Loop) -> None:
             if show is not None and not show.take(command, loop):
-                ended.set()  # who watched has gone
+                ended.asked = True  # who watched has gone
             if command.change is not None:
                 change = command.change
                 say(f"{change.time:7.2f} s  {change.before} -> {change.after}: {change.reason}")
-            if ended.is_set():
+            if ended.asked:
                 loop.controller.stop()
 
         paced = _paced(watch) if real_time else watch

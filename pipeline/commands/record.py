@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-import signal
 import threading
 import time
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,11 +14,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say
+from contactbench.pipeline.console import Bar, Ended, Noun, answer, as_json, ended_by_signals, print_json, say
 from contactbench.pipeline.settings import Only, PosesSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
@@ -81,7 +80,7 @@ def start(
             with RecordingWriter(out, pair.about(note)) as writer:
                 recorder = Recorder(writer, changes.tell, clock=pair.now)
                 with recorder, pair:
-                    wait(pair, seconds, ended, recorder.failed, changes=changes)
+                    wait(pair, seconds, ended, recorder.failed, changes)
         finally:
             pair.stop()  # a replay has its file open before it begins
             changes.end()
@@ -158,19 +157,18 @@ def devices() -> None:
     )
 
 
-def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Changes | None = None) -> None:
-    """Wait until the time or the source is over, a stream has failed, or one of the events is set."""
+def wait(pair: Pair, seconds: float | None, ended: Ended, failed: threading.Event, changes: Changes) -> None:
+    """Wait until the time or the source is over, somebody ends it, or a stream or what takes it has failed."""
     deadline = math.inf if seconds is None else time.monotonic() + seconds
-    while not (pair.finished or broken(pair) or any(end.is_set() for end in ends)):
+    while not (pair.finished or broken(pair) or ended.asked or failed.is_set()):
         left = deadline - time.monotonic()
         if left <= 0:
             return
-        if changes is not None:
-            changes.tick()
+        changes.tick()
         if pair.stepwise:
             pair.step(_STEPS)
         else:
-            ends[0].wait(min(left, _LOOK_S))
+            failed.wait(min(left, _LOOK_S))
 
 
 def broken(pair: Pair) -> bool:
@@ -182,23 +180,6 @@ def broken(pair: Pair) -> bool:
         or (stream.done.is_set() and stream.health.state is StreamState.LOST)
         for stream in pair.streams
     )
-
-
-@contextmanager
-def ended_by_signals() -> Iterator[threading.Event]:
-    """Let Ctrl-C, a polite kill and a closed terminal end a recording well; only the main thread may ask for that."""
-    ended = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield ended
-        return
-    signals = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    before = {each: signal.signal(each, lambda *_: ended.set()) for each in signals}
-    try:
-        yield ended
-    finally:
-        for each, handler in before.items():
-            # Once asked to end, the process is about to: one more signal must not kill it while it says what it wrote.
-            signal.signal(each, signal.SIG_IGN if ended.is_set() else handler)
 
 
 @dataclass

@@ -12,11 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
-from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
-from contactbench.pipeline.console import Noun, answer, as_json, report_error, say
+from contactbench.pipeline.commands.record import Changes, broken
+from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, report_error, say
 
 if TYPE_CHECKING:
-    import threading
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -242,15 +241,15 @@ def _wait(
     config: RuntimeConfig,
     say_changes: Callable[[], None],
     seconds: float | None,
-    ended: threading.Event,
+    ended: Ended,
 ) -> None:
-    """Wait until the time or the source is over, a stream or an output has failed, or `ended` is set."""
+    """Wait until the time or the source is over, a stream or an output has failed, or somebody has ended it."""
     begun = time.monotonic()
     zero = "unknown"
     deadline = math.inf if seconds is None else begun + seconds
     settled, slow = False, set[str]()
     while not (
-        pair.finished or broken(pair) or ended.is_set() or any(o.failed.is_set() for o in runner.outlets)
+        pair.finished or broken(pair) or ended.asked or any(o.failed.is_set() for o in runner.outlets)
     ):
         now = time.monotonic()
         if now >= deadline:
@@ -275,7 +274,7 @@ def _wait(
         if pair.stepwise:
             pair.step(_STEPS)
         else:
-            ended.wait(min(deadline - now, _LOOK_S))
+            time.sleep(min(deadline - now, _LOOK_S))
 
 
 def _say_begin(config: RuntimeConfig, pair: Pair) -> None:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
-from contactbench.pipeline.console import Bar, Noun, answer, say
+from contactbench.pipeline.commands.record import Changes, wait
+from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def _record(
             patient=pair.stepwise,
         )
         with ended_by_signals() as ended, live, pair:
-            wait(pair, seconds, ended, live.recorder.failed, changes=changes)
+            wait(pair, seconds, ended, live.recorder.failed, changes)
     finally:
         pair.stop()  # a replay has its file open before it begins
         changes.end()

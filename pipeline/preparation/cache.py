@@ -14,7 +14,12 @@ import hashlib
 import json
 import os
 import platform
+import stat
 import sys
+import threading
+import time
+import warnings
+from collections import OrderedDict
 from functools import cache
 from importlib.metadata import distributions
 from pathlib import Path
@@ -33,11 +38,20 @@ _OFF = "off"
 _SUFFIX = ".kept"
 _MOST_BYTES = 512 * 2**20  # of all entries; those that were used longest ago go first
 _LARGEST = 64 * 2**20  # of one
+_STALE_S = 3600.0  # nobody writes for so long
+_MOST_HELD = 2
 _LIBRARIES = ("numpy", "scipy", "manifold3d", "pymeshlab", "libigl")
+
+_held: OrderedDict[str, tuple[Any, ...]] = OrderedDict()
+_lock = threading.Lock()
 
 
 def made_once(
-    given: Callable[[], object], make: Callable[[], tuple[Any, ...]], types: tuple[type[Any], ...]
+    given: Callable[[], object],
+    make: Callable[[], tuple[Any, ...]],
+    types: tuple[Any, ...],
+    *,
+    held: bool = False,
 ) -> tuple[Any, ...]:
     """
     Return what was made before of the same, or make it.
@@ -50,19 +64,31 @@ def made_once(
     make : callable
         Makes the values: of the classes in `cache_entry`, or plain ones.
     types : tuple of type
-        Of the values, each.
+        Of the values, each, as in an annotation.
+    held : bool
+        Whether this process is to hold them, too: they are then the same objects again, and need no folder.
     """
     folder = _folder()
-    key = None if folder is None else _key(given)
-    if folder is None or key is None:
+    key = None if folder is None and not held else _key(given)
+    if key is None:
         return make()
-    file = folder / f"{key}{_SUFFIX}"
-    found = _read(file, key, types)
-    if found is not None:
-        return found
-    values = make()
-    if _key(given) == key:
-        _keep(file, encode(key, values))
+    with _lock:
+        known = _held.get(key)
+    if known is not None:
+        return known
+    file = None if folder is None else folder / f"{key}{_SUFFIX}"
+    values = None if file is None else _read(file, key, types)
+    if values is None:
+        values = make()
+        if _key(given) != key:
+            return values
+        if file is not None:
+            _keep(file, encode(key, values))
+    if held:
+        with _lock:
+            _held[key] = values
+            while len(_held) > _MOST_HELD:
+                _held.popitem(last=False)
     return values
 
 
@@ -71,10 +97,28 @@ def _folder() -> Path | None:
     if said.lower() == _OFF:
         return None
     if said:
-        return Path(said)
-    from platformdirs import user_cache_path
+        folder = Path(said)
+    else:
+        from platformdirs import user_cache_path
 
-    return user_cache_path("contactbench", appauthor=False) / "preparation"
+        folder = user_cache_path("contactbench", appauthor=False) / "preparation"
+    try:
+        state = folder.stat()
+    except OSError:  # it is not there yet, or can be of no use
+        return folder
+    if _own(state) and (os.name != "posix" or not state.st_mode & (stat.S_IWGRP | stat.S_IWOTH)):
+        return folder
+    mine = os.name == "posix" and state.st_uid == os.getuid()
+    remedy = f"chmod go-w '{folder}'" if mine else f"name a folder of your own in {VARIABLE}"
+    warnings.warn(
+        f"{folder}: what is kept there is not used, for others can write it: {remedy}.", stacklevel=3
+    )
+    return None
+
+
+def _own(state: os.stat_result) -> bool:
+    """Tell whether something is this user's or the system's; only POSIX systems say."""
+    return os.name != "posix" or state.st_uid in (0, os.getuid())
 
 
 def _key(given: Callable[[], object]) -> str | None:
@@ -117,11 +161,13 @@ def _modules() -> str:
     return stated.hexdigest()
 
 
-def _read(file: Path, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ...] | None:
+def _read(file: Path, key: str, types: tuple[Any, ...]) -> tuple[Any, ...] | None:
     try:
         if not file.is_file():  # a pipe would be waited for
             return None
         with file.open("rb") as opened:
+            if not _own(os.fstat(opened.fileno())):  # others could write here once
+                return None
             data = opened.read(_LARGEST + 1)
         if len(data) > _LARGEST:
             return None
@@ -139,6 +185,11 @@ def _keep(file: Path, data: bytes) -> None:
         return
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        for scratch in file.parent.glob(
+            f".*{_SUFFIX}.*.tmp"
+        ):  # of a writer that was killed, unless it is at it
+            if time.time() - scratch.stat().st_mtime > _STALE_S:
+                scratch.unlink(missing_ok=True)
         room = _MOST_BYTES - len(data)
         entries = [(each.stat(), each) for each in file.parent.glob(f"*{_SUFFIX}")]
         for state, each in sorted(entries, key=lambda entry: entry[0].st_mtime_ns, reverse=True):

@@ -7,14 +7,19 @@ that are named here are made, and meshes are checked like those of a stranger. T
 
 from __future__ import annotations
 
+import builtins
+import collections.abc
 import hashlib
 import json
+import math
 import struct
+import types
+import typing
 from dataclasses import fields, is_dataclass
-from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
+import numpy.typing as npt
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import MeshHealth, Probe
@@ -28,9 +33,6 @@ from contactbench.pipeline.mesh.shell.result import ClosedOpening
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.mesh.soundness import Soundness
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
 
 _CLASSES: dict[str, type[Any]] = {
     each.__name__: each
@@ -50,6 +52,9 @@ _CLASSES: dict[str, type[Any]] = {
         Soundness,
     )
 }
+# What their annotations name, and is not there when they run.
+_NAMES: dict[str, Any] = {**_CLASSES, "Mapping": collections.abc.Mapping, "NDArray": npt.NDArray, "npt": npt}
+_NANS = ("normal_deviation_deg",)  # where there is nothing to compare with
 _DTYPES = ("<f8", "<i8", "<i4", "|i1", "|u1", "|b1")
 _MAGIC = b"contactbench kept 1\n"
 _HASH = 32
@@ -69,9 +74,9 @@ def encode(key: str, values: tuple[Any, ...]) -> bytes:
     return _MAGIC + hashlib.sha256(body).digest() + body
 
 
-def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ...]:
+def decode(data: bytes, key: str, kinds: tuple[Any, ...]) -> tuple[Any, ...]:
     """
-    Return the values in bytes that `encode` made for a key.
+    Return the values in bytes that `encode` made for a key; `kinds` are their types, as in annotations.
 
     Raises
     ------
@@ -102,7 +107,7 @@ def decode(data: bytes, key: str, types: tuple[type[Any], ...]) -> tuple[Any, ..
         RecursionError,
     ) as error:
         raise EntryError from error
-    if named != key or len(values) != len(types) or not all(map(isinstance, values, types)):
+    if named != key or len(values) != len(kinds) or not all(map(_fits, values, kinds)):
         raise EntryError
     return values
 
@@ -160,7 +165,7 @@ class _Reader:
         for dtype, shape, writable in layout:
             if dtype not in _DTYPES or not all(type(n) is int and n >= 0 for n in shape):
                 raise EntryError
-            size = np.dtype(dtype).itemsize * prod(shape)
+            size = np.dtype(dtype).itemsize * math.prod(shape)
             if size > len(data):
                 raise EntryError
             array = (
@@ -199,10 +204,68 @@ class _Reader:
         return made
 
     def _object(self, kind: type[Any], parts: list[Any]) -> Any:
-        names = [each.name for each in fields(kind)]
-        made = kind(**dict(zip(names, parts, strict=True)))
-        if isinstance(made, Probe):
-            check_faces(made.faces, len(check_vertices(made.vertices)))
-            if not made.region.shape == made.invented.shape == made.faces.shape[:1]:
-                raise EntryError
+        hints = get_type_hints(kind, localns=_NAMES)
+        given = dict(zip((each.name for each in fields(kind)), parts, strict=True))
+        if not all(_fits(each, hints[name], finite=name not in _NANS) for name, each in given.items()):
+            raise EntryError
+        made = kind(**given)
+        if not _consistent(made):
+            raise EntryError
         return made
+
+
+def _fits(value: Any, hint: Any, *, finite: bool = True) -> bool:
+    """Tell whether a value is what an annotation says; floats are numbers, and finite."""
+    origin, parts = get_origin(hint), get_args(hint)
+    match origin or hint:
+        case builtins.float:
+            return type(value) in (float, int) and (not finite or math.isfinite(value))
+        case builtins.int | builtins.bool | builtins.str:
+            return type(value) is hint
+        case types.UnionType | typing.Union:
+            return any(_fits(value, each) for each in parts)
+        case typing.Literal:
+            return value in parts
+        case collections.abc.Mapping:
+            return isinstance(value, dict) and all(
+                _fits(name, parts[0]) and _fits(each, parts[1]) for name, each in value.items()
+            )
+        case builtins.tuple if parts:  # of any length
+            return isinstance(value, tuple) and all(_fits(each, parts[0]) for each in value)
+        case np.ndarray if parts:
+            return (
+                isinstance(value, np.ndarray)
+                and value.dtype == get_args(parts[1])[0]
+                and (not finite or bool(np.isfinite(value).all()))
+            )
+        case typing.Any:
+            return True
+    return isinstance(value, origin or hint)
+
+
+def _consistent(made: Any) -> bool:
+    """Tell whether the shapes and the indices of an object's arrays are those of its surface."""
+    match made:
+        case Probe():
+            check_faces(made.faces, len(check_vertices(made.vertices)))
+            return made.region.shape == made.invented.shape == made.faces.shape[:1]
+        case ProbeFile():
+            return made.regions.labels.shape == made.probe.region.shape
+        case Opening():
+            shapes = made.rim.shape[1:], made.centre.shape, made.axes.shape
+            return shapes == ((3,), (3,), (3, 3))
+        case Soundness():
+            lists = (made.nested_facets, made.pinched_vertices, made.flat_facets, made.folded_facets)
+            lines = (*lists, made.kinds, made.normal_deviation_deg)
+            return all(each.ndim == 1 for each in lines) and made.pairs.shape == (len(made.kinds), 2)
+        case (
+            Shell(soundness=Soundness() as found, probe=probe)
+            | Simplified(soundness=Soundness() as found, probe=probe)
+        ):
+            of_facets = (found.nested_facets, found.flat_facets, found.folded_facets, found.pairs)
+            indices: list[tuple[npt.NDArray[Any], int]] = [(each, len(probe.faces)) for each in of_facets]
+            indices.append((found.pinched_vertices, len(probe.vertices)))
+            return len(found.normal_deviation_deg) == len(probe.faces) and all(
+                ((each >= 0) & (each < count)).all() for each, count in indices
+            )
+    return True

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import threading
-from collections import OrderedDict
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.regions import RegionReport
 from contactbench.pipeline.mesh.shell import Closing, Shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile
 from contactbench.pipeline.mesh.simplify import Simplified
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
-    from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.settings import ProbeSettings
@@ -43,7 +41,6 @@ if TYPE_CHECKING:
 
 # Shares of the work: reading, of what the outer surface takes; the outer surface, of all.
 _READ, _DENSE = 0.02, 0.7
-_REMEMBERED = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +163,7 @@ def prepared(
             cancelled=cancelled,
         )
 
-    kinds = (ProbeFile, Simplified, tuple)
+    kinds = (ProbeFile, Simplified, tuple[RegionReport, ...])
     content, simplified, carried = (
         made_once(lambda: _said_of(placed, given), fewer, kinds) if remember else fewer()
     )
@@ -204,9 +201,6 @@ def part_of(progress: Progress, low: float, high: float) -> Progress:
 
 # ---- the outer surface --------------------------------------------------------------------------
 
-_dense: OrderedDict[tuple[object, ...], Dense] = OrderedDict()
-_lock = threading.Lock()
-
 
 def dense_of(
     mesh: Path,
@@ -233,32 +227,14 @@ def dense_of(
     progress, cancelled : callable, optional
         The share that is done, and whether to stop.
     """
-    key: tuple[object, ...] = ()
-    if remember:
-        try:
-            key = _key(mesh, given)
-        except OSError:  # a file that cannot be read: the reader says so, if it needs it
-            remember = False
-    with _lock:
-        known = _dense.get(key) if remember else None
-    if known is not None:
-        if aligned_later:
-            refuse_aligned(known.content, again=False)
-        return known
 
     def make() -> tuple[ProbeFile, Shell]:
         return _closed(mesh, given, progress, cancelled, aligned_later=aligned_later)
 
-    made = (
-        Dense(*made_once(lambda: _key(mesh, given), make, (ProbeFile, Shell))) if remember else Dense(*make())
-    )
-    if aligned_later:  # found in the cache, or made for a mesh that stays where it is
+    kinds = (ProbeFile, Shell)
+    made = Dense(*(made_once(lambda: _key(mesh, given), make, kinds, held=True) if remember else make()))
+    if aligned_later:  # found, or made for a mesh that stays where it is
         refuse_aligned(made.content, again=False)
-    if remember:
-        with _lock:
-            _dense[key] = made
-            while len(_dense) > _REMEMBERED:
-                _dense.popitem(last=False)
     return made
 
 

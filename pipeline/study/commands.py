@@ -263,7 +263,7 @@ def run(
             rivals(**common)
         return
     plan = (preset_plan(str(preset)) if study is None else SweepPlan.read(study)).changed(
-        probe or (), touches, seed
+        probe or (), touches, seed, None if times else False
     )
     command = _typed(
         "run",
@@ -272,11 +272,12 @@ def run(
         probe=probe,
         touches=touches,
         seed=seed,
+        **{"no-times": not times},
     )
     if dry_run:
         if part is not None:
             raise InputError("--dry-run estimates the whole plan: leave out --part, and divide.")
-        _estimate(plan, workers, times, as_json)
+        _estimate(plan, workers, as_json)
         return
     say(f"{plan.name}: up to {len(plan):,} cells of {plan.touches:,} touches")
     with Bar("computing", counted=True) as bar:
@@ -287,14 +288,13 @@ def run(
             scheduler=scheduler,
             workers=workers,
             part=_part(part),
-            timed=times,
             progress=bar,
         )
     for missing in done.left_out:
         say(f"left out: {missing}", "yellow")
     for fault in done.faults:
         say(f"not computed: {fault}", "red")
-    where = done.results or f"{out}: not all parts are done"
+    where = done.results or "\n".join((*done.strange, f"{out}: not all parts are done"))
     say(f"{where}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
     if as_json:
         print_json(done.to_json())
@@ -309,11 +309,11 @@ def _part(text: str | None) -> tuple[int, int]:
     return int(number), int(of)
 
 
-def _estimate(plan: SweepPlan, workers: int | None, timed: bool, as_json: bool) -> None:
+def _estimate(plan: SweepPlan, workers: int | None, as_json: bool) -> None:
     from contactbench.pipeline.study.sweep.estimate import estimate
 
     with Bar("measuring", counted=True) as bar:
-        found = estimate(plan, workers=workers, timed=timed, progress=bar)
+        found = estimate(plan, workers=workers, progress=bar)
     memory = "" if found.worker_MB is None else f", {found.worker_MB:,.0f} MB of memory for each"
     say(
         f"{plan.name}: {found.cells:,} cells, {found.touches:,} touches in {found.tasks:,} tasks. Measured on"

@@ -20,7 +20,7 @@ from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.page import render
 from contactbench.pipeline.page.palette import SERIES
-from contactbench.pipeline.study.results import environment, read_results, write_results
+from contactbench.pipeline.study.results import PASSING, environment, read_results, write_results
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -255,6 +255,21 @@ def origin(facts: Mapping[str, Any], command: str) -> str:
     command : str
         As it is typed.
     """
+    machines = facts.get("machines") or [facts]
+    where = _machine(machines[0])
+    if len(machines) > 1:
+        names = dict.fromkeys(name for each in machines for name in each if name not in (*PASSING, "cells"))
+        differ = [name for name in names if len({str(each.get(name)) for each in machines}) > 1]
+        listed = (f"({i}) {_machine(each)}: {each['cells']:,} cells" for i, each in enumerate(machines, 1))
+        where = (
+            f"{len(machines)} machines that differ in {', '.join(differ)}, so that times of one are not those of"
+            f" another: {'; '.join(listed)}"
+        )
+    finished = str(facts.get("finished", "at an unknown time"))[:10]
+    return f"*Computed {finished} on {where}. Repeat with `{command}`.*"
+
+
+def _machine(facts: Mapping[str, Any]) -> str:
     machine = f"{facts.get('processor', 'unknown processor')}, {facts.get('cores', '?')} cores"
     versions = ", ".join(
         f"{name} {facts[name]}" for name in ("contactbench", "python", "numpy", "scipy") if name in facts
@@ -264,11 +279,7 @@ def origin(facts: Mapping[str, Any], command: str) -> str:
         machine += f", which other programs kept busy (load {load:g}: times are no better than upper bounds)"
     compiler = str(facts.get("compiler", "?"))
     compiler = f"GCC {compiler}" if compiler[:1].isdigit() else compiler
-    return (
-        f"*Computed {str(facts.get('finished', 'at an unknown time'))[:10]} on {machine},"
-        f" {facts.get('kernel', '?')} kernel, {compiler}; {versions}."
-        f" Repeat with `{command}`.*"
-    )
+    return f"{machine}, {facts.get('kernel', '?')} kernel, {compiler}; {versions}"
 
 
 def _read(file: Path) -> bytes:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 RESULTS = "results.parquet"
 _META, _VERSION = b"contactbench", 1
+PASSING = ("finished", "load")  # of an environment: what differs from hour to hour
 _LIBRARIES = ("numpy", "scipy", "dask", "pyarrow")
 
 
@@ -36,6 +37,11 @@ class Results:
     about: Mapping[str, Any] = field(default_factory=dict)  # whatever else belongs to it, plain values
 
 
+def cores() -> int:
+    """Return how many this machine has."""
+    return os.cpu_count() or 1
+
+
 def environment(**more: Any) -> dict[str, Any]:
     """Return what results are computed with: versions, processor, cores and their load, when, and what is given."""
     from importlib.metadata import PackageNotFoundError, version
@@ -48,7 +54,7 @@ def environment(**more: Any) -> dict[str, Any]:
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}, {' '.join(platform.libc_ver())}",
         "processor": _processor(),
-        "cores": os.cpu_count(),
+        "cores": cores(),
         "load": round(os.getloadavg()[2], 1) if hasattr(os, "getloadavg") else None,
         "kernel": kernel.variant,
         "compiler": kernel.compiler,

@@ -5,13 +5,16 @@ import shutil
 import subprocess
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 import typer
+from calibration.diagnosis_cases import KGF, NOISE, held, oriented, pushed, scaled, transposed, turned
 from PySide6.QtCore import QCoreApplication, QTranslator
 
 from contactbench.app import translation
 from contactbench.app.cli import app
 from contactbench.app.sentences import templates
+from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.phrases import PhraseBook, said
 
@@ -240,3 +243,38 @@ _run = subprocess.run
 
 def _quiet(*arguments, **options):
     return _run(*arguments, **options, capture_output=True)
+
+
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        transposed,
+        lambda poses: scaled(poses, [-1, 1, 1], 1),
+        lambda poses: scaled(poses, -1, -1),
+        lambda poses: scaled(poses, 1 / KGF, 1000),
+        lambda poses: pushed(poses, 1, 4),
+        lambda poses: pushed(poses, *range(5, 12)),
+        lambda poses: oriented(poses, [pose.R_WS @ turned(1)[0] for pose in poses]),
+        lambda poses: oriented(poses, np.roll([pose.R_WS for pose in poses], 1, axis=0)),
+    ],
+)
+def test_what_a_diagnosis_says_is_said_whole(qapp, spoken, mistake):  # noqa: ARG001
+    spoken("de")
+    found = diagnose(mistake(held(turned(12))), NOISE)
+    for sentence in (found.sentence, *found.not_testable):
+        words = re.findall(r"\w+", said(sentence))
+        english = {
+            "the",
+            "and",
+            "with",
+            "of",
+            "to",
+            "from",
+            "is",
+            "are",
+            "fall",
+            "forces",
+            "torques",
+            "negated",
+        }
+        assert not english & set(words), said(sentence)

@@ -14,7 +14,15 @@ from benchmarks.window.access_faults import access_faults, pale
 from benchmarks.window.layout_faults import layout_faults
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QLabel, QMainWindow, QPushButton, QScrollArea, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QLabel,
+    QMainWindow,
+    QPushButton,
+    QScrollArea,
+    QToolButton,
+    QWidget,
+)
 from workbench.touch_session import make_session, verify
 
 from contactbench.app.window_docks import SMALLEST, first_size
@@ -178,3 +186,28 @@ def test_the_checks_find_what_they_are_for(qtbot):
         "button is cut", "words are cut", "overlap", "has no name", "sideways", "reaches out", "by keys", "too pale"
     ):  # fmt: skip
         assert words in found, (words, found)
+
+
+def test_buttons_that_exclude_each_other_need_one_stop(qtbot):
+    root = QMainWindow()
+    qtbot.addWidget(root)
+    inside = QWidget()
+    root.setCentralWidget(inside)
+    group = QButtonGroup(inside)
+    buttons = [QPushButton(name, inside, checkable=True) for name in ("one", "two")]
+    for number, each in enumerate(buttons):
+        group.addButton(each)
+        each.setGeometry(0, 50 * number, 100, 40)
+    buttons[1].setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    root.show()
+    qtbot.waitExposed(root)
+
+    def missed():
+        return [fault for fault in access_faults(root, inside) if "by keys" in fault]
+
+    assert missed() == []
+    buttons[0].setEnabled(False)  # the stop
+    assert len(missed()) == 1
+    buttons[0].setEnabled(True)
+    group.setExclusive(False)
+    assert len(missed()) == 1

@@ -134,9 +134,9 @@ def _preparation(folder: Path, mesh: Path, progress: Callable[[str], None]) -> l
 
 def _forget() -> None:
     """Let go of what this process remembers: the next call is like another process's."""
-    from contactbench.pipeline.preparation import prepare
+    from contactbench.pipeline.preparation import cache
 
-    prepare._dense.clear()
+    cache._held.clear()
 
 
 def _conversion(folder: Path, count: int, progress: Callable[[str], None]) -> list[Figure]:

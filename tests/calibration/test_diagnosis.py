@@ -45,9 +45,7 @@ def test_what_is_known_of_loads_decides_on_signs():
         "do not decide it, but as declared gravity would point 179° away from down; read this way, 1°"
         in found.sentence
     )
-    assert found.sentence.startswith(
-        "Possibly the forces and torques have the wrong sign, as with a sensor that"
-    )
+    assert found.sentence.startswith("The forces and torques have the wrong sign, as with a sensor that")
     assert (
         "Cannot be distinguished from: gravity along +z of the world. Press the tool with a finger"
         in found.sentence

@@ -20,6 +20,7 @@ from waiting import be_slow
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
+from contactbench.pipeline.console import Ended
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.stream import Health, StreamState
@@ -495,7 +496,7 @@ def test_lines_that_wait_are_looked_at_while_it_records() -> None:
             self.count += 1
 
     looks = Looks()
-    wait(Source(), None, threading.Event(), changes=looks)
+    wait(Source(), None, Ended(), threading.Event(), looks)
     assert looks.count == 3
 
 

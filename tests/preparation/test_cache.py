@@ -1,23 +1,28 @@
 """A mesh that was prepared before is not prepared again; whatever is wrong with what was kept costs only the work."""
 
+import copy
 import hashlib
 import json
 import os
 import struct
+from collections import OrderedDict
 
 import numpy as np
 import pytest
 
 from contactbench.assets import make
 from contactbench.pipeline.mesh import Probe, save_probe
+from contactbench.pipeline.mesh.regions import RegionReport, RegionSet
 from contactbench.pipeline.mesh.shell import Shell
 from contactbench.pipeline.mesh.sidecar import ProbeFile, encode_probe_file
+from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.preparation import cache, prepare
 from contactbench.pipeline.preparation.cache import VARIABLE, made_once
 from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
 from contactbench.pipeline.settings import ProbeSettings
 
 START = 20 + 32  # magic and hash
+KINDS = (ProbeFile, Shell, Simplified, tuple[RegionReport, ...])
 
 
 @pytest.fixture
@@ -47,7 +52,7 @@ def works(monkeypatch):
 
     whole = prepare.shell_step
     monkeypatch.setattr(prepare, "shell_step", counted)
-    monkeypatch.setattr(prepare, "_REMEMBERED", 0)
+    monkeypatch.setattr(cache, "_MOST_HELD", 0)
     return made
 
 
@@ -97,7 +102,7 @@ def test_all_classes_come_back_as_they_were(mesh):
     values = (done.content, done.shell, done.simplified, done.carried)
     data = encode("k", values)
     assert data == encode("k", values)
-    again = decode(data, "k", (ProbeFile, Shell, object, tuple))
+    again = decode(data, "k", KINDS)
     assert encode("k", again) == data
     assert values[0].probe.faces is values[2].probe.faces
     assert again[0].probe.faces is again[2].probe.faces  # one array stays one
@@ -186,6 +191,123 @@ def test_a_mesh_whose_facets_point_beyond_it_is_refused():
             (Probe,),
         )
     assert "faces" in str(refused.value.__cause__)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """Prepare a mesh with a hole and a region: all classes occur."""
+    vertices, faces = make("linear", 600)
+    middles = vertices[faces].mean(axis=1)
+    kept = np.linalg.norm(middles - middles[100], axis=1) > 0.008
+    regions = (middles[:, 2] > np.median(middles[:, 2])).astype(np.int32)
+    file = tmp_path_factory.mktemp("whole") / "mesh.ply"
+    save_probe(Probe.from_arrays(vertices, faces[kept], regions[kept], name="linear"), file)
+    done = prepare.prepared({"mesh": file}, ProbeSettings(facets=300))
+    assert len(done.carried) == 1
+    assert len(done.shell.openings) == 1
+    return done.content, done.shell, done.simplified, done.carried
+
+
+def _put(values, place, value):
+    """Return copies of values in which what is at a place, written with dots, is another."""
+    first, _, rest = place.partition(".")
+    if isinstance(values, tuple):
+        number = int(first)
+        made = _put(values[number], rest, value) if rest else value(values[number])
+        return (*values[:number], made, *values[number + 1 :])
+    made = copy.copy(values)
+    old = getattr(values, first)
+    object.__setattr__(made, first, _put(old, rest, value) if rest else value(old))
+    return made
+
+
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        ("0.probe.health.components", str),
+        ("0.probe.region", lambda old: old.astype(np.int64)),
+        ("0.probe.invented", lambda old: old[1:]),
+        ("0.probe.vertices", lambda old: np.full_like(old, np.nan)),
+        ("0.regions", lambda old: RegionSet(old.regions, old.labels[1:])),
+        ("0.frame", lambda _: "Q"),
+        ("0.notes", lambda _: (1,)),
+        ("0.history", lambda _: ({1: 2},)),
+        ("1.how", lambda _: None),
+        ("1.gap", lambda _: np.inf),
+        ("1.dropped", lambda _: 1.5),
+        ("1.openings.0.opening.rim", lambda old: old[:, :2]),
+        ("1.openings.0.opening.centre", lambda old: old * np.nan),
+        ("1.openings.0.closing", lambda _: "fair"),
+        ("1.soundness.pinched_vertices", lambda _: np.array([10**6])),
+        ("2.deviation.rms", lambda _: np.nan),
+        ("2.deviation.samples", lambda _: True),
+        ("2.regions", lambda old: {str(rank): each for rank, each in old.items()}),
+        ("2.soundness.flat_facets", lambda _: np.array([-1])),
+        ("2.soundness.pairs", lambda _: np.zeros((1, 2), np.int32)),
+        ("2.soundness.normal_deviation_deg", lambda old: old[1:]),
+        ("2.soundness.nested_facets", lambda _: np.zeros((1, 1), np.int64)),
+        ("3", lambda old: (*old, "no report")),
+    ],
+)
+def test_fields_that_cannot_be_are_not_believed(whole, place, value):
+    decode(encode("k", whole), "k", KINDS)
+    with pytest.raises(EntryError):
+        decode(encode("k", _put(whole, place, value)), "k", KINDS)
+
+
+def _foreign(path, monkeypatch):
+    """Let something belong to another user."""
+    monkeypatch.setattr(os, "getuid", lambda: 4321)
+    if path.stat().st_uid == 0:  # what is the system's is believed
+        os.chown(path, 1234, -1)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system does not say who can write")
+@pytest.mark.parametrize("mode", [0o720, 0o702])
+def test_a_folder_that_others_can_write_is_not_believed(folder, mode):
+    made_once(lambda: "it", lambda: (1,), (int,))
+    folder.chmod(mode)
+    for answer in (2, 3):
+        with pytest.warns(UserWarning, match=rf"^{folder}: .* others can write it: chmod go-w '{folder}'\.$"):
+            assert made_once(lambda: "it", lambda answer=answer: (answer,), (int,)) == (answer,)
+    folder.chmod(0o755)
+    assert made_once(lambda: "it", lambda: (2,), (int,)) == (1,)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system does not say who can write")
+def test_what_another_user_put_there_is_not_believed(folder, monkeypatch):
+    made_once(lambda: "it", lambda: (1,), (int,))
+    monkeypatch.setattr(cache, "_folder", lambda: folder)
+    _foreign(next(folder.iterdir()), monkeypatch)
+    assert made_once(lambda: "it", lambda: (2,), (int,)) == (2,)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system does not say who can write")
+def test_another_users_folder_is_not_believed(folder, monkeypatch):
+    made_once(lambda: "it", lambda: (1,), (int,))
+    _foreign(folder, monkeypatch)
+    with pytest.warns(UserWarning, match=f"name a folder of your own in {VARIABLE}"):
+        assert made_once(lambda: "it", lambda: (2,), (int,)) == (2,)
+
+
+def test_what_a_killed_writer_left_goes_and_what_is_being_written_stays(folder):
+    made_once(lambda: "it", lambda: (1,), (int,))
+    left, fresh = (folder / f".{name}.kept.{16 * '0'}.tmp" for name in "ab")
+    for each in (left, fresh):
+        each.write_bytes(b"x")
+    os.utime(left, (0, 0))
+    made_once(lambda: "other", lambda: (1,), (int,))
+    assert not left.exists()
+    assert fresh.exists()
+
+
+def test_a_process_holds_some_without_a_folder(monkeypatch):
+    monkeypatch.setenv(VARIABLE, "off")
+    monkeypatch.setattr(cache, "_held", OrderedDict())
+    values = {name: made_once(lambda n=name: n, lambda: (object(),), (object,), held=True) for name in "abc"}
+    for name, same in (("b", True), ("c", True), ("a", False)):
+        again = made_once(lambda n=name: n, lambda: (object(),), (object,), held=True)
+        assert (again is values[name]) == same
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")

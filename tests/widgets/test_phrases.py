@@ -13,6 +13,11 @@ BOOK = PhraseBook(
         "{0} holds still for {1} s": "nach {1} s hält still: {0}",
         "Made on {0}.": "Erstellt am {0}.",
         "The arm moved. Hold it still.": "Der Arm bewegte sich. Halten Sie ihn still.",
+        "with {0} the residuals fall from {1} to {2}": "die Abweichungen fallen von {1} auf {2} ({0})",
+        "Wait.": "Warten Sie.",
+        "{0} and {1}": "{0} und {1}",
+        "forces": "Kräfte",
+        "torques": "Momente",
     }
 )
 
@@ -54,6 +59,21 @@ def test_sentences_one_after_the_other_are_said_one_by_one_and_those_that_belong
     assert (
         said("the force is too small\nthe force is too small")
         == "die Kraft ist zu klein\ndie Kraft ist zu klein"
+    )
+
+
+def test_a_sentence_does_not_swallow_the_next_one_nor_a_colon_that_was_put_to_it():
+    assert said("The force is too small: with forces the residuals fall from 9 to 1 mm. Wait.") == (
+        "Die Kraft ist zu klein: die Abweichungen fallen von 9 auf 1 mm (Kräfte). Warten Sie."
+    )
+    assert said("The tool holds still for 2 s:") == "nach 2 s hält still: The tool:"
+
+
+def test_few_words_join_only_what_is_known():
+    assert said("forces and torques") == "Kräfte und Momente"
+    assert said("forces and 0.16 mm") == "Kräfte und 0.16 mm"
+    assert said("the forces of somebody and the torques of nobody") == (
+        "the forces of somebody and the torques of nobody"
     )
 
 

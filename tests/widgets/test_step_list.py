@@ -36,6 +36,24 @@ def test_click_and_key_choose(qtbot, steps):
     assert [step for step in Step if steps.row(step).isChecked()] == [Step.GRAVITY]
 
 
+def test_the_tabulator_key_comes_to_the_shown_step_and_arrows_go_on(qtbot, steps):
+    def stops():
+        return [step for step in Step if steps.row(step).focusPolicy() & Qt.FocusPolicy.TabFocus]
+
+    with qtbot.waitActive(steps):
+        steps.activateWindow()
+    steps.row(Step.DEVICES).setFocus(Qt.FocusReason.TabFocusReason)
+    steps.show_step(Step.PROBE)  # by a button elsewhere
+    assert stops() == [Step.PROBE]
+    steps.row(Step.PROBE).setFocus(Qt.FocusReason.TabFocusReason)
+    chosen = []
+    steps.chosen.connect(chosen.append)
+    qtbot.keyClick(steps.row(Step.PROBE), Qt.Key.Key_Down)
+    assert chosen == [Step.REGIONS]
+    steps.show_step(Step.REGIONS)
+    assert stops() == [Step.REGIONS]
+
+
 def test_the_shown_step_looks_different(steps):
     steps.show_step(Step.GRAVITY)
     one = steps.row(Step.GRAVITY).grab().toImage()

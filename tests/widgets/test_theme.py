@@ -4,7 +4,8 @@ import re
 from dataclasses import fields
 
 import pytest
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSlider, QWidget
 
 from contactbench.widgets import theme
 from contactbench.widgets.theme import colours, contrast, dress, is_dark, style_sheet, use_theme
@@ -68,3 +69,21 @@ def test_what_a_dressed_window_is_given_looks_like_it(qtbot):
     label.setParent(window)
     label.ensurePolished()
     assert label.font().pointSizeF() == pytest.approx(15)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_a_slider_shows_the_focus(qtbot, dark):
+    use_theme("dark" if dark else "light")
+    window = QWidget()
+    qtbot.addWidget(window)
+    dress(window)
+    slider, other = QSlider(Qt.Orientation.Horizontal, window), QSlider(window)
+    with qtbot.waitActive(window):
+        window.show()
+        window.activateWindow()
+    pictures = []
+    for each in (other, slider):
+        each.setFocus(Qt.FocusReason.TabFocusReason)
+        pictures.append(slider.grab().toImage())
+    assert slider.hasFocus()
+    assert pictures[0] != pictures[1]

@@ -205,8 +205,12 @@ class Words:
         probability, fact = self._odds[self._best.key], self._best.hypothesis.fact
         if probability > _SURE:
             return fact
-        word = "Probably" if probability > _PROBABLE else "Possibly"
-        return f"{word} {fact[0].lower()}{fact[1:]} (odds {in_words(probability)})"
+        said = in_words(probability)
+        return (
+            f"{fact} (probably, at odds of {said})"
+            if probability > _PROBABLE
+            else f"{fact} (possibly, at odds of {said})"
+        )
 
     def _blind(self) -> tuple[str, ...]:
         """Return what the poses, as declared, are too much alike to show."""
@@ -311,10 +315,12 @@ class Words:
                 else _BOTH
             )
             before, after = (self._residual(each, halves) for each in (self._declared, case))
-            change = "rise to the noise's size, from" if after > before else "fall from"
             sizes = self._size(self._declared, halves), self._size(case, halves)
             start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
-            return f"with {case.hypothesis.reading} the residuals {change} {start} to {sizes[1]}"
+            reading = case.hypothesis.reading
+            if after > before:
+                return f"with {reading} the residuals rise to the noise's size, from {start} to {sizes[1]}"
+            return f"with {reading} the residuals fall from {start} to {sizes[1]}"
         part = decisive(case, self._declared)
         return (
             f"the residuals, {self._size(case)}, do not decide it, but as declared"

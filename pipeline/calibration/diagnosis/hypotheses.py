@@ -119,7 +119,7 @@ def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
             key,
             title,
             fact,
-            f"{what.replace(' by', ' multiplied by')}",
+            "the units corrected",
             f"Multiply {what}.",
             R_WS,
             np.repeat([force, torque], 3).astype(np.float64),

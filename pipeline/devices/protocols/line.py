@@ -102,16 +102,12 @@ class LineParser(Parser[Sample], Generic[Sample]):
     @property
     def counters(self) -> Counters:
         """As `Parser`; a bad line counts as a bad checksum, and line ends as bytes of no kind."""
-        sequence = self._sequence
         return Counters(
             frames=self._frames,
             bad_checksums=self._bad,
             skipped_bytes=self._skipped,
-            lost=sequence.lost,
-            duplicates=self._duplicates + sequence.overtaken,
-            wraps=sequence.wraps,
-            restarts=sequence.restarts,
-            bad_numbers=sequence.bad_numbers,
+            duplicates=self._duplicates + self._sequence.overtaken,
+            **self._sequence.counted(),
         )
 
     def reset(self) -> None:

@@ -114,15 +114,11 @@ class RdtParser(SensorParser):
     @property
     def counters(self) -> Counters:
         """As `SensorParser`."""
-        sequence = self._sequence
         return Counters(
             frames=self._frames,
             skipped_bytes=self._skipped,
-            lost=sequence.lost,
-            duplicates=self._duplicates + sequence.overtaken,
-            wraps=sequence.wraps,
-            restarts=sequence.restarts,
-            bad_numbers=sequence.bad_numbers,
+            duplicates=self._duplicates + self._sequence.overtaken,
+            **self._sequence.counted(),
         )
 
     def feed(self, data: bytes, time: float) -> list[WrenchSample]:

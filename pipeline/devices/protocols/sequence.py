@@ -44,6 +44,10 @@ class SequenceCounter:
         self.restarts = 0
         self.bad_numbers = 0
 
+    def counted(self) -> dict[str, int]:
+        """Return what the numbers tell, by the names of `Counters`."""
+        return {name: getattr(self, name) for name in ("lost", "wraps", "restarts", "bad_numbers")}
+
     def number(self, raw: int) -> int | None:
         """Return the unwrapped count for a number from the wire; None for an overtaken one."""
         number = self._number(raw)

@@ -120,13 +120,7 @@ class SriParser(FrameParser):
         self._points = slice(_POINTS_AT, _POINTS_AT + _POINT.size * self._layout.points)
 
     def _counted(self) -> dict[str, int]:
-        sequence = self._sequence
-        return {
-            "lost": sequence.lost * self._layout.points,
-            "wraps": sequence.wraps,
-            "restarts": sequence.restarts,
-            "bad_numbers": sequence.bad_numbers,
-        }
+        return self._sequence.counted() | {"lost": self._sequence.lost * self._layout.points}
 
     @property
     def trailer(self) -> Trailer:

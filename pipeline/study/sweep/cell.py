@@ -37,14 +37,9 @@ _FITTED = ("iterative",)  # needs the region to know which face to fit
 _METHODS = 5  # kept of a process: those of one noise on one mesh, which at a million facets take long to make
 
 
-def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
+def run_cell(cell: Cell) -> dict[str, Any]:
     """
     Compute a cell.
-
-    Parameters
-    ----------
-    timed : bool
-        Whether to measure times, too.
 
     Returns
     -------
@@ -65,7 +60,7 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
     row |= judged(
         method.locate_batch(wrenches), touches, bound_of(touches, deviations(cell.noise, cell.filter))
     )
-    return row | (_timed(method, wrenches) if timed else {})
+    return row | (_timed(method, wrenches) if cell.times else {})
 
 
 @lru_cache(maxsize=_METHODS)

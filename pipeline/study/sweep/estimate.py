@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from dataclasses import asdict, dataclass, replace
+from itertools import groupby
 from time import process_time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from contactbench.pipeline.study.results import cores
 from contactbench.pipeline.study.sweep import cell as cells_module
 from contactbench.pipeline.study.sweep.run import distinct, tasks_of
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
 
+_T = TypeVar("_T")
 _MOST, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
 _TOUCH_BYTES = 2_000  # of memory, for each touch of a cell: wrenches, answers and what they are judged by
 
@@ -44,7 +46,6 @@ def estimate(
     plan: SweepPlan,
     *,
     workers: int | None = None,
-    timed: bool = True,
     progress: Callable[[int, int], None] | None = None,
     clock: Callable[[], float] = process_time,
 ) -> Estimate:
@@ -55,8 +56,6 @@ def estimate(
     ----------
     workers : int, optional
         Cores, on one machine or on many; left out, those of this one.
-    timed : bool
-        Whether times are to be measured, too.
     progress : callable, optional
         Gets the number of cells that are measured, and of all that will be.
     clock : callable
@@ -68,20 +67,25 @@ def estimate(
         A probe of the plan cannot be read.
     """
     cells, _ = distinct(plan)
-    count = workers or os.cpu_count() or 1
+    count = workers or cores()
     tasks = tasks_of(cells, count)
     alike: dict[tuple[str, str, int], list[Cell]] = {}
     for cell in cells:
         alike.setdefault((cell.method, cell.probe, cell.facets), []).append(cell)
     making: dict[tuple[str, str, int], float] = {}
+    drawing: dict[str, float] = {}  # of all touches of a cell, for each probe
     costs: dict[tuple[str, str, int], float] = {}
     line = 0
     for number, (kind, group) in enumerate(alike.items(), 1):
         most = min(plan.touches, _MOST)
         few = replace(group[0], touches=max(most // _FEWER, 10))
-        first, _ = _seconds(few, timed, clock)
-        again, _ = _seconds(few, timed, clock)
-        full, row = _seconds(replace(group[0], touches=most), timed, clock)
+        cells_module.touches_of(few)  # drawn before, as by the method that had its turn before
+        first, _ = _seconds(cells_module.run_cell, few, clock)
+        again, _ = _seconds(cells_module.run_cell, few, clock)
+        many = replace(group[0], touches=most)
+        drawn, _ = _seconds(cells_module.touches_of, many, clock)
+        full, row = _seconds(cells_module.run_cell, many, clock)
+        drawing[group[0].probe] = drawn * plan.touches / most
         each = max(full - again, 0.0) / max(most - few.touches, 1)
         making[kind] = max(first - again, 0.0)
         costs[kind] = full + each * (plan.touches - most)
@@ -89,7 +93,7 @@ def estimate(
         if progress is not None:
             progress(number, len(alike))
     cells_module.forget()
-    by_task = [_task(task, making, costs) for task in tasks]
+    by_task = [_task(task, making, drawing, costs) for task in tasks]
     # Nobody ends before the longest task does.
     seconds = max(sum(by_task) / count, max(by_task, default=0.0))
     peak = _peak_bytes()
@@ -106,19 +110,26 @@ def estimate(
     )
 
 
-def _seconds(cell: Cell, timed: bool, clock: Callable[[], float]) -> tuple[float, dict[str, Any]]:
+def _seconds(work: Callable[[Cell], _T], cell: Cell, clock: Callable[[], float]) -> tuple[float, _T]:
     begin = clock()
-    row = cells_module.run_cell(cell, timed=timed)
-    return clock() - begin, row
+    made = work(cell)
+    return clock() - begin, made
 
 
 def _task(
     task: list[Cell],
     making: dict[tuple[str, str, int], float],
+    drawing: dict[str, float],
     costs: dict[tuple[str, str, int], float],
 ) -> float:
     kinds = [(cell.method, cell.probe, cell.facets) for cell in task]
-    return sum(making[kind] for kind in set(kinds)) + sum(costs[kind] for kind in kinds)
+    # Methods take turns on the same touches.
+    drawn = [probe for (probe, _), _ in groupby(task, lambda cell: (cell.probe, cell.touch_seed))]
+    return (
+        sum(making[kind] for kind in set(kinds))
+        + sum(costs[kind] for kind in kinds)
+        + sum(drawing[probe] for probe in drawn)
+    )
 
 
 def _peak_bytes() -> int | None:

@@ -44,6 +44,7 @@ class Cell:
     filter: str
     touches: int
     seed: int  # of the plan
+    times: bool  # whether they are measured, too
 
     @property
     def key(self) -> str:
@@ -97,6 +98,8 @@ class SweepPlan(BaseModel):
     touches : int
         In each cell.
     seed : int
+    times : bool
+        Whether to measure them, too.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -113,6 +116,7 @@ class SweepPlan(BaseModel):
     most_facets: dict[str, Facets] = Field(default_factory=dict)
     touches: Annotated[int, Field(ge=10, le=1_000_000)] = 1_000
     seed: Annotated[int, Field(ge=0, le=2**32)] = 0
+    times: bool = True
 
     @field_validator("methods", "noises", "filters", "most_facets")
     @classmethod
@@ -162,15 +166,29 @@ class SweepPlan(BaseModel):
             *(getattr(self, name) for name in _VARIED)
         ):
             if self._wanted(method, facets):
-                yield Cell(method, probe, facets, force, angle, torsion, noise, way, self.touches, self.seed)
+                drawn = self.touches, self.seed
+                yield Cell(method, probe, facets, force, angle, torsion, noise, way, *drawn, self.times)
 
     def changed(
-        self, probes: Sequence[str] = (), touches: int | None = None, seed: int | None = None
+        self,
+        probes: Sequence[str] = (),
+        touches: int | None = None,
+        seed: int | None = None,
+        times: bool | None = None,
     ) -> SweepPlan:
-        """Return it with other probes, touches or seed, where they are given; InputError."""
-        given = {"probes": tuple(probes) or None, "touches": touches, "seed": seed}
+        """Return it with other probes, touches, seed or times, where they are given; InputError."""
+        given = {"probes": tuple(probes) or None, "touches": touches, "seed": seed, "times": times}
         return SweepPlan.of(
             self.model_dump() | {name: value for name, value in given.items() if value is not None}
+        )
+
+    def told(self) -> dict[str, Any]:
+        """Return all that has a say in the results, as plain values that are the same on every machine."""
+        probes = [identity(probe) for probe in self.probes]
+        return (
+            {"contactbench": __version__}
+            | self.model_dump(mode="json", exclude={"name"})
+            | {"probes": probes}
         )
 
     @classmethod

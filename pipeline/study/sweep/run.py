@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.results import environment, write_results
+from contactbench.pipeline.study.results import cores, environment, write_results
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of, packed_mesh
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
 from contactbench.pipeline.study.sweep.plan import identity, label
@@ -37,6 +36,7 @@ class Swept:
     failed: int
     left_out: tuple[str, ...] = ()  # meshes that a file cannot be made into, and why
     faults: tuple[str, ...] = ()  # what could not be computed, and why
+    strange: tuple[str, ...] = ()  # files of other plans, where cells are missing: what differs
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
@@ -51,7 +51,6 @@ def run(
     scheduler: str | None = None,
     workers: int | None = None,
     part: tuple[int, int] = (1, 1),
-    timed: bool = True,
     progress: Callable[[int, int], None] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> Swept:
@@ -74,8 +73,6 @@ def run(
     part : (int, int)
         Which of how many parts to compute, from 1: others compute the others into the same folder, which machines may
         share. Who finds all done writes the results.
-    timed : bool
-        Whether to measure times.
     progress : callable, optional
         Gets the number of cells that are done, and of all of the part.
     cancelled : callable
@@ -87,12 +84,14 @@ def run(
         The folder or the scheduler cannot be used.
     """
     cells, left_out = distinct(plan)
-    count = workers or os.cpu_count() or 1
-    with Store(out) as store:
+    count = workers or cores()
+    told = plan.told()
+    facts = {"workers": count, "scheduler": "a cluster" if scheduler else "this machine"}
+    with Store(out, {"plan": told, "environment": environment(**facts)}) as store:
         mine = share(cells, *part)
         todo = [cell for cell in mine if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
         computed = 0
-        for row in _rows(todo, scheduler, count, timed, cancelled):
+        for row in _rows(todo, scheduler, count, cancelled):
             store.keep(row)
             computed += 1
             if progress is not None:
@@ -100,11 +99,26 @@ def run(
         store.look()
         rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
     failed, faults = sum(bool(row["failed"]) for row in rows), tuple(faults_of(rows))
-    if computed < len(todo) or len(rows) < len(cells):
+    if computed < len(todo):
         return Swept(None, len(cells), computed, failed, left_out, faults)
-    facts = environment(workers=count, scheduler="a cluster" if scheduler else "this machine")
-    file = write_results(out, KIND, command, rows, facts, _about(plan) | {"left_out": list(left_out)})
+    if len(rows) < len(cells):
+        return Swept(None, len(cells), computed, failed, left_out, faults, tuple(_strange(store, told)))
+    known = environment(**facts, machines=store.machines(cell.key for cell in cells))
+    file = write_results(out, KIND, command, rows, known, _about(plan) | {"left_out": list(left_out)})
     return Swept(file, len(cells), computed, failed, left_out, faults)
+
+
+def _strange(store: Store, told: Mapping[str, Any]) -> Iterator[str]:
+    """Say which files in the folder were made from another plan than what is told here."""
+    for name, about in store.about.items():
+        other = about["plan"]
+        if differ := [
+            f"{what} {other.get(what)}, here {mine}" for what, mine in told.items() if other.get(what) != mine
+        ]:
+            yield (
+                f"{store.folder / name}: made by another plan ({'; '.join(differ)}): for one result, give the same plan"
+                " and options on every machine."
+            )
 
 
 def faults_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
@@ -179,13 +193,13 @@ def _heaviest_first(cell: Cell) -> tuple[int, str, str, str, float]:
     return -cell.facets, identity(cell.probe), cell.noise, cell.filter, gates_for(cell.angle).friction_angle
 
 
-def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:
+def run_task(cells: list[Cell]) -> list[dict[str, Any]]:
     """Compute cells one after the other; what a worker does."""
-    return [run_cell(cell, timed=timed) for cell in cells]
+    return [run_cell(cell) for cell in cells]
 
 
 def _rows(
-    cells: list[Cell], scheduler: str | None, workers: int, timed: bool, cancelled: Callable[[], bool]
+    cells: list[Cell], scheduler: str | None, workers: int, cancelled: Callable[[], bool]
 ) -> Iterator[dict[str, Any]]:
     if not cells:
         return
@@ -194,18 +208,17 @@ def _rows(
             for cell in sorted(cells, key=_heaviest_first):
                 if cancelled():
                     return
-                yield run_cell(cell, timed=timed)
+                yield run_cell(cell)
         finally:
             forget()
         return
-    yield from _by_dask(cells, scheduler, workers, timed, cancelled)
+    yield from _by_dask(cells, scheduler, workers, cancelled)
 
 
 def _by_dask(
     cells: list[Cell],
     scheduler: str | None,
     workers: int,
-    timed: bool,
     cancelled: Callable[[], bool],
 ) -> Iterator[dict[str, Any]]:
     import dask
@@ -224,7 +237,7 @@ def _by_dask(
                 f"scheduler {scheduler or 'on this machine'}: no connection ({error}): check the address."
             ) from error
         there = max(workers if scheduler is None else sum(client.nthreads().values()), 1)
-        futures = client.map(run_task, tasks_of(cells, there), timed=timed, pure=False, retries=1)
+        futures = client.map(run_task, tasks_of(cells, there), pure=False, retries=1)
         for future in as_completed(futures):
             if cancelled():
                 client.cancel(futures)

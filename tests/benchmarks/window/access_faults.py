@@ -59,8 +59,17 @@ def _out_of_reach(seen: VisibleWidgets):
     for control in seen.of(*CONTROLS):
         if not control.isEnabled() or isinstance(control.parentWidget(), (QDockWidget, QToolBar)):
             continue  # what these hold is in the menus
-        if control not in order or not control.focusPolicy() & Qt.FocusPolicy.TabFocus:
+        if not any(
+            each in order and each.focusPolicy() & Qt.FocusPolicy.TabFocus for each in _together(control)
+        ):
             yield f"cannot be reached by keys: {what(control)}"
+
+
+def _together(control: QWidget) -> list[QWidget]:
+    """Return what can be reached from one another by arrows: of buttons that exclude each other one is a stop."""
+    group = control.group() if isinstance(control, QAbstractButton) else None
+    members = group.buttons() if group is not None and group.exclusive() else []
+    return [control, *(each for each in members if each.isEnabled() and each.isVisible())]
 
 
 def _stops(page: QWidget) -> list[QWidget]:

@@ -14,6 +14,8 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.save import encode_probe, save_probe
+from contactbench.pipeline.study import results
+from contactbench.pipeline.study.pages import origin
 from contactbench.pipeline.study.results import RESULTS, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
 from contactbench.pipeline.study.sweep.plan import SweepPlan
@@ -28,19 +30,22 @@ _TINY = SweepPlan(
     angles=(0.0, 40.0),
     methods=("contactbench", "algorithm1"),
     touches=40,
+    times=False,
 )
+_TIMED = (*TIMES, "times", "key")
+_ABOUT = {"plan": {}, "environment": {}}
 
 
 def _table(folder):
     """Everything but the times and the moment, as text: equal text is equal to the bit."""
     results = read_results(folder)
-    return json.dumps([{k: v for k, v in row.items() if k not in TIMES} for row in results.rows])
+    return json.dumps([{k: v for k, v in row.items() if k not in _TIMED} for row in results.rows])
 
 
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory):
     folder = tmp_path_factory.mktemp("alone")
-    run(_TINY, folder, workers=1, timed=False)
+    run(_TINY, folder, workers=1)
     return _table(folder)
 
 
@@ -54,7 +59,7 @@ def scheduler():
 
 
 def test_two_workers_give_the_same_to_the_bit(tmp_path, alone):
-    done = run(_TINY, tmp_path, workers=2, timed=False)
+    done = run(_TINY, tmp_path, workers=2)
     assert done.computed == done.cells == len(_TINY)
     assert _table(tmp_path) == alone
     assert read_results(tmp_path).environment["workers"] == 2
@@ -63,14 +68,14 @@ def test_two_workers_give_the_same_to_the_bit(tmp_path, alone):
 def test_a_cluster_gives_the_same_to_the_bit(tmp_path, alone, scheduler):
     assert scheduler.startswith("tcp://")
     shown = []
-    run(_TINY, tmp_path, scheduler=scheduler, timed=False, progress=lambda *of: shown.append(of))
+    run(_TINY, tmp_path, scheduler=scheduler, progress=lambda *of: shown.append(of))
     assert _table(tmp_path) == alone
     assert shown[-1] == (len(_TINY), len(_TINY))
     assert read_results(tmp_path).environment["scheduler"] == "a cluster"
 
 
 def test_times_are_beside_the_errors_and_do_not_change_them(tmp_path, alone):
-    run(_TINY, tmp_path, workers=1)
+    run(_TINY.changed(times=True), tmp_path, workers=1)
     rows = read_results(tmp_path).rows
     assert all(0 < row["compiled_median_ns"] <= row["compiled_p99_ns"] for row in rows)
     assert all(0 < row["python_median_ns"] <= row["python_p99_ns"] for row in rows)
@@ -90,41 +95,41 @@ def _cell_error(cell):
     from contactbench.pipeline.study.sweep.cell import forget, run_cell
 
     try:
-        return run_cell(cell, timed=False)["mean_mm"]
+        return run_cell(cell)["mean_mm"]
     finally:
         forget()
 
 
 def test_what_is_done_is_not_done_again(tmp_path, alone):
     asked = iter([False] * 3 + [True] * 99)
-    first = run(_TINY, tmp_path, workers=1, timed=False, cancelled=lambda: next(asked))
+    first = run(_TINY, tmp_path, workers=1, cancelled=lambda: next(asked))
     assert (first.results, first.computed) == (None, 3)
     assert not (tmp_path / RESULTS).exists()
     shown = []
-    second = run(_TINY, tmp_path, workers=1, timed=False, progress=lambda *of: shown.append(of))
+    second = run(_TINY, tmp_path, workers=1, progress=lambda *of: shown.append(of))
     assert second.computed == len(_TINY) - 3
     assert shown[0] == (4, len(_TINY))
     assert shown[-1] == (len(_TINY), len(_TINY))
     assert _table(tmp_path) == alone
-    assert run(_TINY, tmp_path, workers=1, timed=False).computed == 0
+    assert run(_TINY, tmp_path, workers=1).computed == 0
 
 
 def test_a_cluster_is_cancelled_too(tmp_path, scheduler):
-    done = run(_TINY, tmp_path, scheduler=scheduler, timed=False, cancelled=lambda: True)
+    done = run(_TINY, tmp_path, scheduler=scheduler, cancelled=lambda: True)
     assert (done.results, done.computed) == (None, 0)
 
 
 def test_a_plan_that_grows_computes_only_what_is_new(tmp_path):
-    run(_TINY, tmp_path, workers=1, timed=False)
+    run(_TINY, tmp_path, workers=1)
     more = _TINY.model_copy(update={"forces": (9.0, 5.0)})
-    assert run(more, tmp_path, workers=1, timed=False).computed == len(_TINY)
+    assert run(more, tmp_path, workers=1).computed == len(_TINY)
     assert len(read_results(tmp_path).rows) == 2 * len(_TINY)
 
 
 def test_two_processes_that_write_at_the_same_time_lose_nothing(tmp_path):
     code = (
         "import sys; from pathlib import Path; from contactbench.pipeline.study.sweep.store import Store\n"
-        "with Store(Path(sys.argv[1])) as store:\n"
+        "with Store(Path(sys.argv[1]), {'plan': {}, 'environment': {}}) as store:\n"
         "    print(flush=True); sys.stdin.readline()\n"
         "    for i in range(200): store.keep({'key': f'{sys.argv[2]}-{i}', 'failed': '', 'text': 'x' * 5000})\n"
     )
@@ -136,13 +141,13 @@ def test_two_processes_that_write_at_the_same_time_lose_nothing(tmp_path):
         process.stdin.write("\n")
         process.stdin.flush()
     assert [process.communicate(timeout=120) and process.returncode for process in both] == [0, 0]
-    with Store(tmp_path) as store:
+    with Store(tmp_path, _ABOUT) as store:
         assert set(store.rows) == {f"{name}-{i}" for name in "ab" for i in range(200)}
     assert len([*tmp_path.iterdir()]) == 2  # who keeps nothing leaves nothing
 
 
 def test_what_another_does_meanwhile_is_seen(tmp_path):
-    with Store(tmp_path) as one, Store(tmp_path) as other:
+    with Store(tmp_path, _ABOUT) as one, Store(tmp_path, _ABOUT) as other:
         other.keep({"key": "a", "failed": ""})
         one.keep({"key": "a", "failed": "lacks a library"})
         one.look()
@@ -151,7 +156,7 @@ def test_what_another_does_meanwhile_is_seen(tmp_path):
 
 
 def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
-    parts = [run(_TINY, tmp_path, workers=1, timed=False, part=(number, 3)) for number in (1, 2, 3)]
+    parts = [run(_TINY, tmp_path, workers=1, part=(number, 3)) for number in (1, 2, 3)]
     assert [part.results is None for part in parts] == [True, True, False]
     assert sum(part.computed for part in parts) == len(_TINY)
     assert all(part.computed for part in parts)
@@ -159,6 +164,34 @@ def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
     assert parts[0].to_json()["results"] is None
     with pytest.raises(InputError, match=r"--part 4/3: give one of the parts 1/3 to 3/3"):
         run(_TINY, tmp_path, part=(4, 3))
+
+
+def test_each_machine_is_told_with_its_own_environment(tmp_path, monkeypatch):
+    for number, name in enumerate(("one", "one", "other"), 1):
+        monkeypatch.setattr(results, "_processor", lambda name=name: name)
+        run(_TINY, tmp_path, workers=1, part=(number, 3))
+    found = read_results(tmp_path).environment
+    told = {each["processor"]: each["cells"] for each in found["machines"]}
+    assert sum(told.values()) == len(_TINY)
+    assert 0 < told["other"] < told["one"]
+    said = origin(found, "it")
+    assert "on 2 machines that differ in processor, so that" in said
+    assert f"(1) one, {found['cores']} cores" in said
+    assert f": {told['other']:,} cells. Repeat with" in said
+    assert "machines" not in origin(found | {"machines": found["machines"][1:]}, "it")
+
+
+def test_parts_of_other_plans_are_named(tmp_path):
+    run(_TINY, tmp_path, workers=1, part=(1, 2))
+    assert not run(_TINY.changed(times=False), tmp_path / "b", workers=1, part=(1, 2)).strange
+    for other, what in (
+        (_TINY.changed(seed=1), "seed 0, here 1"),
+        (_TINY.changed(times=True), "times False, here True"),
+    ):
+        done = run(other, tmp_path, workers=1, part=(2, 2))
+        assert done.results is None
+        said = f"{tmp_path / DONE}: made by another plan ({what}): for one result, give the same plan and options"
+        assert f"{said} on every machine." in done.strange
 
 
 def test_parts_do_not_depend_on_where_a_probes_file_lies(tmp_path):
@@ -201,7 +234,7 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
         str(plan),
     ]
     with subprocess.Popen(
-        [*command, "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
+        [*command, "--no-times", "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
     ) as process:
         until(lambda: _lines(out) >= 3, 120)
         process.send_signal(getattr(signal, ending))
@@ -211,33 +244,36 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
     with (out / DONE).open("ab") as stream:
         stream.write(b'{"key": "torn')
     (out / RESULTS).unlink(missing_ok=True)
-    assert run(_TINY, out, workers=1, timed=False).computed == len(_TINY) - kept
+    assert run(_TINY, out, workers=1).computed == len(_TINY) - kept
     assert _table(out) == alone
 
 
 def _lines(out):
-    return (out / DONE).read_bytes().count(b"\n") if (out / DONE).exists() else 0
+    """Cells that are kept; the first line is not one."""
+    return max((out / DONE).read_bytes().count(b"\n") - 1, 0) if (out / DONE).exists() else 0
 
 
 def test_a_method_that_cannot_do_it_says_so_and_is_tried_again(tmp_path, monkeypatch):
     plan = _TINY.model_copy(update={"methods": ("contactbench", "wrench_axis"), "probes": ("linear",)})
     monkeypatch.setitem(sys.modules, "embreex.rtcore_scene", None)
-    first = run(plan, tmp_path, workers=1, timed=False)
+    first = run(plan, tmp_path, workers=1)
     assert first.failed == len(plan) / 2
     rows = read_results(tmp_path).rows
     assert {row["method"] for row in rows if row["failed"]} == {"wrench_axis"}
     assert "needs Embree" in next(row["failed"] for row in rows if row["failed"])
     monkeypatch.undo()
     pytest.importorskip("embreex")
-    second = run(plan, tmp_path, workers=1, timed=False)
+    second = run(plan, tmp_path, workers=1)
     assert (second.computed, second.failed) == (first.failed, 0)
 
 
 def test_a_file_is_swept_up_to_its_own_mesh(tmp_path):
     file = tmp_path / "mine.ply"
     save_probe(Probe.from_arrays(*assets.make("convex", 800)), file)
-    plan = SweepPlan(probes=(str(file),), facets=(300, 1_000, 2_000), methods=("contactbench",), touches=40)
-    run(plan, tmp_path / "out", workers=1, timed=False)
+    plan = SweepPlan(
+        probes=(str(file),), facets=(300, 1_000, 2_000), methods=("contactbench",), touches=40, times=False
+    )
+    run(plan, tmp_path / "out", workers=1)
     results = read_results(tmp_path / "out")
     found = {row["facets"]: row["facets_found"] for row in results.rows}
     assert sorted(found) == [300, 1_000]
@@ -265,7 +301,7 @@ def test_wrong_folders_and_schedulers_are_named(tmp_path):
         run(_TINY, tmp_path / "a", scheduler="nonsense://x")
     (tmp_path / DONE).write_text("no result\n", encoding="utf-8")
     with pytest.raises(InputError, match="line 1: no result of a study"):
-        Store(tmp_path)
+        Store(tmp_path, _ABOUT)
     with pytest.raises(InputError, match="no results of a study"):
         read_results(tmp_path)
 

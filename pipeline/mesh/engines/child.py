@@ -110,6 +110,11 @@ class Child:
         process = self._process
         return None if process is None or process.poll() is not None else process.pid
 
+    @property
+    def busy(self) -> bool:
+        """Whether a call is under way."""
+        return self._lock.locked()
+
     def call(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         """
         Send a call and wait for its result.
@@ -343,6 +348,8 @@ def _widen(process: subprocess.Popen[bytes]) -> None:
 
 
 _CHILDREN = {library: Child(library) for library in Library}
+# Cutting takes most of the time of a preparation: two attempts at it may go side by side.
+_SECOND = {Library.CGAL: Child(Library.CGAL)}
 
 
 def run(
@@ -358,7 +365,7 @@ def run(
     Run an operation in its library's child process.
 
     The arrays go as they are: the typed functions check them first. The first call starts the child (about
-    a second), which then stays warm. Calls from several threads to one library queue up.
+    a second), which then stays warm. Calls from several threads to one library queue up; of cuts two go at once.
 
     Parameters
     ----------
@@ -391,17 +398,20 @@ def run(
     """
     request = WireMessage(str(operation), dict(parameters), dict(arrays))
     watch = CallWatch(progress, cancelled, timeout_s)
-    return _CHILDREN[operation.library].call(request, watch).arrays
+    child = _CHILDREN[operation.library]
+    if child.busy:
+        child = _SECOND.get(operation.library, child)
+    return child.call(request, watch).arrays
 
 
 def stop_engines() -> None:
     """End the children, which frees their memory; the next operation starts a new one. Also done at exit."""
-    for child in _CHILDREN.values():
+    for child in (*_CHILDREN.values(), *_SECOND.values()):
         child.stop()
 
 
 def _forget_engines() -> None:
-    for child in _CHILDREN.values():
+    for child in (*_CHILDREN.values(), *_SECOND.values()):
         child.forget()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,7 @@ from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
+from contactbench.pipeline.mesh.shell.ahead import begun
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.fit import measure_fit
 from contactbench.pipeline.mesh.shell.openings import Opening, find_openings
@@ -202,7 +204,7 @@ class _Exact:
         self._steps.upto(0.8)
         if narrow and _has_cavity(done.vertices, done.faces, self._coarse):
             # Behind gaps and bores too narrow to find a mouth of.
-            plugged = self._with_plug(outside, ())
+            plugged = self._with_plug(outside, (), self._steps.cancelled)
             if plugged is None:
                 return None
             done = plugged
@@ -210,35 +212,33 @@ class _Exact:
 
     def _emptied(self, outside: Outside, closings: Sequence[ClosedOpening]) -> Outside | None:
         """Close mouths, so that much of the space is inside; None where the patches leak."""
-        patches: list[Surface] = []
         for leans in _LEANS:
             patches = [
                 make_patch(each.opening, each.closing, self._alpha, self._coarse, leans)
                 for each in closings
                 if each.closing is not Closing.OPEN
             ]
-            tried = self.find(patches)
-            if tried is not None and _volume(tried.vertices, tried.faces) > (1 + _VOID) * _volume(
-                outside.vertices, outside.faces
-            ):
-                if not crossings(tried.vertices, tried.faces)[2][[CROSSING, OVERLAP]].any():
+            # Patches alone leak in most real housings, and what then helps takes as long again.
+            plug = partial(self._with_plug, outside, patches)
+            with begun(plug, partial(self._steps.tick, 1.0)) as plugged:
+                tried = self.find(patches)
+                grown = tried is not None and _has_grown(tried, outside)
+                if tried is not None and grown and not _crosses(tried):
                     return tried
-            elif tried is not None:
-                break
-        return self._with_plug(outside, patches)
+                if leans == _LEANS[-1] or (tried is not None and not grown):
+                    return plugged()
+        raise AssertionError("the last leans end it")
 
-    def _with_plug(self, outside: Outside, patches: Sequence[Surface]) -> Outside | None:
+    def _with_plug(
+        self, outside: Outside, patches: Sequence[Surface], stop: Callable[[], bool] | None
+    ) -> Outside | None:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
-        stop = self._steps.cancelled
+        if self._sewn is None:
+            return None
         vertices, faces = join([(outside.vertices, outside.faces), *patches])
         plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
-        tried = self.find([*patches, plug])
-        return (
-            tried
-            if tried is not None
-            and _volume(tried.vertices, tried.faces) > (1 + _VOID) * _volume(outside.vertices, outside.faces)
-            else None
-        )
+        tried = find_outside(self._sewn, [*patches, plug], cancelled=stop)
+        return tried if tried is not None and _has_grown(tried, outside) else None
 
     def _chosen(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing]
@@ -450,6 +450,16 @@ def _seen_through(opening: Opening, index: SurfaceIndex) -> float:
         opening.centre + shares * (opening.rim[:: max(1, len(opening.rim) // 24)] - opening.centre)
     ).reshape(-1, 3)
     return float(np.mean(index.escapes(points, np.tile(-opening.axes[2], (len(points), 1)))))
+
+
+def _crosses(surface: Outside) -> bool:
+    counts = crossings(surface.vertices, surface.faces)[2]
+    return bool(counts[[CROSSING, OVERLAP]].any())
+
+
+def _has_grown(surface: Outside, before: Outside) -> bool:
+    """Tell whether a cavity is inside now."""
+    return _volume(surface.vertices, surface.faces) > (1 + _VOID) * _volume(before.vertices, before.faces)
 
 
 def _volume(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> float:

@@ -1,4 +1,4 @@
-"""Work that is begun before it is known whether it is needed, and dropped when it is not."""
+"""Work that is begun before its result is needed, and dropped when it is not."""
 
 from __future__ import annotations
 

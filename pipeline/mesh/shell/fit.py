@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.shell.exposure import exposure, exposure_at
 from contactbench.pipeline.mesh.shell.wrap import PLUG, SURFACE
 from contactbench.pipeline.mesh.triangles import cross_products, directions, join
@@ -78,38 +79,87 @@ class ShellFit:
         }
 
 
-def measure_fit(
+@dataclass(frozen=True, eq=False)
+class Original:
+    """
+    What a shell is measured against.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+        The original's, and then those of the patches that close it.
+    index : SurfaceIndex
+        Of all of them.
+    seen : (k,) float64
+        How much of the sky each facet of the original sees.
+    points : (l, 3) float64
+        Of the original, that can be seen.
+    rng : Generator
+        What they were drawn with, for what is drawn next.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    index: SurfaceIndex
+    seen: NDArray[np.float64]
+    points: NDArray[np.float64]
+    rng: np.random.Generator
+
+
+def look_at(
     original: Probe,
     patches: list[tuple[NDArray[np.float64], NDArray[np.int32]]],
-    wrapped: Wrapped,
-    alpha: float,
-    tick: Callable[[float], None] | None = None,
-) -> ShellFit:
+    stop: Callable[[], bool],
+) -> Original:
     """
-    Measure a shell against the original.
+    Find out what can be seen of the original, for `measure_fit`.
 
     Parameters
     ----------
     original : Probe
     patches : list of (vertices, faces)
         What closes its openings: they hide the inside.
+    stop : callable
+        Asked whether to stop.
+
+    Raises
+    ------
+    Cancelled
+        `stop` answered True.
+    """
+
+    def tick(_share: float) -> None:
+        if stop():
+            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
+
+    vertices, faces = join([(original.vertices, original.faces), *patches])
+    index = SurfaceIndex(vertices, faces)
+    seen = _seen(original, index, tick)
+    rng = np.random.default_rng(0)
+    return Original(vertices, faces, index, seen, _visible_points(original, index, seen, rng), rng)
+
+
+def measure_fit(original: Original, wrapped: Wrapped, alpha: float) -> ShellFit:
+    """
+    Measure a shell against the original.
+
+    Parameters
+    ----------
+    original : Original
+        Its generator goes on: for one measurement only.
     wrapped : Wrapped
     alpha : float
         Size of its facets, metres.
-    tick : callable, optional
-        Told the share that is done.
     """
-    vertices, faces = join([(original.vertices, original.faces), *patches])
-    closed = SurfaceIndex(vertices, faces)
-    seen = _seen(original, closed, tick)
+    vertices, faces, closed, rng = original.vertices, original.faces, original.index, original.rng
     shell = SurfaceIndex(wrapped.vertices, wrapped.faces)
-    rng = np.random.default_rng(0)
-    there, _, _ = shell.closest(_visible_points(original, closed, seen, rng))
+    there, _, _ = shell.closest(original.points)
     real = wrapped.faces[wrapped.rests_on == SURFACE]
     back, _, _ = closed.closest(sample_surface(wrapped.vertices, real, _SAMPLES, rng))
     areas = np.linalg.norm(cross_products(wrapped.vertices, wrapped.faces), axis=1) / 2
     hidden = np.zeros(len(faces), dtype=bool)
-    hidden[: len(seen)] = seen == 0
+    hidden[: len(original.seen)] = original.seen == 0
     median, p95, most = np.percentile(there, [50, 95, 100]).tolist()
     # At a lip the nearest facet may be a hidden one although the outside is as near: what counts is that
     # nothing visible is.
@@ -164,12 +214,11 @@ def _visible_points(
     return points[visible] if visible.any() else points
 
 
-def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None] | None) -> NDArray[np.float64]:
+def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None]) -> NDArray[np.float64]:
     """How much of the sky each facet sees from its better side, whatever its winding, (m,)."""
     seen = np.zeros(len(original.faces))
-    for side, faces in enumerate((original.faces, np.ascontiguousarray(original.faces[:, ::-1]))):
-        half = None if tick is None else lambda share, side=side: tick((side + share) / 2)
-        seen = np.maximum(seen, exposure(original.vertices, faces, closed, count=_LOOKS, tick=half))
+    for faces in (original.faces, np.ascontiguousarray(original.faces[:, ::-1])):
+        seen = np.maximum(seen, exposure(original.vertices, faces, closed, count=_LOOKS, tick=tick))
     return seen
 
 

@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.probe import Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.ahead import begun
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.fit import measure_fit
+from contactbench.pipeline.mesh.shell.fit import look_at, measure_fit
 from contactbench.pipeline.mesh.shell.openings import Opening, find_openings
 from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
 from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
@@ -305,13 +305,16 @@ def _wrapped(
     steps.upto(0.2)
     vertices, faces = join([(probe.vertices, probe.faces), *patches])
     stop = steps.cancelled
-    plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
-    original = (probe.vertices, probe.faces)
-    wrapped = fine_wrap(
-        original, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
-    )
-    shell = _checked(wrapped, probe.name)
-    fit = measure_fit(probe, patches, wrapped, alpha, steps.upto(1.0))
+    # What the result is measured against is looked at while the engine wraps.
+    with begun(partial(look_at, probe, patches), partial(steps.tick, 0.0)) as original:
+        plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
+        surface = (probe.vertices, probe.faces)
+        wrapped = fine_wrap(
+            surface, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
+        )
+        shell = _checked(wrapped, probe.name)
+        steps.upto(1.0)
+        fit = measure_fit(original(), wrapped, alpha)
     done = _examined(Shell(shell, WRAPPED, openings, fit, alpha, gap=coarse), probe, patches)
     if not probe.region.any():
         return done

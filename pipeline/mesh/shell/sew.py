@@ -70,7 +70,7 @@ def sew(
     if len(rims) == 0:
         return vertices, faces, born
     rim = np.unique(rims)
-    reach = _reach(vertices, faces, tolerance)
+    reach = _reach(vertices, faces, rim, tolerance)
     # Each takes the place of the first that is near it; chains are not followed, so that nothing moves further.
     root = np.arange(len(vertices))
     for one, near in zip(
@@ -94,7 +94,7 @@ def _split(
     rim = np.unique(rims)
     if len(rim) == 0:
         return vertices, faces, born
-    reach = _reach(vertices, faces, tolerance)
+    reach = _reach(vertices, faces, rim, tolerance)
     a, b = vertices[rims[:, 0]], vertices[rims[:, 1]]
     length = np.linalg.norm(b - a, axis=1)
     around = cKDTree(vertices[rim]).query_ball_point((a + b) / 2, length / 2)
@@ -132,8 +132,13 @@ def _split(
     return _split(*again, tolerance) if len(again[1]) > len(faces) else again
 
 
-def _reach(vertices: NDArray[np.float64], faces: NDArray[np.int32], tolerance: float) -> NDArray[np.float64]:
-    """How far each vertex may move: not so far that a facet at it would fold, but for what is rounding."""
+def _reach(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], rim: NDArray[np.int64], tolerance: float
+) -> NDArray[np.float64]:
+    """How far each vertex of the rim may move: not so far that a facet at it would fold, but for what is rounding."""
+    at_rim = np.zeros(len(vertices), dtype=bool)
+    at_rim[rim] = True
+    faces = faces[at_rim[faces].any(axis=1)]
     sides = np.linalg.norm(vertices[np.roll(faces, -1, axis=1)] - vertices[faces], axis=2)
     reach = np.full(len(vertices), tolerance)
     for k in range(3):

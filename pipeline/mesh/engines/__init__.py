@@ -5,8 +5,18 @@ pymeshlab carries its own Qt, it and the CGAL half of libigl are GPL-3, and both
 crash is an `EngineError`.
 """
 
-from contactbench.pipeline.mesh.engines.child import stop_engines
+from contactbench.pipeline.mesh.engines.child import start_engine, stop_engines
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError
+from contactbench.pipeline.mesh.engines.libraries import Operation
 from contactbench.pipeline.mesh.engines.operations import Control, alpha_wrap, cut_along_crossings
 
-__all__ = ["Cancelled", "Control", "EngineError", "alpha_wrap", "cut_along_crossings", "stop_engines"]
+__all__ = [
+    "Cancelled",
+    "Control",
+    "EngineError",
+    "Operation",
+    "alpha_wrap",
+    "cut_along_crossings",
+    "start_engine",
+    "stop_engines",
+]

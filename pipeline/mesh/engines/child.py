@@ -137,6 +137,15 @@ class Child:
         finally:
             self._lock.release()
 
+    def begin(self) -> None:
+        """Start the child unless it is there, without waiting for it; what is wrong with it the next call says."""
+        if self._lock.acquire(blocking=False):
+            try:
+                with contextlib.suppress(EngineError):
+                    self._start()
+            finally:
+                self._lock.release()
+
     def stop(self) -> None:
         """End the child; a call that another thread is in fails. The next call starts a new child."""
         if self._lock.acquire(blocking=False):
@@ -402,6 +411,11 @@ def run(
     if child.busy:
         child = _SECOND.get(operation.library, child)
     return child.call(request, watch).arrays
+
+
+def start_engine(operation: Operation) -> None:
+    """Start the child of an operation that will be needed soon: it loads its library while other work is done."""
+    _CHILDREN[operation.library].begin()
 
 
 def stop_engines() -> None:

@@ -91,7 +91,9 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
         corners = np.unique(faces[met])
         vertices = vertices.copy()
         vertices[corners] = np.rint(vertices[corners] / grid) * grid
-        local = np.searchsorted(corners, faces[met]).astype(np.int32)  # the engine looks at every vertex it is given
+        local = np.searchsorted(corners, faces[met]).astype(
+            np.int32
+        )  # the engine looks at every vertex it is given
         points, pieces, of = cut_along_crossings(vertices[corners], local, **control)
         points = np.rint(points / grid) * grid
         whole = np.ones(len(faces), dtype=bool)

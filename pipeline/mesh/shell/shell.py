@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
-from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
 from contactbench.pipeline.mesh.probe import Probe, degenerate_facets
@@ -138,6 +138,7 @@ def make_shell(
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
+    start_engine(Operation.ALPHA_WRAP)  # needed whatever is found
     exact = _Exact(probe, alpha, coarse, steps)
     steps.upto(0.2)
     outside = exact.find()

@@ -63,6 +63,26 @@ def test_the_second_call_finds_the_engine_warm(ball: Ball) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names a signal")
+def test_an_engine_started_ahead_is_the_one_that_works(ball: Ball) -> None:
+    engines.stop_engines()
+    engines.start_engine(Operation.ALPHA_WRAP)
+    pid = pid_of(Library.MESHLAB)
+    assert pid is not None
+    engines.start_engine(Operation.ALPHA_WRAP)
+    assert len(wrap(*ball)[1]) > 100
+    assert pid_of(Library.MESHLAB) == pid
+
+
+def test_an_engine_that_cannot_be_started_ahead_is_told_by_the_call(
+    ball: Ball, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engines.stop_engines()
+    monkeypatch.setattr(sys, "executable", "/nowhere/python")
+    engines.start_engine(Operation.ALPHA_WRAP)
+    with pytest.raises(engines.EngineError, match="cannot be started"):
+        wrap(*ball)
+
+
 def test_a_crash_is_an_error_that_names_the_engine_and_the_next_call_works(ball: Ball) -> None:
     expected = engines.cut_along_crossings(*ball)
     with pytest.raises(engines.EngineError, match=r"cgal died \(SIG.*1280 facets.*repair"):

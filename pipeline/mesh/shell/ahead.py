@@ -16,9 +16,11 @@ _POLL_S = 0.05
 
 
 @contextmanager
-def begun(work: Callable[[Callable[[], bool]], T], tick: Callable[[], None]) -> Iterator[Callable[[], T]]:
+def begun(
+    work: Callable[[Callable[[], bool]], T], tick: Callable[[], None], *, at_once: bool = True
+) -> Iterator[Callable[[], T]]:
     """
-    Begin work in a thread of its own; it is told to stop at the end of the block.
+    Do work in a thread of its own; it is told to stop at the end of the block.
 
     Parameters
     ----------
@@ -26,6 +28,8 @@ def begun(work: Callable[[Callable[[], bool]], T], tick: Callable[[], None]) -> 
         Takes what it has to ask whether to stop.
     tick : callable
         Called all the time while the result is waited for; may raise to stop.
+    at_once : bool
+        Begin now; otherwise when the result is asked for.
 
     Yields
     ------
@@ -35,9 +39,10 @@ def begun(work: Callable[[Callable[[], bool]], T], tick: Callable[[], None]) -> 
     over = threading.Event()
     with ThreadPoolExecutor(1) as pool:
         try:
-            done = pool.submit(work, over.is_set)
+            early = pool.submit(work, over.is_set) if at_once else None
 
             def result() -> T:
+                done = early or pool.submit(work, over.is_set)
                 while not done.done():
                     tick()
                     wait((done,), _POLL_S)

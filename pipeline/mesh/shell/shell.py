@@ -219,9 +219,9 @@ class _Exact:
                 for each in closings
                 if each.closing is not Closing.OPEN
             ]
-            # Patches alone leak in most real housings, and what then helps takes as long again.
-            plug = partial(self._with_plug, outside, patches)
-            with begun(plug, partial(self._steps.tick, 1.0)) as plugged:
+            # Where the file has cracks of its own, patches alone mostly leak, and what then helps takes as long again.
+            plug, cracked = partial(self._with_plug, outside, patches), not self._probe.health.watertight
+            with begun(plug, partial(self._steps.tick, 1.0), at_once=cracked) as plugged:
                 tried = self.find(patches)
                 grown = tried is not None and _has_grown(tried, outside)
                 if tried is not None and grown and not _crosses(tried):

@@ -55,3 +55,14 @@ def test_what_it_raises_reaches_who_waits():
 
     with pytest.raises(ValueError, match="no"), begun(work, nothing) as result:
         result()
+
+
+def test_it_can_wait_until_it_is_asked_for():
+    done = []
+    with begun(done.append, nothing, at_once=False):
+        pass
+    assert not done
+    with begun(lambda _stop: done.append(1), nothing, at_once=False) as result:
+        assert not done
+        result()
+    assert done == [1]

@@ -384,17 +384,13 @@ def convert(
     refuse_overwriting(out, [file])
     from contactbench.pipeline.recording.convert import write_csv, write_npz
 
-    found = _read(file)
-    left_out: tuple[str, ...] = ()
-    if ending == ".csv":
-        left_out = write_csv(out, found, topic)
-    else:
-        write_npz(out, found, topic)
-    warnings = (*found.warnings, *left_out)
+    with Bar("reading") as bar:
+        done = (write_csv if ending == ".csv" else write_npz)(out, file, topic, bar)
+    warnings = (*done.warnings, *done.left_out)
     _warn(warnings)
     say(f"written: {out}")
-    answer({"out": str(out), "complete": found.complete, "warnings": list(warnings)})
-    if found.warnings:
+    answer({"out": str(out), "complete": done.complete, "warnings": list(warnings)})
+    if done.warnings:
         raise typer.Exit(1)
 
 

@@ -230,6 +230,20 @@ def wrench_cells(data: bytes) -> WrenchCells | None:
     return None if found is None else found.groups()
 
 
+def cells_of(sample: WrenchSample) -> WrenchCells:
+    """Return the numbers of a wrench as text, see `wrench_cells`: for one whose message was not written so."""
+
+    def cell(value: float | None) -> bytes | None:
+        return None if value is None else repr(float(value)).encode()
+
+    return (
+        *map(cell, (sample.time, *sample.force, *sample.torque)),
+        b"%d" % sample.status,
+        None if sample.sequence is None else b"%d" % sample.sequence,
+        *map(cell, (sample.device_time, sample.temperature, sample.arrival)),
+    )
+
+
 def read_flange(data: bytes) -> FlangeSample:
     """
     Return the pose of a message.

@@ -150,7 +150,7 @@ class Whole(Generic[Track]):
     """A track that grows by blocks and is in memory once."""
 
     def __init__(self, kind: Callable[..., Track]) -> None:
-        self._kind = kind
+        self._kind: Callable[..., Track] = kind
         self._columns: defaultdict[str, bytearray] = defaultdict(bytearray)
         self._forms: dict[str, tuple[np.dtype[Any], tuple[int, ...]]] = {}
         self._count = 0

@@ -54,7 +54,7 @@ class Contents:
 
 def read_contents(path: Path, progress: Callable[[int, int], None] | None = None) -> Contents:
     """
-    Look through a recording; of more than four million samples the latencies go through the temporary folder.
+    Look through a recording; of more than two million samples the latencies go through the temporary folder.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-IN_MEMORY = 2**25  # bytes that need no disk
+IN_MEMORY = 2**24  # bytes that need no disk
 
 _Layout = tuple[tuple[str, np.dtype[Any], tuple[int, ...]], ...]  # names, types and shapes of arrays
 

@@ -111,7 +111,9 @@ def floats_of(cells: Sequence[bytes]) -> npt.NDArray[np.float64]:
     lengths = np.fromiter(map(len, cells), dtype=np.int64, count=len(cells))
     last = MARGIN + np.cumsum(lengths + 1) - 1
     first, points = last - lengths, np.flatnonzero(data == _POINT)
-    if len(points) != len(cells) or not ((points >= first) & (points < last)).all():  # not one in each, as usual
+    if (
+        len(points) != len(cells) or not ((points >= first) & (points < last)).all()
+    ):  # not one in each, as usual
         at, points = points, last.copy()
         cell = np.searchsorted(last, at)
         points[cell] = np.where(np.bincount(cell, minlength=len(cells))[cell] == 1, at, -1)

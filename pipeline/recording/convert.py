@@ -26,7 +26,6 @@ from contactbench.pipeline.recording.tracks import (
     columns_of,
     joined,
     padded,
-    part,
 )
 from contactbench.pipeline.tables.shortest import csv_rows
 
@@ -269,18 +268,16 @@ class _Poses:
 
     def __init__(self, rows: Table) -> None:
         self._rows = rows
-        # Of the blocks with poses that are later than all before them (`poses_at` leaves out the others): which they
-        # are, the first of those times, and the latest before it.
+        # The blocks with poses that are later than all before them, and the first of those times: `poses_at` leaves
+        # out the others.
         self._blocks: list[int] = []
         self._first: list[float] = []
-        self._before: list[float] = []
         latest = -np.inf
         for number, times in enumerate(rows.column("times")):
             if (times > latest).any():
                 self._blocks.append(number)
-                self._first.append(times[times > latest][0])
-                self._before.append(latest)
-                latest = times.max()
+                self._first.append(float(times[times > latest][0]))
+                latest = float(times.max())
 
     def at(self, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Return the same as `poses_at` of all poses."""
@@ -293,11 +290,8 @@ class _Poses:
         return poses, there
 
     def _around(self, number: int) -> FlangeTrack:
-        parts = [
-            part(track, track.times > before)
-            for block, before in zip(self._blocks[number : number + 2], self._before[number:], strict=False)
-            for track in [FlangeTrack(**next(self._rows.blocks(block)))]
-        ]
+        blocks = self._blocks[number : number + 2]
+        parts = [FlangeTrack(**next(self._rows.blocks(block))) for block in blocks]
         return parts[0] if len(parts) == 1 else joined(*parts)
 
 

@@ -218,7 +218,7 @@ def columns_of(track: WrenchTrack | FlangeTrack) -> dict[str, NDArray[Any]]:
     return {field.name: getattr(track, field.name) for field in fields(track)}
 
 
-def part(track: Track, rows: slice | NDArray[np.bool_]) -> Track:
+def part(track: Track, rows: slice) -> Track:
     """Return some of the samples."""
     return type(track)(**{name: values[rows] for name, values in columns_of(track).items()})
 

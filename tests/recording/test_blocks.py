@@ -64,7 +64,7 @@ def eventful(file: Path) -> Path:
             if number % 5 == 3 and not 1000 < number < 1160:
                 R = Rotation.from_rotvec([number * 1e-3, 0.3, np.sin(number * 1e-2)]).as_matrix()
                 p = np.array([number * 1e-3, 0.0, np.nan if number % 40 == 3 else 1.0])
-                joints = None if number < 500 else rng.normal(size=6 if number < 1000 else 7)
+                joints = None if number < 500 else rng.normal(size=7 if 800 < number < 1000 else 6)
                 off = rng.normal() * 0.01 - (1.0 if 550 < number < 570 else 0.0)
                 writer.flange(FlangeSample(moment + off, R, p, joints, None if number % 3 else number * 0.1))
             if number % 250 == 0:

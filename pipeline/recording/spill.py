@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,7 +45,9 @@ class Spill:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._file.close()
+        # What a full disk did not take is tried once more, and is needed by no one.
+        with suppress(OSError):
+            self._file.close()
 
     def write(self, data: bytes) -> int:
         """Append bytes; return where they are. RecordingError: the disk is full, or the like."""

@@ -326,6 +326,11 @@ class Full(io.BytesIO):
             raise OSError(errno.ENOSPC, "No space left on device")
         return super().write(data)
 
+    def close(self) -> None:
+        """As a file does that still holds bytes: it tries to write them."""
+        super().close()
+        raise OSError(errno.ENOSPC, "No space left on device")
+
 
 @pytest.mark.parametrize("convert", [write_csv, write_npz])
 def test_a_full_disk_is_named_and_what_was_there_stays(

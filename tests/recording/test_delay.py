@@ -85,7 +85,9 @@ def test_a_large_bias_moves_nothing_where_the_flange_turns_about_one_axis():
         return Rotation.from_rotvec(np.outer(np.sin(1.3 * times), [np.radians(20.0), 0.0, 0.0]))
 
     shaken = turned(pose.times) * Rotation.from_rotvec(1e-4 * rng.normal(size=(len(pose.times), 3)))
-    forces = turned(force.times - 0.05).inv().apply([0.0, 0.0, -2.0]) + rng.normal(0, 0.01, (len(force.times), 3))
+    forces = turned(force.times - 0.05).inv().apply([0.0, 0.0, -2.0]) + rng.normal(
+        0, 0.01, (len(force.times), 3)
+    )
 
     def found(bias):
         wrenches = np.column_stack((forces + bias, force.wrenches[:, 3:]))

@@ -26,7 +26,7 @@ _WORD = re.compile(r"[A-Za-z]{2,}")
 _CODE = re.compile(r"[<>]\w|\w\(|__|\\|^\s*[-#]|\n\s|://|%[sd]|\w=\w")
 _LEAST_WORDS = 2  # one is a key or a name, but for what begins and ends as a sentence does
 # What sentences are made of, too short to be told from keys and names.
-_PARTS = (
+PARTS = (
     *(
         "{0} and {1}",
         "{0} by {1}",
@@ -52,7 +52,7 @@ def templates(pipeline: Path) -> tuple[str, ...]:
     pipeline : Path
         Its folder.
     """
-    found = set(_PARTS)
+    found = set(PARTS)
     for file in sorted(pipeline.rglob("*.py")):
         place = file.relative_to(pipeline)
         if not _NOT_SHOWN & {each.as_posix() for each in (place, *place.parents)}:

@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 
 _screen = None
+# As the command line does. Set before anything loads numpy.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Tests do the work that they look at, and leave nothing in the user's folder.
 os.environ["CONTACTBENCH_CACHE"] = "off"
 # Benchmarks start processes of their own modules.

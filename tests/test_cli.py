@@ -68,6 +68,23 @@ def refused(result: Any, message: str) -> None:
 # ---- the whole -----------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize(("given", "used"), [(None, "1"), ("2", "2")])
+def test_a_command_takes_one_thread_for_small_matrices_but_what_it_is_told(
+    given: str | None, used: str
+) -> None:
+    code = (
+        "import os, sys\nfrom contactbench.app import cli\nassert 'numpy' not in sys.modules\n"
+        "print(os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    if given:
+        environment["OPENBLAS_NUM_THREADS"] = given
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout == f"{used}\n"
+
+
 def test_version():
     result = run("--version")
     assert result.exit_code == 0

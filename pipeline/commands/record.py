@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.devices.stream import Health
-    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
+    from contactbench.pipeline.recording import Recording
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import Pair
 
@@ -287,7 +287,6 @@ def _facts(health: Health) -> dict[str, Any]:
     return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}
 
 
-_LATE_S = 0.1
 _FLAGS = {
     "overrange": "overrange",
     "invalid": "invalid",
@@ -310,14 +309,14 @@ def info(file: FileArgument) -> None:
 
     Exit code 1: it is cut off or damaged, or contains no samples.
     """
-    found = _read(file)
-    topics = [
-        *(_wrench_facts(topic, track) for topic, track in found.wrenches.items()),
-        *(_flange_facts(topic, track) for topic, track in found.flanges.items()),
-    ]
+    from contactbench.pipeline.recording.contents import read_contents
+
+    with Bar("reading") as bar:
+        found = read_contents(file, bar)
+    topics = found.topics
     for facts in topics:
         say(_sentence(facts))
-    say(f"{len(found.events):,} events; written by {found.info.tool}.")
+    say(f"{found.events:,} events; written by {found.info.tool}.")
     for device in found.info.devices:
         say(" ".join(part for part in (device.topic, device.address, device.model, device.serial) if part))
     _warn(found.warnings)
@@ -333,8 +332,8 @@ def info(file: FileArgument) -> None:
             "devices": [
                 {name: getattr(device, name) for name in device.__slots__} for device in found.info.devices
             ],
-            "topics": topics,
-            "events": len(found.events),
+            "topics": list(topics),
+            "events": found.events,
             "warnings": list(found.warnings),
         }
     )
@@ -365,17 +364,13 @@ def convert(
     refuse_overwriting(out, [file])
     from contactbench.pipeline.recording.convert import write_csv, write_npz
 
-    found = _read(file)
-    left_out: tuple[str, ...] = ()
-    if ending == ".csv":
-        left_out = write_csv(out, found, topic)
-    else:
-        write_npz(out, found, topic)
-    warnings = (*found.warnings, *left_out)
+    with Bar("reading") as bar:
+        done = (write_csv if ending == ".csv" else write_npz)(out, file, topic, bar)
+    warnings = (*done.warnings, *done.left_out)
     _warn(warnings)
     say(f"written: {out}")
-    answer({"out": str(out), "complete": found.complete, "warnings": list(warnings)})
-    if found.warnings:
+    answer({"out": str(out), "complete": done.complete, "warnings": list(warnings)})
+    if done.warnings:
         raise typer.Exit(1)
 
 
@@ -471,59 +466,9 @@ def _warn(warnings: tuple[str, ...]) -> None:
         say(f"warning: {sentence}", "yellow")
 
 
-def _topic_facts(topic: str, kind: str, track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
-    times = track.times
-    duration = float(times.max() - times.min())
-    rate = (len(times) - 1) / duration if duration > 1e-9 else None
-    return {
-        "topic": topic,
-        "kind": kind,
-        "samples": len(times),
-        "seconds": duration,
-        "rate": rate,
-        **_latency(track),
-    }
-
-
-def _latency(track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
-    """Return how long samples took to arrive, s, beyond the shortest time; None where it is not known."""
-    import numpy as np
-
-    delays = (track.arrivals - track.times)[np.isfinite(track.arrivals)]
-    if not len(delays):
-        return {"latency_median": None, "latency_p99": None, "late": 0}
-    median, p99 = np.percentile(delays, (50, 99)).tolist()
-    return {
-        "latency_median": median,
-        "latency_p99": p99,
-        "late": int(np.count_nonzero(delays > _LATE_S)),
-    }
-
-
-def _wrench_facts(topic: str, track: WrenchTrack) -> dict[str, Any]:
-    import numpy as np
-
-    from contactbench.pipeline.devices.sample import Status
-
-    steps = np.diff(track.sequence[track.sequence >= 0])
-    return {
-        **_topic_facts(topic, "wrench", track),
-        "lost": sum(step - 1 for step in steps.tolist() if step > 1),
-        "unusable": int(np.count_nonzero(~track.usable)),
-        "frozen": int(np.count_nonzero(track.frozen)),
-        "flags": {
-            str(flag.name).lower(): count
-            for flag in Status
-            if (count := int(np.count_nonzero(track.status & flag)))
-        },
-    }
-
-
-def _flange_facts(topic: str, track: FlangeTrack) -> dict[str, Any]:
-    return {**_topic_facts(topic, "flange", track), "joints": track.joints.shape[1]}
-
-
 def _sentence(facts: dict[str, Any]) -> str:
+    from contactbench.pipeline.recording.contents import LATE_S
+
     rate = "" if facts["rate"] is None else f" ({facts['rate']:.1f} Hz)"
     what = {"wrench": "wrenches", "flange": "poses of the flange"}[facts["kind"]]
     sentence = f"{facts['topic']}: {facts['samples']:,} {what} in {facts['seconds']:.2f} s{rate}"
@@ -533,7 +478,7 @@ def _sentence(facts: dict[str, Any]) -> str:
             sentence += f", {facts['frozen']:,} frozen"
         sentence += "".join(f", {count:,} {_FLAGS[name]}" for name, count in facts["flags"].items())
     if facts["late"]:
-        sentence += f", {facts['late']:,} late by more than {_LATE_S:g} s"
+        sentence += f", {facts['late']:,} late by more than {LATE_S:g} s"
     if facts["latency_median"] is not None:
         median, p99 = 1e3 * facts["latency_median"], 1e3 * facts["latency_p99"]
         sentence += f"; latency {median:.1f} ms (median), {p99:.1f} ms (99th percentile)"

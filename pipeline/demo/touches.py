@@ -16,7 +16,6 @@ from contactbench.pipeline.demo.files import write_marked, write_recording, writ
 from contactbench.pipeline.demo.tape import STEP_S, DemoTape
 from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S
 from contactbench.pipeline.filtering import KalmanFilter
-from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
@@ -112,7 +111,7 @@ def press_markers(
     if rests:
         tape.rest(tool.weight(R_WS[None])[0], R_WS, HELD_S)
     tape.write(folder / "touches.mcap", tool, rng)
-    convert_to_csv(folder / "recording.csv", read_recording(folder / "touches.mcap"))
+    convert_to_csv(folder / "recording.csv", folder / "touches.mcap")
     write_marked(folder / "truth.csv", rows, moments)
     return _pressed(rows, moments, len(places) - len(rows))
 

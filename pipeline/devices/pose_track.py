@@ -62,10 +62,12 @@ def poses_at(
     usable = np.isfinite(moments) & np.isfinite(R).all(axis=(1, 2))
     latest = np.maximum.accumulate(np.where(usable, moments, -np.inf))
     usable &= np.r_[True, moments[1:] > latest[:-1]] if len(moments) else usable
+    if not usable.all():
+        moments, R, p = moments[usable], R[usable], p[usable]
     return kernel.poses_at(
-        np.ascontiguousarray(moments[usable], dtype=np.float64),
-        np.ascontiguousarray(R[usable], dtype=np.float64),
-        np.ascontiguousarray(p[usable], dtype=np.float64),
+        np.ascontiguousarray(moments, dtype=np.float64),
+        np.ascontiguousarray(R, dtype=np.float64),
+        np.ascontiguousarray(p, dtype=np.float64),
         np.ascontiguousarray(times, dtype=np.float64),
         longest_gap,
         longest_ahead,

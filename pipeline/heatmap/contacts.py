@@ -228,8 +228,9 @@ def locate_recording(
     if not parts:
         raise HeatmapError(f"{file}: no reading has a pose: record the robot throughout.")
     times, wrenches, R_WS = (np.concatenate(column) for column in zip(*parts, strict=True))
-    said = [*recording.warnings]
-    if lost := len(track.times) - len(times):
+    said, count = [*recording.warnings], len(track.times)
+    del recording, track, poses, parts  # nothing is held twice while contacts are located
+    if lost := count - len(times):
         said.append(f"{lost:,} readings left out: flagged as bad, or without a pose.")
     own = noise or measured_noise(times, wrenches)
     if own is None:

@@ -4,37 +4,60 @@ from __future__ import annotations
 
 import json
 import os
+from collections import defaultdict
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any, BinaryIO
+from zipfile import ZipFile
 
 import numpy as np
 
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.messages import Event
+from contactbench.pipeline.recording.reader import MOST_EVENT_BYTES, RecordingReader
+from contactbench.pipeline.recording.spill import Spill, Table
+from contactbench.pipeline.recording.tracks import (
+    FlangeTrack,
+    Repeats,
+    WrenchTrack,
+    columns_of,
+    joined,
+    padded,
+)
 from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.recording.reader import Recording
-    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.recording.info import RecordingInfo
 
 _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
 _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")
-_BLOCK_ROWS = 50_000
 
 # Poses are asked for at 50 Hz or more; over a longer gap the flange may have been anywhere.
 LONGEST_GAP = pose_track.LONGEST_GAP_S
 
 
-def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class Converted:
+    """How a recording was converted."""
+
+    complete: bool  # The recording was closed, and the file is whole
+    warnings: tuple[str, ...]  # What of it is missing or damaged: sentences
+    left_out: tuple[str, ...]  # What of the rest is not in the table: sentences
+
+
+def write_csv(
+    file: Path, source: Path, topic: str | None = None, progress: Callable[[int, int], None] | None = None
+) -> Converted:
     """
-    Write the samples of one topic as a table.
+    Write the samples of one topic of a recording of any length as a table.
 
     A wrench topic gives t,fx,fy,fz,mx,my,mz (s, N, N·m), status, sequence and temperature where there are any,
     and, if there is exactly one flange, its pose at the same moments: qw,qx,qy,qz (R_BE) and px,py,pz (m),
@@ -44,89 +67,132 @@ def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tup
     Parameters
     ----------
     file : path
-        Appears as a whole; what was there stays until then.
-    recording : Recording
+        Appears as a whole; what was there stays until then. Its folder also takes the readings until it is written.
+    source : path
+        The recording.
     topic : str, optional
         Left out: the wrenches if there is one sensor, else the one flange.
-
-    Returns
-    -------
-    tuple of str
-        What was left out: sentences.
+    progress : callable, optional
+        Gets the bytes read so far, and those in the recording.
 
     Raises
     ------
     RecordingError
-        There is no such topic, the choice is not clear, no row is left, or the file cannot be written.
+        The recording cannot be read, there is no such topic, the choice is not clear, no row is left, or the file
+        cannot be written.
     """
-    topic = _chosen(recording, topic)
-    table = _FlangeTable(recording, topic) if topic in recording.flanges else _WrenchTable(recording, topic)
-    some = False
-    with _whole_file(file) as stream:
-        stream.write((",".join(table.columns) + "\n").encode())
-        for begin in range(0, table.count, _BLOCK_ROWS):
-            columns = table.rows(slice(begin, begin + _BLOCK_ROWS))
-            if len(columns[0]):
-                some = True
-                stream.write(csv_rows(*map(_cells, columns)))
-        if not some:
-            reasons = " ".join(table.said()) or "There is none."
-            raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
-    return table.said()
+    with Spill(file.parent) as spill:
+        found = _put_aside(source, spill, progress)
+        topic = _chosen(found, topic)
+        table = _FlangeTable(found, topic) if topic in found.flanges else _WrenchTable(found, topic)
+        some = False
+        with _whole_file(file) as stream:
+            stream.write((",".join(table.columns) + "\n").encode())
+            for columns in table.blocks():
+                if len(columns[0]):
+                    some = True
+                    stream.write(csv_rows(*map(_cells, columns)))
+            if not some:
+                reasons = " ".join(table.said()) or "There is none."
+                raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
+    return Converted(found.complete, found.warnings, table.said())
 
 
-def write_npz(file: Path, recording: Recording, topic: str | None = None) -> None:
+def write_npz(
+    file: Path, source: Path, topic: str | None = None, progress: Callable[[int, int], None] | None = None
+) -> Converted:
     """
-    Write everything as NumPy arrays, no row left out and nothing interpolated.
+    Write everything in a recording of any length as NumPy arrays, no row left out and nothing interpolated.
 
     The names: `topics`, `about` and `events` are UTF-8 bytes of JSON; for the topic number i of `topics`
     there are `i/times` and the other arrays of its track, by their names there. Nothing is pickled.
 
     Parameters
     ----------
-    file : path
-        Appears as a whole; what was there stays until then.
-    recording : Recording
+    file, source, progress
+        As for `write_csv`.
     topic : str, optional
         Only that one.
 
     Raises
     ------
     RecordingError
-        There is no such topic, or the file cannot be written.
+        The recording cannot be read, there is no such topic, or the file cannot be written.
     """
-    tracks: Mapping[str, WrenchTrack | FlangeTrack] = {**recording.wrenches, **recording.flanges}
-    if topic is not None:
-        _check_topic(recording, topic)
-        tracks = {topic: tracks[topic]}
-    arrays: dict[str, NDArray[Any]] = {
-        "topics": _json_bytes(list(tracks)),
-        "about": _json_bytes(asdict(recording.info)),
-        "events": _json_bytes([asdict(event) for event in recording.events]),
-    }
-    for number, track in enumerate(tracks.values()):
-        arrays.update((f"{number}/{name}", values) for name, values in vars(track).items())
-    with _whole_file(file) as stream:
-        np.savez(stream, **arrays)  # type: ignore[arg-type]
+    with Spill(file.parent) as spill:
+        found = _put_aside(source, spill, progress)
+        tables: Mapping[str, Table] = {**found.wrenches, **found.flanges}
+        if topic is not None:
+            _check_topic(found, topic)
+            tables = {topic: tables[topic]}
+        facts = {
+            "topics": _json_bytes(list(tables)),
+            "about": _json_bytes(asdict(found.info)),
+            "events": _json_bytes([asdict(event) for event in found.events]),
+        }
+        with _whole_file(file) as stream, ZipFile(stream, "w") as archive:
+            for name, values in facts.items():
+                _write_array(archive, name, values.shape, [values])
+            for number, table in enumerate(tables.values()):
+                for name, shape in table.shapes.items():
+                    _write_array(archive, f"{number}/{name}", shape, table.column(name))
+    return Converted(found.complete, found.warnings, ())
 
 
-def _chosen(recording: Recording, topic: str | None) -> str:
+def _write_array(archive: ZipFile, name: str, shape: tuple[int, ...], blocks: Iterable[NDArray[Any]]) -> None:
+    """Write an array that comes in blocks as `numpy.savez` would write the whole."""
+    with archive.open(f"{name}.npy", "w", force_zip64=True) as stream:
+        for number, values in enumerate(blocks):
+            if number == 0:
+                kind = np.lib.format.dtype_to_descr(values.dtype)
+                header = {"descr": kind, "fortran_order": False, "shape": shape}
+                np.lib.format.write_array_header_1_0(stream, header)
+            stream.write((values if values.shape[1:] == shape[1:] else padded(values, shape[1])).tobytes())
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A recording that was put aside."""
+
+    info: RecordingInfo
+    wrenches: Mapping[str, Table]
+    flanges: Mapping[str, Table]
+    events: tuple[Event, ...]
+    warnings: tuple[str, ...]
+    complete: bool
+
+
+def _put_aside(source: Path, spill: Spill, progress: Callable[[int, int], None] | None) -> _Found:
+    wrenches: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
+    flanges: defaultdict[str, Table] = defaultdict(lambda: Table(spill))
+    events: list[Event] = []
+    with RecordingReader(source, progress) as reader:
+        reader.bound_events(MOST_EVENT_BYTES)
+        for topic, block in reader.blocks():
+            if isinstance(block, Event):
+                events.append(block)
+            else:
+                (wrenches if isinstance(block, WrenchTrack) else flanges)[topic].add(columns_of(block))
+        return _Found(reader.info, wrenches, flanges, tuple(events), tuple(reader.warnings), reader.complete)
+
+
+def _chosen(found: _Found, topic: str | None) -> str:
     if topic is not None:
-        _check_topic(recording, topic)
+        _check_topic(found, topic)
         return topic
-    for tracks in (recording.wrenches, recording.flanges):
-        if len(tracks) == 1:
-            return next(iter(tracks))
-        if tracks:
+    for tables in (found.wrenches, found.flanges):
+        if len(tables) == 1:
+            return next(iter(tables))
+        if tables:
             raise RecordingError(
-                f"the recording has several topics of that kind: {', '.join(tracks)}. Choose one:"
+                f"the recording has several topics of that kind: {', '.join(tables)}. Choose one:"
                 " --topic NAME."
             )
     raise RecordingError("the recording contains no samples, so there is nothing to convert.")
 
 
-def _check_topic(recording: Recording, topic: str) -> None:
-    known = (*recording.wrenches, *recording.flanges)
+def _check_topic(found: _Found, topic: str) -> None:
+    known = (*found.wrenches, *found.flanges)
     if topic not in known:
         raise RecordingError(
             f"the recording has no samples on {topic}; it has: {', '.join(known) or 'none'}."
@@ -136,33 +202,37 @@ def _check_topic(recording: Recording, topic: str) -> None:
 class _WrenchTable:
     """The wrenches of one sensor as rows of a table, a block at a time."""
 
-    def __init__(self, recording: Recording, topic: str) -> None:
-        self._track = track = recording.wrenches[topic]
-        self._flanges = [*recording.flanges.values()]
-        self.count = len(track.times)
+    def __init__(self, found: _Found, topic: str) -> None:
+        self._rows = rows = found.wrenches[topic]
+        self._several = len(found.flanges) > 1
+        self._poses = _Poses(*found.flanges.values()) if len(found.flanges) == 1 else None
         self._bad = self._lost = 0
-        optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (
-            ("sequence", track.sequence, track.sequence >= 0),
-            ("temperature", track.temperature, np.isfinite(track.temperature)),
-        )
-        more = {name: values for name, values, there in optional if there.all()}
-        self._more = (track.status, *more.values())
-        poses = _POSE_COLUMNS if len(self._flanges) == 1 else ()
-        self.columns = [*_WRENCH_COLUMNS, *poses, "status", *more]
+        more = [
+            *(["sequence"] if all((block >= 0).all() for block in rows.column("sequence")) else []),
+            *(
+                ["temperature"]
+                if all(np.isfinite(block).all() for block in rows.column("temperature"))
+                else []
+            ),
+        ]
+        self._more = ("status", *more)
+        self.columns = [*_WRENCH_COLUMNS, *(() if self._poses is None else _POSE_COLUMNS), *self._more]
 
-    def rows(self, rows: slice) -> list[NDArray[Any]]:
-        """Return the columns of those of some rows that are measurements and have a pose, if there is a flange."""
-        track = self._track
-        kept = track.usable[rows]
-        self._bad += int(np.count_nonzero(~kept))
-        parts: list[NDArray[Any]] = [track.times[rows], *track.wrenches[rows].T]
-        if len(self._flanges) == 1:
-            poses, there = poses_at(self._flanges[0], track.times[rows])
-            self._lost += int(np.count_nonzero(kept & ~there))
-            kept = kept & there
-            parts.extend(poses.T)
-        parts.extend(column[rows] for column in self._more)
-        return [part[kept] for part in parts]
+    def blocks(self) -> Iterator[list[NDArray[Any]]]:
+        """Yield the columns of the readings that are measurements and have a pose, if there is a flange."""
+        repeats = Repeats()
+        tracks = (repeats.add(WrenchTrack(**columns)) for columns in self._rows.blocks())
+        for track in chain(tracks, repeats.end()):
+            kept = track.usable
+            self._bad += int(np.count_nonzero(~kept))
+            parts: list[NDArray[Any]] = [track.times, *track.wrenches.T]
+            if self._poses is not None:
+                poses, there = self._poses.at(track.times)
+                self._lost += int(np.count_nonzero(kept & ~there))
+                kept = kept & there
+                parts.extend(poses.T)
+            parts.extend(getattr(track, name) for name in self._more)
+            yield [part[kept] for part in parts]
 
     def said(self) -> tuple[str, ...]:
         """Return what was left out so far: sentences."""
@@ -170,27 +240,59 @@ class _WrenchTable:
         return (
             *([f"{self._bad:,} readings left out: flagged as bad by the device."] if self._bad else []),
             *([f"{self._lost:,} readings left out: no pose within {LONGEST_GAP} s."] if self._lost else []),
-            *([several] if len(self._flanges) > 1 else []),
+            *([several] if self._several else []),
         )
 
 
 class _FlangeTable:
     """The poses of one flange as rows of a table, a block at a time."""
 
-    def __init__(self, recording: Recording, topic: str) -> None:
-        self._track = recording.flanges[topic]
-        self.count = len(self._track.times)
-        self.columns = ["t", *_POSE_COLUMNS, *(f"j{n + 1}" for n in range(self._track.joints.shape[1]))]
+    def __init__(self, found: _Found, topic: str) -> None:
+        self._rows = found.flanges[topic]
+        _, self._joints = self._rows.shapes["joints"]
+        self.columns = ["t", *_POSE_COLUMNS, *(f"j{n + 1}" for n in range(self._joints))]
 
-    def rows(self, rows: slice) -> list[NDArray[Any]]:
-        """Return the columns of some rows."""
-        track = self._track
-        quaternions, joints = _quaternions(track.R_BE[rows]), np.degrees(track.joints[rows])
-        return [track.times[rows], *quaternions.T, *track.p_BE_B[rows].T, *joints.T]
+    def blocks(self) -> Iterator[list[NDArray[Any]]]:
+        """Yield the columns."""
+        for columns in self._rows.blocks():
+            joints = np.degrees(padded(columns["joints"], self._joints))
+            yield [columns["times"], *_quaternions(columns["R_BE"]).T, *columns["p_BE_B"].T, *joints.T]
 
     def said(self) -> tuple[str, ...]:
         """Nothing is left out."""
         return ()
+
+
+class _Poses:
+    """The poses of one flange, of which only those around the times that are asked for come into memory."""
+
+    def __init__(self, rows: Table) -> None:
+        self._rows = rows
+        # The blocks with poses that are later than all before them, and the first of those times: `poses_at` leaves
+        # out the others.
+        self._blocks: list[int] = []
+        self._first: list[float] = []
+        latest = -np.inf
+        for number, times in enumerate(rows.column("times")):
+            if (times > latest).any():
+                self._blocks.append(number)
+                self._first.append(float(times[times > latest][0]))
+                latest = float(times.max())
+
+    def at(self, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Return the same as `poses_at` of all poses."""
+        poses, there = np.full((len(times), 7), np.nan), np.zeros(len(times), dtype=bool)
+        # A pose lies between the last one that is not later, and the one after that.
+        last = np.searchsorted(self._first, times, side="right") - 1
+        for number in np.unique(last[last >= 0]).tolist():
+            rows = last == number
+            poses[rows], there[rows] = poses_at(self._around(number), times[rows])
+        return poses, there
+
+    def _around(self, number: int) -> FlangeTrack:
+        blocks = self._blocks[number : number + 2]
+        parts = [FlangeTrack(**next(self._rows.blocks(block))) for block in blocks]
+        return parts[0] if len(parts) == 1 else joined(*parts)
 
 
 def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

@@ -210,10 +210,11 @@ def _unexplained(
     """Sum of squares that no linear function of the orientations explains, N²."""
     quaternions = poses_at(poses, times - shift)[0][:, [1, 2, 3, 0]]
     R = Rotation.from_quat(quaternions).as_matrix().reshape(-1, 9)
-    terms = np.column_stack((R, np.ones(len(R))))
-    # The normal equations are exact enough: an error of the solution counts squared in what is left.
-    solution, *_ = np.linalg.lstsq(terms.T @ terms, terms.T @ forces, rcond=1e-12)
-    return float(((forces - terms @ solution) ** 2).sum())
+    # About the means: a large bias leaves the normal equations no digits where the flange turns about one axis alone.
+    terms, sought = R - R.mean(axis=0), forces - forces.mean(axis=0)
+    # They are exact enough: an error of the solution counts squared in what is left.
+    solution, *_ = np.linalg.lstsq(terms.T @ terms, terms.T @ sought, rcond=1e-12)
+    return float(((sought - terms @ solution) ** 2).sum())
 
 
 def _turn(poses: FlangeTrack, times: NDArray[np.float64]) -> float:

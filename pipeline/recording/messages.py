@@ -22,7 +22,6 @@ _LONGEST_SAMPLE = 2**16  # a wrench or a pose takes less than a tenth of it
 _LARGEST = 2**63 - 1  # what arrays of integers hold
 _INFO_LEVEL = 2  # of foxglove.Log
 _ORTHOGONAL = 1e-6
-_UNIT = np.eye(3)
 
 # A wrench as `wrench_message` writes it. Whatever differs, if only by a space, is read as JSON.
 _COUNT = rb"(0|[1-9]\d{0,8})"
@@ -92,17 +91,20 @@ def flange_message(sample: FlangeSample, stamp_ns: int) -> bytes:
     MessageError
         It is no pose.
     """
-    R, p = np.asarray(sample.R_BE, dtype=np.float64), np.asarray(sample.p_BE_B, dtype=np.float64)
+    R_BE, p = np.asarray(sample.R_BE, dtype=np.float64), np.asarray(sample.p_BE_B, dtype=np.float64)
     if p.shape != (3,):
         raise MessageError("the position of the flange needs three numbers")
+    if R_BE.shape != (3, 3):
+        raise MessageError("the orientation of the flange is no rotation")
+    _check_rotation(R := R_BE.ravel().tolist())
     body: dict[str, Any] = {
         "timestamp": _stamp(stamp_ns),
         "parent_frame_id": "base",
         "child_frame_id": "flange",
         "translation": _named("xyz", p.tolist()),
-        "rotation": _named("xyzw", _quaternion(_rotation(R))),
+        "rotation": _named("xyzw", _quaternion(R)),
         "time": float(sample.time),
-        "R": R.ravel().tolist(),
+        "R": R,
     }
     if sample.joints is not None:
         joints = np.asarray(sample.joints, dtype=np.float64)
@@ -167,19 +169,21 @@ def _whole(value: int) -> int:
     return value
 
 
-def _rotation(R: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
-    # Written so that NaN fails too. Entries of a rotation are small: huge ones would overflow the product.
-    if R.shape != (3, 3) or not (np.abs(R) < 2).all() or not (np.abs(R.T @ R - _UNIT) < _ORTHOGONAL).all():
+def _check_rotation(R: list[float]) -> None:
+    # Poses come by the hundred thousand, and NumPy takes several times as long for nine numbers. Written so that NaN
+    # fails, too.
+    a, b, c, d, e, f, g, h, i = R
+    lengths = (a * a + d * d + g * g - 1, b * b + e * e + h * h - 1, c * c + f * f + i * i - 1)
+    angles = (a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i)
+    if not all(abs(off) < _ORTHOGONAL for off in (*lengths, *angles)):
         raise MessageError("the orientation of the flange is no rotation")
-    (a, b, c), (d, e, f), (g, h, i) = R.tolist()
     if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0:  # all but 1 or -1
         raise MessageError("the orientation of the flange is a reflection")
-    return R
 
 
-def _quaternion(R: np.ndarray[Any, np.dtype[np.float64]]) -> list[float]:
+def _quaternion(R: list[float]) -> list[float]:
     """Return x, y, z, w with w >= 0 by Shepperd's method: divided by the largest of the four."""
-    xx, xy, xz, yx, yy, yz, zx, zy, zz = R.ravel().tolist()
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = R
     products = (
         (1 + xx - yy - zz, xy + yx, xz + zx, zy - yz),
         (xy + yx, 1 - xx + yy - zz, yz + zy, xz - zx),
@@ -230,6 +234,20 @@ def wrench_cells(data: bytes) -> WrenchCells | None:
     return None if found is None else found.groups()
 
 
+def cells_of(sample: WrenchSample) -> WrenchCells:
+    """Return the numbers of a wrench as text, see `wrench_cells`: for one whose message was not written so."""
+
+    def cell(value: float | None) -> bytes | None:
+        return None if value is None else repr(float(value)).encode()
+
+    return (
+        *map(cell, (sample.time, *sample.force, *sample.torque)),
+        b"%d" % sample.status,
+        None if sample.sequence is None else b"%d" % sample.sequence,
+        *map(cell, (sample.device_time, sample.temperature, sample.arrival)),
+    )
+
+
 def read_flange(data: bytes) -> FlangeSample:
     """
     Return the pose of a message.
@@ -240,16 +258,16 @@ def read_flange(data: bytes) -> FlangeSample:
         It is none.
     """
     body = _body(data)
-    R = _numbers(body.get("R"), 9)
+    _check_rotation(R := _numbers(body.get("R"), 9))
     joints = None
     if "joints" in body:
         listed = body["joints"]
         if not isinstance(listed, list) or len(listed) > MOST_JOINTS:
             raise MessageError("joints are no list of angles")
-        joints = _numbers(listed, len(listed))
+        joints = np.array(_numbers(listed, len(listed)))
     return FlangeSample(
         _time(body),
-        _rotation(R.reshape(3, 3)),
+        np.array(R).reshape(3, 3),
         np.array(_triple(body.get("translation"))),
         joints,
         _given(body, "device_time"),
@@ -325,10 +343,10 @@ def _triple(value: Any) -> tuple[float, float, float]:
     return _number(value.get("x")), _number(value.get("y")), _number(value.get("z"))
 
 
-def _numbers(value: Any, count: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _numbers(value: Any, count: int) -> list[float]:
     if not isinstance(value, list) or len(value) != count:
         raise MessageError(f"no list of {count} numbers")
-    return np.array([_number(item) for item in value], dtype=np.float64)
+    return [_number(item) for item in value]
 
 
 def _count(value: Any, largest: int = _LARGEST) -> int:

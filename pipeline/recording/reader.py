@@ -25,6 +25,7 @@ from contactbench.pipeline.recording.info import (
 from contactbench.pipeline.recording.messages import (
     Event,
     MessageError,
+    cells_of,
     event_room,
     read_event,
     read_flange,
@@ -33,7 +34,7 @@ from contactbench.pipeline.recording.messages import (
 )
 from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from contactbench.pipeline.recording.stream import McapMessage, McapStream, Metadata
-from contactbench.pipeline.recording.tracks import FlangeColumns, FlangeTrack, WrenchColumns, WrenchTrack
+from contactbench.pipeline.recording.tracks import FlangeTrack, Whole, WrenchTrack, flange_track, wrench_track
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -48,6 +49,7 @@ _DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] 
     EVENT_SCHEMA: read_event,
 }
 
+BLOCK_ROWS = 16_384  # samples, of all topics together, of which blocks are made
 # Half a day of three sensors at 1 kHz; longer ones are read with RecordingReader.
 MOST_SAMPLES = 130_000_000
 _MOST_AT_ONCE = 4096  # samples of one arrival: what a damaged file has more of is no batch
@@ -159,8 +161,36 @@ class RecordingReader:
         """Close the file."""
         self._stream.close()
 
-    def samples_or_cells(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event | WrenchCells]]:
-        """Yield the same as an iteration, but of most wrenches only their cells: several times as fast to collect."""
+    def blocks(self) -> Iterator[tuple[str, WrenchTrack | FlangeTrack | Event]]:
+        """Yield the same as an iteration, several times as fast: events, and blocks of the samples of each topic."""
+        wrenches: defaultdict[str, list[WrenchCells]] = defaultdict(list)
+        flanges: defaultdict[str, list[FlangeSample]] = defaultdict(list)
+
+        def tracks() -> Iterator[tuple[str, WrenchTrack | FlangeTrack]]:
+            yield from ((topic, wrench_track(cells)) for topic, cells in wrenches.items())
+            yield from ((topic, flange_track(samples)) for topic, samples in flanges.items())
+            wrenches.clear()
+            flanges.clear()
+
+        room = BLOCK_ROWS
+        for topic, sample in self._samples_or_cells():
+            if isinstance(sample, tuple):
+                wrenches[topic].append(sample)
+            elif isinstance(sample, WrenchSample):
+                wrenches[topic].append(cells_of(sample))
+            elif isinstance(sample, FlangeSample):
+                flanges[topic].append(sample)
+            else:
+                yield topic, sample
+                continue
+            room -= 1
+            if not room:
+                yield from tracks()
+                room = BLOCK_ROWS
+        yield from tracks()
+
+    def _samples_or_cells(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event | WrenchCells]]:
+        """Yield the same as an iteration, but of most wrenches only their cells."""
         if self._format <= ARRIVALS_ONLY:
             yield from self
             return
@@ -241,22 +271,21 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
     RecordingError
         The file cannot be read, is no recording of contactbench, or is too long for arrays.
     """
-    wrenches: defaultdict[str, WrenchColumns] = defaultdict(WrenchColumns)
-    flanges: defaultdict[str, FlangeColumns] = defaultdict(FlangeColumns)
+    wrenches: defaultdict[str, Whole[WrenchTrack]] = defaultdict(lambda: Whole(WrenchTrack))
+    flanges: defaultdict[str, Whole[FlangeTrack]] = defaultdict(lambda: Whole(FlangeTrack))
     events: list[Event] = []
     room = MOST_SAMPLES
     with RecordingReader(path, progress) as reader:
         reader.bound_events(MOST_EVENT_BYTES)
-        for topic, sample in reader.samples_or_cells():
-            room -= 1
-            if isinstance(sample, tuple):
-                wrenches[topic].add_cells(sample)
-            elif isinstance(sample, WrenchSample):
-                wrenches[topic].add(sample)
-            elif isinstance(sample, FlangeSample):
-                flanges[topic].add(sample)
+        for topic, block in reader.blocks():
+            if isinstance(block, Event):
+                events.append(block)
+                continue
+            if isinstance(block, WrenchTrack):
+                wrenches[topic].add(block)
             else:
-                events.append(sample)
+                flanges[topic].add(block)
+            room -= len(block.times)
             if room < 0:
                 raise RecordingError(f"{path}: the recording is too long to read at once: split it.")
         return Recording(

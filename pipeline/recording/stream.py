@@ -6,7 +6,7 @@ import os
 import stat
 import zlib
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 import zstandard
 
@@ -44,8 +44,7 @@ class Channel:
     schema_encoding: str
 
 
-@dataclass(frozen=True, slots=True)
-class McapMessage:
+class McapMessage(NamedTuple):
     """What was published on a topic; log time in ns."""
 
     channel: Channel
@@ -158,10 +157,10 @@ class McapStream:
         elif opcode == Opcode.METADATA:
             cursor = Cursor(payload)
             yield Metadata(cursor.text(), cursor.mapping())
+        elif opcode == Opcode.MESSAGE:
+            yield self._message(payload, 0, len(payload))
         else:
-            message = self._plain(opcode, payload)
-            if message is not None:
-                yield message
+            self._describe(opcode, payload)
 
     def _chunk(self, payload: bytes) -> Iterator[McapMessage]:
         data = _unpacked(Cursor(payload))
@@ -173,19 +172,21 @@ class McapStream:
             at += PREFIX.size
             if length > len(data) - at:
                 raise ValueError("half a record")
-            message = self._plain(opcode, data[at : at + length])
+            if opcode == Opcode.MESSAGE:
+                yield self._message(data, at, at + length)
+            else:
+                self._describe(opcode, data[at : at + length])
             at += length
-            if message is not None:
-                yield message
 
-    def _plain(self, opcode: int, payload: bytes) -> McapMessage | None:
-        if opcode == Opcode.MESSAGE:
-            if len(payload) < MESSAGE_HEAD.size:
-                raise ValueError("half a message")
-            number, _, log_time, _ = MESSAGE_HEAD.unpack_from(payload)
-            if number not in self._channels:
-                raise ValueError(f"a message on channel {number}, which is not described")
-            return McapMessage(self._channels[number], log_time, payload[MESSAGE_HEAD.size :])
+    def _message(self, data: bytes, begin: int, end: int) -> McapMessage:
+        if end - begin < MESSAGE_HEAD.size:
+            raise ValueError("half a message")
+        number, _, log_time, _ = MESSAGE_HEAD.unpack_from(data, begin)
+        if number not in self._channels:
+            raise ValueError(f"a message on channel {number}, which is not described")
+        return McapMessage(self._channels[number], log_time, data[begin + MESSAGE_HEAD.size : end])
+
+    def _describe(self, opcode: int, payload: bytes) -> None:
         cursor = Cursor(payload)
         if opcode == Opcode.SCHEMA:
             number = cursor.number(2)
@@ -194,7 +195,6 @@ class McapStream:
             number, schema = cursor.number(2), cursor.number(2)
             topic, encoding = cursor.text(), cursor.text()
             self._channels.setdefault(number, Channel(topic, encoding, *self._schemas.get(schema, ("", ""))))
-        return None
 
     def _end(self, payload: bytes) -> None:
         expected = int.from_bytes(payload[:4], "little")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from array import array
-from dataclasses import dataclass
+from collections import defaultdict
+from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import TYPE_CHECKING
+from itertools import repeat
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
@@ -14,14 +15,13 @@ from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSa
 from contactbench.pipeline.tables.decimals import floats_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.devices.sample import FlangeSample
     from contactbench.pipeline.recording.messages import WrenchCells
 
-_TOGETHER = 4096  # samples whose numbers are read at once
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 
 
@@ -113,84 +113,133 @@ class FlangeTrack:
     arrivals: NDArray[np.float64]
 
 
-class WrenchColumns:
-    """Collect samples in columns: an hour at 1 kHz fits where 3.6 million objects would not."""
+Track = TypeVar("Track", WrenchTrack, FlangeTrack)
+
+
+def wrench_track(samples: Sequence[WrenchCells]) -> WrenchTrack:
+    """Read the numbers of samples (n,) together, n > 0: one by one would take several times as long."""
+    times, *wrench, status, sequence, device_time, temperature, arrivals = zip(*samples, strict=True)
+    return WrenchTrack(
+        times=_numbers(times),
+        wrenches=np.column_stack([_numbers(cells) for cells in wrench]),
+        sequence=_counts(sequence),
+        status=_counts(status),
+        device_time=_numbers(device_time),
+        temperature=_numbers(temperature),
+        arrivals=_numbers(arrivals),
+    )
+
+
+def flange_track(samples: Sequence[FlangeSample]) -> FlangeTrack:
+    """Put poses (n,) in columns, n > 0; where they differ in the number of joints, the missing ones are NaN."""
+    known = [() if sample.joints is None else sample.joints for sample in samples]
+    joints = np.full((len(samples), max(map(len, known))), np.nan)
+    for row, angles in enumerate(known):
+        joints[row, : len(angles)] = angles
+    return FlangeTrack(
+        times=np.array([sample.time for sample in samples]),
+        R_BE=np.array([sample.R_BE for sample in samples]),
+        p_BE_B=np.array([sample.p_BE_B for sample in samples]),
+        joints=joints,
+        device_time=np.array([_or_nan(sample.device_time) for sample in samples]),
+        arrivals=np.array([_or_nan(sample.arrival) for sample in samples]),
+    )
+
+
+class Whole(Generic[Track]):
+    """A track that grows by blocks and is in memory once."""
+
+    def __init__(self, kind: Callable[..., Track]) -> None:
+        self._kind: Callable[..., Track] = kind
+        self._columns: defaultdict[str, bytearray] = defaultdict(bytearray)
+        self._forms: dict[str, tuple[np.dtype[Any], tuple[int, ...]]] = {}
+        self._count = 0
+
+    def add(self, block: Track) -> None:
+        """Append the samples of a block."""
+        columns = columns_of(block)
+        if "joints" in columns:
+            columns["joints"] = self._as_wide(columns["joints"])
+        for name, values in columns.items():
+            self._forms[name] = values.dtype, values.shape[1:]
+            # Where there is no room left, the system moves the pages and copies nothing.
+            self._columns[name] += values.tobytes()
+        self._count += len(block.times)
+
+    def track(self) -> Track:
+        """Return the samples; no more can be added then."""
+        return self._kind(**{name: self._array(name) for name in self._columns})
+
+    def _array(self, name: str) -> NDArray[Any]:
+        kind, shape = self._forms[name]
+        return np.frombuffer(self._columns[name], kind).reshape(self._count, *shape)
+
+    def _as_wide(self, joints: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return joints in as many columns as the widest so far; those so far become as wide as these."""
+        width = self._forms["joints"][1][0] if self._count else 0
+        if joints.shape[1] > width and self._count:
+            self._columns["joints"] = bytearray(padded(self._array("joints"), joints.shape[1]).tobytes())
+        return padded(joints, max(width, joints.shape[1]))
+
+
+class Repeats:
+    """
+    Tell the frozen readings of a track that comes in blocks: `frozen` of a block alone knows nothing of the others.
+
+    What led to a run that is told frozen was frozen, too: readings of a run that is not decided are held back.
+    """
 
     def __init__(self) -> None:
-        self._numbers = array("d")
-        self._counts = array("q")
-        self._cells: list[WrenchCells] = []
+        self._detector = kernel.FrozenDetector()
+        self._held: WrenchTrack | None = None
 
-    def add_cells(self, cells: WrenchCells) -> None:
-        """Append a sample, see `wrench_cells`; they are read thousands at a time."""
-        self._cells.append(cells)
-        if len(self._cells) == _TOGETHER:
-            self._read_cells()
-
-    def add(self, sample: WrenchSample) -> None:
-        """Append a sample."""
-        self._read_cells()
-        self._numbers.extend((sample.time, _or_nan(sample.device_time), _or_nan(sample.temperature)))
-        self._numbers.extend((_or_nan(sample.arrival), *sample.force, *sample.torque))
-        self._counts.extend((-1 if sample.sequence is None else sample.sequence, sample.status))
-
-    def _read_cells(self) -> None:
-        if not self._cells:
-            return
-        time, *wrench, status, sequence, device_time, temperature, arrival = zip(*self._cells, strict=True)
-        self._cells.clear()
-        numbers = [_numbers(column) for column in (time, device_time, temperature, arrival, *wrench)]
-        self._numbers.frombytes(np.column_stack(numbers).tobytes())
-        counts = [[-1 if cell is None else int(cell) for cell in column] for column in (sequence, status)]
-        self._counts.frombytes(np.column_stack(counts).astype(np.int64).tobytes())
-
-    def track(self) -> WrenchTrack:
-        """Return the samples so far."""
-        self._read_cells()
-        numbers = np.array(self._numbers).reshape(-1, 10)
-        counts = np.array(self._counts).reshape(-1, 2)
-        return WrenchTrack(
-            times=numbers[:, 0].copy(),
-            wrenches=numbers[:, 4:].copy(),
-            sequence=counts[:, 0].copy(),
-            status=counts[:, 1].copy(),
-            device_time=numbers[:, 1].copy(),
-            temperature=numbers[:, 2].copy(),
-            arrivals=numbers[:, 3].copy(),
+    def add(self, block: WrenchTrack) -> WrenchTrack:
+        """Return the readings that are decided, perhaps none: their `frozen` and `usable` are those of the whole."""
+        told = np.fromiter(
+            map(self._detector.see, block.wrenches.tolist(), repeat(FROZEN_CHANCE)), dtype=bool
         )
+        if self._held is not None:
+            told = np.concatenate((np.zeros(len(self._held.times), dtype=bool), told))
+            block = joined(self._held, block)
+        begins = np.flatnonzero(np.r_[True, (block.wrenches[1:] != block.wrenches[:-1]).any(axis=1)])
+        frozen = np.repeat(np.logical_or.reduceat(told, begins), np.diff(np.r_[begins, len(told)]))
+        decided = len(told) if told[-1] else int(begins[-1])
+        self._held = None if told[-1] else part(block, slice(decided, None))
+        return _known(part(block, slice(decided)), frozen[:decided])
+
+    def end(self) -> Iterator[WrenchTrack]:
+        """Yield what was held back: nothing decided that it is frozen."""
+        if self._held is not None:
+            yield _known(self._held, np.zeros(len(self._held.times), dtype=bool))
 
 
-class FlangeColumns:
-    """Collect poses in columns; where samples differ in the number of joints, the missing ones are NaN."""
+def columns_of(track: WrenchTrack | FlangeTrack) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a track by name."""
+    return {field.name: getattr(track, field.name) for field in fields(track)}
 
-    def __init__(self) -> None:
-        self._numbers = array("d")
-        self._joints = array("d")
-        self._joint_counts = array("q")
 
-    def add(self, sample: FlangeSample) -> None:
-        """Append a pose."""
-        self._numbers.extend((sample.time, _or_nan(sample.device_time), _or_nan(sample.arrival)))
-        self._numbers.extend(sample.p_BE_B.tolist())
-        self._numbers.extend(sample.R_BE.ravel().tolist())
-        joints = [] if sample.joints is None else sample.joints.tolist()
-        self._joints.extend(joints)
-        self._joint_counts.append(len(joints))
+def part(track: Track, rows: slice) -> Track:
+    """Return some of the samples."""
+    return type(track)(**{name: values[rows] for name, values in columns_of(track).items()})
 
-    def track(self) -> FlangeTrack:
-        """Return the poses so far."""
-        numbers = np.array(self._numbers).reshape(-1, 15)
-        counts = np.array(self._joint_counts)
-        joints = np.full((len(numbers), counts.max(initial=0)), np.nan)
-        joints[np.arange(joints.shape[1]) < counts[:, None]] = self._joints
-        return FlangeTrack(
-            times=numbers[:, 0].copy(),
-            R_BE=numbers[:, 6:].reshape(-1, 3, 3),
-            p_BE_B=numbers[:, 3:6].copy(),
-            joints=joints,
-            device_time=numbers[:, 1].copy(),
-            arrivals=numbers[:, 2].copy(),
-        )
+
+def joined(first: Track, second: Track) -> Track:
+    """Return the samples of one track, then those of the other."""
+    one, other = columns_of(first), columns_of(second)
+    if "joints" in one:
+        width = max(one["joints"].shape[1], other["joints"].shape[1])
+        one["joints"], other["joints"] = padded(one["joints"], width), padded(other["joints"], width)
+    return type(first)(**{name: np.concatenate((one[name], other[name])) for name in one})
+
+
+def _known(track: WrenchTrack, frozen: NDArray[np.bool_]) -> WrenchTrack:
+    vars(track)["frozen"] = frozen  # where the property would put it
+    return track
+
+
+def padded(joints: NDArray[np.float64], width: int) -> NDArray[np.float64]:
+    """Return joints (n, k) in so many columns; NaN in the new ones."""
+    return np.pad(joints, ((0, 0), (0, width - joints.shape[1])), constant_values=np.nan)
 
 
 def _numbers(cells: Sequence[bytes | None]) -> NDArray[np.float64]:
@@ -198,6 +247,11 @@ def _numbers(cells: Sequence[bytes | None]) -> NDArray[np.float64]:
     if not any(cells):
         return np.full(len(cells), np.nan)
     return floats_of([cell or b"" for cell in cells])
+
+
+def _counts(cells: Sequence[bytes | None]) -> NDArray[np.int64]:
+    """Read cells (n,) as counts; -1 where there is none."""
+    return np.array([-1 if cell is None else int(cell) for cell in cells], dtype=np.int64)
 
 
 def _or_nan(value: float | None) -> float:

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.recording import RecordingError, RecordingReader
+from contactbench.pipeline.recording import Event, RecordingError, RecordingReader, WrenchTrack
 from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import UNFINISHED, digest_of, own_file, unfinished, wrong_with
@@ -131,14 +130,15 @@ def _look(file: Path) -> _Found:
     wrenches = flanges = 0
     last: float | None = None
     with RecordingReader(file) as reader:
-        for _, sample in reader:
-            if isinstance(sample, WrenchSample):
-                wrenches += 1
-            elif isinstance(sample, FlangeSample):
-                flanges += 1
-            else:
+        for _, block in reader.blocks():
+            if isinstance(block, Event):
                 continue
-            last = sample.time if last is None else max(last, sample.time)
+            if isinstance(block, WrenchTrack):
+                wrenches += len(block.times)
+            else:
+                flanges += len(block.times)
+            latest = float(block.times.max())
+            last = latest if last is None else max(last, latest)
         serials = [each.serial for each in reader.info.devices if each.kind == "wrench" and each.serial]
         info, warnings = reader.info, tuple(reader.warnings)
         sound = reader.complete and not warnings

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 WIDTH = 24
 
 # Decimal exponents done here; all other numbers are left to repr. In this range every step below is exact.
-_LOWEST, _END = -4, 3
+_LOWEST, _END = -4, 12
 _SPLITTER = float(2**27 + 1)
 _BOUNDS = np.array([float(f"1e{e}") for e in range(_LOWEST, _END + 1)])
 
@@ -43,7 +43,7 @@ def shortest(values: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
 
     Notes
     -----
-    For absolute values from 1e-4 to 1e3 the number x 10^p with 17 digits before the point is worked out
+    For absolute values from 1e-4 to 1e12 the number x 10^p with 17 digits before the point is worked out
     exactly, as the sum of two floats. The shortest text is the nearest multiple of 100, else of 10, else
     of 1, that lies within half the distance to the neighbouring floats. Ties are left to ``repr``.
     """
@@ -52,7 +52,8 @@ def shortest(values: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
     size = np.abs(values)
     exponent = np.searchsorted(_BOUNDS, size, side="right") + (_LOWEST - 1)  # NaN sorts behind all bounds
     left = ~np.isnan(values)
-    for e in range(_LOWEST, _END):
+    counts = np.bincount(exponent - (_LOWEST - 1), minlength=_END - _LOWEST + 2)[1:-1]
+    for e in (np.flatnonzero(counts) + _LOWEST).tolist():
         rows = np.flatnonzero(exponent == e)
         digits, sure = _digits(size[rows], 16 - e)
         rows, digits = rows[sure], digits[sure]

@@ -151,9 +151,9 @@ def explain(evidence: TouchEvidence) -> Explained:
     y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
     Z = {cause: (whiten @ X).reshape(len(y), -1) for cause, X in columns.items()}
     base, scale = _likelihood(y, np.zeros((len(y), 0)))
-    alone = {cause: max(_likelihood(y, size * Z[cause])[0] for size in _SIZES) - base for cause in Z}
     chosen: dict[ErrorCause, float] = {}
     best = base
+    alone: dict[ErrorCause, float] = {}
     while len(chosen) < len(Z):
         tries = [
             (*_likelihood(y, _stack(Z, {**chosen, cause: size})), cause, size)
@@ -161,6 +161,8 @@ def explain(evidence: TouchEvidence) -> Explained:
             if cause not in chosen
             for size in _SIZES
         ]
+        if not chosen:
+            alone = {each: max(value for value, _, cause, _ in tries if cause is each) - base for each in Z}
         value, new_scale, cause, size = max(tries, key=lambda each: each[0])
         if value - best < _EVIDENCE:
             break
@@ -309,12 +311,14 @@ def _stack(Z: dict[ErrorCause, Array], sizes: dict[ErrorCause, float]) -> Array:
 def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
     """Return the log likelihood of y ~ N(0, s² I + Z Z'), and the s that makes it largest."""
     s2 = _SCALES**2
+    values, u2 = np.zeros(0), np.zeros(0)
     if Z.shape[1]:
-        values, vectors = np.linalg.eigh(Z.T @ Z)
+        # Z Z' has the same eigenvalues as Z' Z but zeros: the smaller of the two is taken apart.
+        wide = Z.shape[1] > len(y)
+        values, vectors = np.linalg.eigh(Z @ Z.T if wide else Z.T @ Z)
         kept = values > 1e-12 * max(values[-1], 1e-300)
-        values, u2 = values[kept], (vectors[:, kept].T @ (Z.T @ y)) ** 2 / values[kept]
-    else:
-        values, u2 = np.zeros(0), np.zeros(0)
+        values, vectors = values[kept], vectors[:, kept]
+        u2 = (vectors.T @ y) ** 2 if wide else (vectors.T @ (Z.T @ y)) ** 2 / values
     both = s2[:, None] + values
     free, rest = len(y) - len(values), max(float(y @ y - u2.sum()), 0.0)
     log = -0.5 * ((np.log(both) + u2 / both).sum(axis=1) + free * np.log(s2) + rest / s2)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
+_BLOCK_ROWS = 65_536
 _REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, reference force in N")
 
 
@@ -123,19 +124,26 @@ def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
             f"{file}: {len(recording.wrenches)} sensors and {len(recording.flanges)} flanges: a"
             " verification needs one of each. Convert the right ones to CSV."
         )
-    track, flange = next(iter(recording.wrenches.values())), next(iter(recording.flanges.values()))
-    poses, there = poses_at(flange, track.times)
+    (track,), (flange,) = recording.wrenches.values(), recording.flanges.values()
     clipped = (track.status & _OVERRANGE) != 0
-    kept = there & (track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1) & ~track.frozen))
-    if not kept.any():
+    kept = track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1) & ~track.frozen)
+    R_WS = np.empty((len(kept), 3, 3))
+    count = 0
+    for begin in range(0, len(kept), _BLOCK_ROWS):
+        rows = slice(begin, begin + _BLOCK_ROWS)
+        poses, there = poses_at(flange, track.times[rows])
+        kept[rows] &= there
+        if found := int(np.count_nonzero(kept[rows])):
+            R_WS[count : count + found] = sensor_orientations(poses[kept[rows], :4], Convention(), R_ES)
+            count += found
+    if not count:
         raise InputError(f"{file}: no reading has a pose: record the robot together with the sensor.")
-    lost = int(np.count_nonzero(~kept))
+    lost = len(kept) - count
     said = [f"{lost:,} readings left out: without a pose, or flagged as bad by the device."] if lost else []
-    R_WS = sensor_orientations(poses[kept, :4], Convention(), R_ES)
     return TouchRecording(
         track.times[kept],
         track.wrenches[kept],
-        R_WS,
+        R_WS[:count],
         clipped[kept],
         (*recording.warnings, *said, *clock_sentences(track.times[kept], str(file))),
     )

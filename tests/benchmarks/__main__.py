@@ -18,6 +18,9 @@ from pathlib import Path
 from contactbench.app.commands import check_screen
 from contactbench.pipeline.errors import InputError
 
+# As the command line does; before a benchmark loads numpy.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # Name: where the function is. The first line of its module's docstring is its help.
 BENCHMARKS = {
     "alignment": "preparation.alignment:run",

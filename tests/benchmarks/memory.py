@@ -45,9 +45,9 @@ class Command:
 
 
 COMMANDS = {
-    "record info": Command("record info {gravity}", "gravity", flat=False),
-    "record convert to .csv": Command("record convert {gravity} --out {out}.csv", "gravity", flat=False),
-    "record convert to .npz": Command("record convert {gravity} --out {out}.npz", "gravity", flat=False),
+    "record info": Command("record info {gravity}", "gravity"),
+    "record convert to .csv": Command("record convert {gravity} --out {out}.csv", "gravity"),
+    "record convert to .npz": Command("record convert {gravity} --out {out}.npz", "gravity"),
     "record delay": Command("record delay {gravity}", "gravity", flat=False, codes=(0, 1)),
     "record start from a replay": Command(
         "record start replay://{gravity}?speed=step --pose replay://{gravity}?speed=step --out {out}.mcap",

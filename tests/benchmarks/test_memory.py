@@ -13,14 +13,14 @@ pytestmark = pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason=
 
 
 def test_reading_on_is_flat_and_holding_all_is_not() -> None:
-    report = memory.run((1, 4), ["record start from a replay", "record info"])
+    report = memory.run((1, 4), ["record start from a replay", "record delay"])
     flat, held = report.figures
     assert flat.most is not None
     assert flat.passed, flat
     assert held.most is None
     assert held.measured > 5
     (sheet,) = report.sheets
-    assert [row[0] for row in sheet.rows] == ["record start from a replay", "record info"]
+    assert [row[0] for row in sheet.rows] == ["record start from a replay", "record delay"]
     assert all(30 < peak < 1_000 for row in sheet.rows for peak in row[1:3])
 
 

@@ -149,9 +149,10 @@ def _conversion(folder: Path, count: int, progress: Callable[[str], None]) -> li
             json.loads(message.data)
     parser = process_time() - begun
     begun = process_time()
-    found = read_recording(file)
+    read_recording(file)
     read = process_time() - begun
-    write_csv(folder / "recording.csv", found)
+    begun = process_time()
+    write_csv(folder / "recording.csv", file)
     whole = process_time() - begun
     subject = f"recording of {count:,} samples"
     size = file.stat().st_size
@@ -181,12 +182,12 @@ def record(file: Path, count: int) -> None:
 
 _MEASURE = """
 import sys
-from contactbench.pipeline.recording import convert, read_recording
+from contactbench.pipeline.recording import convert
 from pathlib import Path
 def most():  # of this program alone: what getrusage says may be its parent's
     return next(int(line.split()[1]) for line in open("/proc/self/status") if line.startswith("VmHWM"))
 before = most()
-convert.write_csv(Path(sys.argv[1] + ".csv"), read_recording(Path(sys.argv[1])))
+convert.write_csv(Path(sys.argv[1] + ".csv"), Path(sys.argv[1]))
 print(1024 * (most() - before))
 """
 

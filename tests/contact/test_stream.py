@@ -164,12 +164,13 @@ def test_shortest_is_repr(seed):
     values = np.concatenate(
         (
             random.normal(0, 0.1, size),
-            10.0 ** random.uniform(-7, 6, size),
+            10.0 ** random.uniform(-7, 14, 3 * size),
+            np.round(10.0 ** random.uniform(2, 12, size), 6),
             -random.integers(1, 10**6, size) / 10.0 ** random.integers(0, 9, size),
             random.integers(0, 2**20, size) / 2.0 ** random.integers(0, 30, size),
-            np.nextafter(10.0 ** np.arange(-6, 6), 0),
-            np.nextafter(10.0 ** np.arange(-6, 6), 1e9),
-            np.nextafter(2.0 ** np.arange(-20, 12), 0),
+            np.nextafter(10.0 ** np.arange(-6, 14), 0),
+            np.nextafter(10.0 ** np.arange(-6, 14), 1e15),
+            np.nextafter(2.0 ** np.arange(-20, 45), 0),
             [0.0, -0.0, math.inf, -math.inf, 5e-324, -1.7976931348623157e308, 0.1, 0.0001, 1000.0, 999.9999],
         )
     )

@@ -66,6 +66,12 @@ inline void check_decimals() {
 }
 
 inline void check_rows() {
+    for (const std::size_t cells : {std::size_t(4), std::size_t(-1)}) {
+        const contactbench::Layout layout{cells, {0}, {0}};
+        contactbench::PlainRows out;
+        CHECK(!contactbench::read_plain("1,\n", 0, 3, layout, out));
+        CHECK(contactbench::read_plain("1,\n", 3, 3, layout, out) && out.count == 0);
+    }
     Random random(31);
     for (int round = 0; round < 3'000; ++round) {
         const std::size_t cells = 1 + random.below(4), rows = random.below(6);

@@ -32,7 +32,7 @@ def table(file: Path) -> dict[str, list[str]]:
 
 def test_wrenches_are_read_by_the_rest_of_the_program_bit_for_bit(tmp_path: Path) -> None:
     found = read_recording(record(tmp_path / "r.mcap", 300, 0))
-    assert write_csv(tmp_path / "r.csv", found) == ()
+    assert write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out == ()
     with (tmp_path / "r.csv").open("rb") as stream:
         blocks = list(WrenchReader(stream, "r.csv", timed=True))
     track = found.wrenches["/wrench"]
@@ -54,8 +54,7 @@ def test_poses_stand_beside_the_wrenches(tmp_path: Path) -> None:
                 writer.flange(FlangeSample(1000 + moment, R, np.array([moment, 0.0, 1.0])))
         for sample in wrench_samples(240):
             writer.wrench(sample)
-    found = read_recording(tmp_path / "r.mcap")
-    (said,) = write_csv(tmp_path / "r.csv", found)
+    (said,) = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out
     cells = table(tmp_path / "r.csv")
     t = np.array(cells["t"], float) - 1000
     assert said == f"{240 - len(t)} readings left out: no pose within {LONGEST_GAP} s."
@@ -76,7 +75,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
         for sample, status in zip(good, states, strict=True):
             writer.wrench(replace(sample, status=status))
         writer.wrench(WrenchSample(1001.0, (np.nan, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    (said,) = write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
+    (said,) = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out
     assert said.startswith("5 readings left out")
     cells = table(tmp_path / "r.csv")
     assert cells["status"] == ["0", "8"]
@@ -85,7 +84,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
 
 def test_the_poses_alone(tmp_path: Path) -> None:
     found = read_recording(record(tmp_path / "r.mcap", 1, 20))
-    write_csv(tmp_path / "r.csv", found, "/flange")
+    write_csv(tmp_path / "r.csv", tmp_path / "r.mcap", "/flange")
     cells = table(tmp_path / "r.csv")
     names = ["t", "qw", "qx", "qy", "qz", "px", "py", "pz", "j1", "j2", "j3", "j4", "j5", "j6"]
     assert list(cells) == names
@@ -96,7 +95,7 @@ def test_the_poses_alone(tmp_path: Path) -> None:
 
 def test_npz_has_everything_and_needs_no_pickle(tmp_path: Path) -> None:
     found = read_recording(record(tmp_path / "r.mcap"))
-    write_npz(tmp_path / "r.npz", found)
+    write_npz(tmp_path / "r.npz", tmp_path / "r.mcap")
     with np.load(tmp_path / "r.npz", allow_pickle=False) as stored:
         for number, track in enumerate((*found.wrenches.values(), *found.flanges.values())):
             for name, values in vars(track).items():
@@ -105,7 +104,7 @@ def test_npz_has_everything_and_needs_no_pickle(tmp_path: Path) -> None:
     assert told["topics"] == [*found.wrenches, *found.flanges]
     assert told["about"]["devices"][0]["serial"] == "SN 1"
     assert told["events"][0] == {"time": 1000.0, "name": "start", "fields": {"who": "A. B.", "n": 1}}
-    write_npz(tmp_path / "one.npz", found, "/flange")
+    write_npz(tmp_path / "one.npz", tmp_path / "r.mcap", "/flange")
     with np.load(tmp_path / "one.npz", allow_pickle=False) as stored:
         assert json.loads(stored["topics"].tobytes()) == ["/flange"]
 
@@ -115,29 +114,29 @@ def test_topics_that_are_not_clear(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", about) as writer:
         writer.wrench(WrenchSample(1.0, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0)), "/a")
         writer.wrench(WrenchSample(1.0, (9.0, 2.0, 3.0), (0.0, 0.0, 0.0)), "/b")
-    found = read_recording(tmp_path / "r.mcap")
+    file = tmp_path / "r.mcap"
     with pytest.raises(RecordingError, match=r"several topics of that kind: /a, /b\. Choose one: --topic"):
-        write_csv(tmp_path / "r.csv", found)
+        write_csv(tmp_path / "r.csv", file)
     with pytest.raises(RecordingError, match="no samples on /c; it has: /a, /b"):
-        write_csv(tmp_path / "r.csv", found, "/c")
-    write_csv(tmp_path / "r.csv", found, "/b")
+        write_csv(tmp_path / "r.csv", file, "/c")
+    write_csv(tmp_path / "r.csv", file, "/b")
     assert table(tmp_path / "r.csv")["fx"] == ["9.0"]
 
 
 def test_nothing_to_write_leaves_what_is_there(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
         writer.wrench(replace(wrench_samples(1)[0], status=Status.INVALID))
-    found = read_recording(tmp_path / "r.mcap")
+    file = tmp_path / "r.mcap"
     (tmp_path / "r.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(RecordingError, match="no reading of /wrench is usable"):
-        write_csv(tmp_path / "r.csv", found)
+        write_csv(tmp_path / "r.csv", file)
     assert (tmp_path / "r.csv").read_text(encoding="utf-8") == "mine"
     with pytest.raises(RecordingError, match="cannot be written"):
-        write_npz(tmp_path / "missing" / "r.npz", found)
+        write_npz(tmp_path / "missing" / "r.npz", file)
     with RecordingWriter(tmp_path / "e.mcap", ABOUT):
         pass
     with pytest.raises(RecordingError, match="contains no samples"):
-        write_csv(tmp_path / "r.csv", read_recording(tmp_path / "e.mcap"))
+        write_csv(tmp_path / "r.csv", tmp_path / "e.mcap")
 
 
 def test_a_single_pose_or_a_repeated_moment_makes_no_pose_up(tmp_path: Path) -> None:
@@ -155,7 +154,7 @@ def test_counts_keep_all_their_digits(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
         for sample, count in zip(wrench_samples(3), counts, strict=True):
             writer.wrench(replace(sample, sequence=count))
-    write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
+    write_csv(tmp_path / "r.csv", tmp_path / "r.mcap")
     assert [int(cell) for cell in table(tmp_path / "r.csv")["sequence"]] == counts
 
 
@@ -163,6 +162,6 @@ def test_unknown_positions_are_empty_cells(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
         for number in range(2):
             writer.flange(FlangeSample(1000.0 + number, np.eye(3), np.array([np.nan, 0.5, np.nan])))
-    write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
+    write_csv(tmp_path / "r.csv", tmp_path / "r.mcap")
     cells = table(tmp_path / "r.csv")
     assert (cells["px"], cells["py"], cells["qw"]) == (["", ""], ["0.5", "0.5"], ["1.0", "1.0"])

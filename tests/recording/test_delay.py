@@ -77,6 +77,28 @@ def test_the_sigma_is_honest():
     assert abs(np.mean(off)) < 1.0
 
 
+def test_a_large_bias_moves_nothing_where_the_flange_turns_about_one_axis():
+    rng = np.random.default_rng(3)
+    force, pose = tracks(0.05)
+
+    def turned(times):
+        return Rotation.from_rotvec(np.outer(np.sin(1.3 * times), [np.radians(20.0), 0.0, 0.0]))
+
+    shaken = turned(pose.times) * Rotation.from_rotvec(1e-4 * rng.normal(size=(len(pose.times), 3)))
+    forces = turned(force.times - 0.05).inv().apply([0.0, 0.0, -2.0]) + rng.normal(
+        0, 0.01, (len(force.times), 3)
+    )
+
+    def found(bias):
+        wrenches = np.column_stack((forces + bias, force.wrenches[:, 3:]))
+        return estimate_delay(replace(force, wrenches=wrenches), replace(pose, R_BE=shaken.as_matrix()))
+
+    without, told = found(0.0), found(1e5)
+    assert abs(without.seconds - 0.05) < 4 * without.sigma
+    assert told.seconds == pytest.approx(without.seconds, abs=0.01 * without.sigma)
+    assert told.sigma == pytest.approx(without.sigma, rel=0.01)
+
+
 def test_a_robot_that_stands_still_shows_nothing():
     found = estimate_delay(*tracks(0.05, angle=1.0))
     assert found.seconds is None

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.recording import Recording
 
 _MAGIC = b"\x89MCAP0\r\n"
-_BLOCK_ROWS = 20_000
+_BLOCK_ROWS = 65_536
 _LONGEST_DELAY_S = 10.0
 
 Delay = float | Literal["auto"] | None
@@ -145,13 +145,24 @@ def _of_two(
         said = []
         _check_overlap(source, robot_poses, wrenches, poses)
     seconds = _delay(source, wrenches, poses, delay, said)
-    quaternions, there = poses_at(poses, wrenches.times - seconds)
-    kept = _kept(source, wrenches, there, said)
-    R_WS = sensor_orientations(quaternions[kept, :4], Convention(), R_ES)
-    times, readings = wrenches.times[kept], wrenches.wrenches[kept]
-    for begin in range(0, len(times), _BLOCK_ROWS):
+    bad = lost = kept = 0
+    for begin in range(0, len(wrenches.times), _BLOCK_ROWS):
         rows = slice(begin, begin + _BLOCK_ROWS)
-        work.update(times[rows], readings[rows], R_WS[rows])
+        usable = wrenches.usable[rows]
+        quaternions, there = poses_at(poses, wrenches.times[rows] - seconds)
+        good = usable & there
+        bad += int(np.count_nonzero(~usable))
+        lost += int(np.count_nonzero(usable & ~there))
+        kept += int(np.count_nonzero(good))
+        if good.any():
+            R_WS = sensor_orientations(quaternions[good, :4], Convention(), R_ES)
+            work.update(wrenches.times[rows][good], wrenches.wrenches[rows][good], R_WS)
+    if bad:
+        said.append(f"{bad:,} readings left out: empty, frozen, or flagged as bad by the device.")
+    if lost:
+        said.append(f"{lost:,} readings left out: no pose within {LONGEST_GAP} s.")
+    if not kept:
+        raise RecordingError(f"{source}: no reading has a pose close enough in time. {' '.join(said)}")
     return work.finish(tuple(said), None if delay is None else seconds)
 
 
@@ -240,20 +251,6 @@ def _delay(
             f"a delay of {seconds:g} s is out of range: give at most {_LONGEST_DELAY_S:g} s, or auto."
         )
     return seconds
-
-
-def _kept(
-    source: Path | BinaryIO, wrenches: WrenchTrack, there: NDArray[np.bool_], said: list[str]
-) -> NDArray[np.bool_]:
-    usable = wrenches.usable
-    if bad := int(np.count_nonzero(~usable)):
-        said.append(f"{bad:,} readings left out: empty, frozen, or flagged as bad by the device.")
-    if lost := int(np.count_nonzero(usable & ~there)):
-        said.append(f"{lost:,} readings left out: no pose within {LONGEST_GAP} s.")
-    kept: NDArray[np.bool_] = usable & there
-    if not kept.any():
-        raise RecordingError(f"{source}: no reading has a pose close enough in time. {' '.join(said)}")
-    return kept
 
 
 # A shorter stop was hardly meant for a pose. Between two looks a robot that moves has turned.

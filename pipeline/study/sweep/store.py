@@ -62,9 +62,7 @@ class Store:
                 self._file = folder / f"{_STEM}-{uuid4().hex[:12]}{_SUFFIX}"
                 self._stream = self._file.open("xb")
         except OSError as error:
-            raise InputError(
-                f"{self._file}: results cannot be kept ({error}): choose another folder."
-            ) from error
+            raise self._unkept(error) from error
 
     def __enter__(self) -> Self:
         return self
@@ -73,19 +71,24 @@ class Store:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         empty = not self._stream.tell()
-        self._stream.close()
+        # What is kept is on the disk; what a full one did not take is tried once more.
+        with suppress(OSError):
+            self._stream.close()
         if empty:
             with suppress(OSError):
                 self._file.unlink()
 
     def keep(self, row: dict[str, Any]) -> None:
-        """Keep a cell's figures; they are on the disk when this returns."""
+        """Keep a cell's figures; they are on the disk when this returns. InputError: it is full, or the like."""
         self._take(row, self._file.name)
         first = not self._stream.tell()
-        for line in ({"about": self._mine}, row) if first else (row,):
-            self._stream.write(json.dumps(line, sort_keys=True).encode() + b"\n")
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
+        try:
+            for line in ({"about": self._mine}, row) if first else (row,):
+                self._stream.write(json.dumps(line, sort_keys=True).encode() + b"\n")
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
+        except OSError as error:
+            raise self._unkept(error) from error
 
     def look(self) -> None:
         """Read what others have done meanwhile."""
@@ -107,7 +110,7 @@ class Store:
                         }
                     else:
                         self._take(row | {"key": str(row["key"]), "failed": str(row["failed"])}, file.name)
-                except (ValueError, KeyError, TypeError) as error:
+                except (ValueError, KeyError, TypeError, RecursionError) as error:
                     raise InputError(
                         f"{file}, line {number}: no result of a study ({error}): choose an empty folder."
                     ) from error
@@ -123,6 +126,11 @@ class Store:
             known["cells"] += count
             known["load"] = max(known.get("load") or 0, facts.get("load") or 0)
         return list(found.values())
+
+    def _unkept(self, error: OSError) -> InputError:
+        return InputError(
+            f"{self._file}: results cannot be kept ({error}): free disk space, or choose another folder."
+        )
 
     def _take(self, row: dict[str, Any], name: str) -> None:
         before = self.rows.get(row["key"])

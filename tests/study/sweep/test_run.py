@@ -1,5 +1,6 @@
 """Sweeps that are computed: the same whoever does it, kept, stopped and gone on with."""
 
+import errno
 import json
 import os
 import signal
@@ -304,6 +305,38 @@ def test_wrong_folders_and_schedulers_are_named(tmp_path):
         Store(tmp_path, _ABOUT)
     with pytest.raises(InputError, match="no results of a study"):
         read_results(tmp_path)
+
+
+class _Full:
+    """A file on a full disk: it holds what it could not write, and tries again when it is closed."""
+
+    def tell(self):
+        return 1
+
+    def write(self, data):
+        return len(data)
+
+    def flush(self):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    close = flush
+
+
+def test_a_full_disk_is_named_and_what_was_done_stays(tmp_path, monkeypatch):
+    with Store(tmp_path, _ABOUT) as store:
+        store.keep({"key": "a", "failed": ""})
+        with store._stream:
+            monkeypatch.setattr(store, "_stream", _Full())
+        with pytest.raises(InputError, match=r"done\.jsonl: .*No space left.*free disk space"):
+            store.keep({"key": "b", "failed": ""})
+    with Store(tmp_path, _ABOUT) as store:
+        assert list(store.rows) == ["a"]
+
+
+def test_lists_in_lists_without_end_are_no_result(tmp_path):
+    (tmp_path / DONE).write_text("[" * 100_000 + "\n", encoding="utf-8")
+    with pytest.raises(InputError, match="line 1: no result of a study"):
+        Store(tmp_path, _ABOUT)
 
 
 def test_errors_are_those_of_the_answers(rows):

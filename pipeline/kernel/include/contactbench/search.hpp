@@ -89,6 +89,7 @@ struct Opened {
         unsigned lanes;      // children that are left
     };
     static constexpr int most_nodes = 128, most_leaves = 64;
+    static_assert(most_nodes % lanes == 0);
     Place nodes[most_nodes], leaves[most_leaves];
     int node_count = 0, leaf_count = 0;
     bool all = true;  // nothing was forgotten

@@ -133,6 +133,7 @@ struct PlainRows {
 // Read the lines [begin, end) of a text, of which the last byte is a line feed. False: some row has more cells or
 // fewer, or an empty one where it must not be.
 inline bool read_plain(const char* data, std::size_t begin, std::size_t end, const Layout& layout, PlainRows& out) {
+    if (layout.cells > end - begin) return begin == end;  // more than any line here can have, or memory
     std::vector<std::size_t> ends(layout.cells + 1);  // ends[c] is where cell c - 1 ends, which is before cell c begins
     ends[0] = begin - 1;
     std::size_t cell = 0;

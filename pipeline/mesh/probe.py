@@ -321,14 +321,19 @@ def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArra
 
 
 def degenerate_facets(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
+    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], reach: float = 0.0
 ) -> npt.NDArray[np.bool_]:
-    """Facets that use a vertex twice or have no area within the rounding of their coordinates; (m,) bool."""
+    """
+    Facets that use a vertex twice or have no area within the rounding of their coordinates; (m,) bool.
+
+    `reach`: how large coordinates may become when the mesh is moved, in their unit.
+    """
     cross, scale = _cross(vertices, faces)
     sides = (vertices[np.roll(faces, -1, axis=1)] - vertices[faces]) / scale
     longest = np.sqrt(np.einsum("ijk,ijk->ij", sides, sides).max(axis=1))
     # Twice the area over the longest edge is the height; the scaled coordinates reach at most 1.
-    flat: npt.NDArray[np.bool_] = np.linalg.norm(cross, axis=1) <= _ROUNDING * longest
+    rounding = _ROUNDING * max(1.0, reach / scale)
+    flat: npt.NDArray[np.bool_] = np.linalg.norm(cross, axis=1) <= rounding * longest
     return flat | _repeated(faces)
 
 

@@ -13,7 +13,7 @@ from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
-from contactbench.pipeline.mesh.probe import Probe, degenerate_facets
+from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.ahead import begun
 from contactbench.pipeline.mesh.shell.exposure import exposure
@@ -256,7 +256,8 @@ class _Exact:
     def _shell(self, done: Outside, openings: tuple[ClosedOpening, ...]) -> Shell | None:
         """Make the shell; None where cutting left facets without area that cannot be joined."""
         probe = self._probe
-        flat = np.flatnonzero(degenerate_facets(done.vertices, done.faces))
+        # Cutting leaves slivers that have an area where the file has them, but none after `--place`.
+        flat = np.flatnonzero(degenerate_facets(done.vertices, done.faces, reach=2 * LARGEST_M))
         if len(flat):
             faces, of = without_slivers(done.vertices, done.faces, flat, _WIDTHS[-1] * SEAM * probe.size)
             if degenerate_facets(done.vertices, faces).any():

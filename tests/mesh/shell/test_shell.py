@@ -30,6 +30,29 @@ def closed():
     return shell
 
 
+def test_a_sliver_that_would_lose_its_area_when_the_probe_is_placed_is_joined():
+    vertices, faces = box([-0.03, -0.02, 0.0], [0.03, 0.02, 0.05])
+    a, b, c = faces[0]
+    (other,) = (k for k in range(1, len(faces)) if {a, b} < set(faces[k].tolist()))
+    (d,) = set(faces[other].tolist()) - {a, b}
+    middle = (vertices[a] + vertices[b]) / 2
+    along = (vertices[c] - middle) / np.linalg.norm(vertices[c] - middle)
+    m, n = len(vertices), len(vertices) + 1
+    cut = [[a, m, n], [a, n, c], [m, b, n], [n, b, c], [b, m, d], [m, a, d]]
+    kept = [k for k in range(len(faces)) if k not in (0, other)]
+    probe = Probe.from_arrays(
+        np.vstack((vertices, middle, middle + 4e-15 * along)), np.vstack((faces[kept], cut)).astype(np.int32)
+    )
+    T = np.eye(4)
+    T[2, 3] = 0.25
+    with pytest.raises(MeshError, match="zero area"):
+        Probe.from_arrays(probe.vertices + T[:3, 3], probe.faces)
+    shell = make_shell(probe, alpha=ALPHA, coarse=GAP).probe
+    placed = Probe.from_arrays(shell.vertices + T[:3, 3], shell.faces)
+    assert placed.health.watertight
+    assert len(placed.faces) < len(probe.faces)
+
+
 # ---- a hollow housing ------------------------------------------------------------------------------
 
 

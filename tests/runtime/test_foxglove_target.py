@@ -10,6 +10,7 @@ import pytest
 from config.runtime.bundles import example
 from runtime.contacts import touching
 from runtime.runtime_recordings import ABOUT
+from waiting import until
 
 from contactbench.pipeline.runtime import RunError
 
@@ -72,6 +73,9 @@ class Listener:
 @pytest.fixture
 def client(target: FoxgloveTarget) -> Iterator[Listener]:
     with Listener(target.port) as listener:
+        # The first topic's subscription is news already: what is written now would not go to those after it.
+        topics = (target._contact, target._wrench, target._scene, target._health)
+        until(lambda: all(each.has_sinks() for each in topics))
         assert target._subscribed.news.wait(20)
         yield listener
 

@@ -7,7 +7,7 @@ import queue
 import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -42,59 +42,22 @@ _PATCH_S = 1.0  # a line about the patch in so long
     ),
 )
 def run(
-    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    source: Annotated[
-        str, typer.Option(metavar="ADDRESS", help="Address of the force/torque sensor, or a replay.")
-    ],
-    pose: Annotated[
-        str,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
-            " poses:///file.csv, still://?rpy=0,90,0 (degrees).",
-        ),
-    ],
-    out: Annotated[
-        str | None, typer.Option(metavar="FILE|-", help="New file for the lines; - is standard output.")
-    ] = None,
-    mcap: Annotated[Path | None, typer.Option(help="New MCAP file for the contacts.")] = None,
-    udp: Annotated[
-        str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a UDP datagram.")
-    ] = None,
-    igtl: Annotated[
-        str | None,
-        typer.Option(
-            metavar="HOST:PORT", help="Serve contacts there to OpenIGTLink clients, such as 3D Slicer."
-        ),
-    ] = None,
-    foxglove: Annotated[
-        str | None,
-        typer.Option(
-            metavar="HOST:PORT", help="Serve contacts and a picture there to Foxglove (extra live)."
-        ),
-    ] = None,
-    dds: Annotated[
-        str | None,
-        typer.Option(metavar="DOMAIN", help="Publish contacts to ROS 2 in this DDS domain (extra live)."),
-    ] = None,
-    mqtt: Annotated[
-        str | None,
-        typer.Option(metavar="HOST:PORT/TOPIC", help="Publish contacts to this MQTT broker (extra live)."),
-    ] = None,
+    bundle: Path,
+    /,
+    source: str,
+    pose: str,
+    out: str | None = None,
+    mcap: Path | None = None,
+    udp: str | None = None,
+    igtl: str | None = None,
+    foxglove: str | None = None,
+    dds: str | None = None,
+    mqtt: str | None = None,
     patch: PatchOption = None,
-    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
-    unverified: Annotated[
-        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
-    ] = False,
-    other_sensor: Annotated[
-        bool, typer.Option("--other-sensor", help="Also run with a sensor of another serial number.")
-    ] = False,
-    allow_remote: Annotated[
-        bool,
-        typer.Option(
-            "--allow-remote", help="Outputs may reach other machines, neither encrypted nor signed."
-        ),
-    ] = False,
+    seconds: float | None = None,
+    unverified: bool = False,
+    other_sensor: bool = False,
+    allow_remote: bool = False,
 ) -> None:
     """Run a bundle on live streams, and locate the contact at every sample.
 
@@ -113,6 +76,38 @@ def run(
     could not be used, a stream failed, or a replay could not be read to its end; 2: the
     bundle is refused, or an output failed or published nothing. --json reports the counts at the end; contacts
     then have to go elsewhere than to standard output.
+
+    Parameters
+    ----------
+    bundle
+        Folder or zip file of a runtime config.
+    source : ADDRESS
+        Address of the force/torque sensor, or a replay.
+    pose : ADDRESS
+        Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
+        poses:///file.csv, still://?rpy=0,90,0 (degrees).
+    out : FILE|-
+        New file for the lines; - is standard output.
+    mcap
+        New MCAP file for the contacts.
+    udp : HOST:PORT
+        Send each contact there as a UDP datagram.
+    igtl : HOST:PORT
+        Serve contacts there to OpenIGTLink clients, such as 3D Slicer.
+    foxglove : HOST:PORT
+        Serve contacts and a picture there to Foxglove (extra live).
+    dds : DOMAIN
+        Publish contacts to ROS 2 in this DDS domain (extra live).
+    mqtt : HOST:PORT/TOPIC
+        Publish contacts to this MQTT broker (extra live).
+    seconds
+        Duration, s [until Ctrl-C].
+    unverified
+        Accept a bundle that is not verified.
+    other_sensor
+        Also run with a sensor of another serial number.
+    allow_remote
+        Outputs may reach other machines, neither encrypted nor signed.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import Bed, PatchReader

@@ -237,17 +237,15 @@ class GravityRun(QObject):
         self.set_phase(Phase.FINISHING)
         desk, deed = self.bench.desk, Deed(self.tr("calibrate gravity"))
 
-        def compute(_progress: object, _cancelled: object) -> tuple[GravityOutcome, str]:
+        def compute(_progress: object, _cancelled: object) -> GravityOutcome:
             tape.keep().result()
             work.finish()
-            work.wait()
             left = work.left_out
-            finish = deed.around(lambda session: results.finish(session, tape.name, left, earlier))
-            made = desk.do(finish).result()
-            return made, results.difference(work.view().solved.calibration, made)
+            return desk.do(
+                deed.around(lambda session: results.finish(session, tape.name, left, earlier))
+            ).result()
 
-        def done(made: tuple[GravityOutcome, str]) -> None:
-            outcome, differs = made
+        def done(outcome: GravityOutcome) -> None:
             self._end_work()
             self.set_phase(Phase.IDLE)
             self.set_outcome(outcome)
@@ -255,8 +253,6 @@ class GravityRun(QObject):
             verdict = outcome.calibration.verdict
             weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
             self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
-            if differs:
-                self.bench.tell(Weight.INFO, differs)
             self.reopen()
 
         self.bench.jobs.start(self.tr("Computing calibration"), compute, done, self.idle_again)

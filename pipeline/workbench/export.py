@@ -16,7 +16,7 @@ from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.runtime.run import known
-from contactbench.pipeline.session.check import file_problem
+from contactbench.pipeline.session.files import file_problem
 from contactbench.pipeline.workbench.standings import (
     RESULTS,
     CheckItem,

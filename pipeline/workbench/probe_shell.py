@@ -9,7 +9,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.session.make_probe import ProbeParameters
-from contactbench.pipeline.session.recompute import laid_out, newest_inputs
+from contactbench.pipeline.session.recompute import inputs_of, newest_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -90,10 +90,10 @@ def shell_file_of(
             " step 3, Probe, to paint on it."
         )
     wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
-    with laid_out(desk.folder, state, wanted) as files:
-        given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
-        dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
-        return place(dense, alignment_of(given, files.get("alignment")))
+    files = inputs_of(desk.folder, state, wanted)
+    given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
+    dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
+    return place(dense, alignment_of(given, files.get("alignment")))
 
 
 def used_probe(desk: Desk) -> Probe | None:
@@ -101,5 +101,5 @@ def used_probe(desk: Desk) -> Probe | None:
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
-    with laid_out(desk.folder, desk.state, {PROBE: recipe.result.content}) as files:
-        return load_probe_file(files[PROBE]).probe
+    files = inputs_of(desk.folder, desk.state, {PROBE: recipe.result.content})
+    return load_probe_file(files[PROBE]).probe

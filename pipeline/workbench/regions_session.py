@@ -13,7 +13,7 @@ from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.mesh.regions.history import RegionSteps
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.shell_regions import painted_regions
-from contactbench.pipeline.session.recompute import laid_out, recomputed
+from contactbench.pipeline.session.recompute import inputs_of, recomputed
 from contactbench.pipeline.workbench.probe_shell import (
     PROBE,
     REGIONS,
@@ -142,8 +142,8 @@ def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionRep
     kept = desk.state.newest(REGIONS)
     if kept is None:
         return shell.regions, ()
-    with laid_out(desk.folder, desk.state, {REGIONS: kept.content}) as files:
-        return painted_regions(shell, files[REGIONS])
+    files = inputs_of(desk.folder, desk.state, {REGIONS: kept.content})
+    return painted_regions(shell, files[REGIONS])
 
 
 def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | None:

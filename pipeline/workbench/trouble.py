@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.session.actions import files_of
-from contactbench.pipeline.session.check import file_problem
+from contactbench.pipeline.session.files import file_problem, touched_mark
 from contactbench.pipeline.session.state import Result
 
 if TYPE_CHECKING:
@@ -91,15 +91,7 @@ class FileWatch:
         for place, ref in refs.items():
             if cancelled():
                 break
-            mark = self._mark(place)
+            mark = touched_mark(self._folder / place)
             if place not in self._seen or self._seen[place][0] != mark:
                 self._seen[place] = (mark, file_problem(self._folder, ref))
         return {place: why for place, (_, why) in self._seen.items() if why and place in refs}
-
-    def _mark(self, place: str) -> tuple[int, int, int] | None:
-        """Return what changes when a file is touched; None: it is not there."""
-        try:
-            found = (self._folder / place).lstat()
-        except OSError:
-            return None
-        return found.st_mtime_ns, found.st_size, found.st_ino

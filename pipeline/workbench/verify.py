@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
-from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
+from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
@@ -106,10 +106,10 @@ def tool_of(folder: Path, state: State) -> TouchTool:
     content = tool_key(state)
     if content is None:
         raise InputError(why_locked(state))
-    with laid_out(folder, state, dict(zip(("probe", "calibration"), content, strict=True))) as files:
-        calibration = load_calibration(files["calibration"])
-        probe = load_surface(files["probe"])
-        regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
+    files = inputs_of(folder, state, dict(zip(("probe", "calibration"), content, strict=True)))
+    calibration = load_calibration(files["calibration"])
+    probe = load_surface(files["probe"])
+    regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
     if calibration.verdict.level is Level.REFUSE:
         raise InputError(
             "The calibration was refused, so a verification with it would not count. Recalibrate."

@@ -13,6 +13,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench import gravity_results as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import (
@@ -24,7 +25,6 @@ from contactbench.pipeline.workbench.gravity_fit import (
     gravity_settings,
 )
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 

@@ -44,8 +44,8 @@ from contactbench.pipeline.session.files import (
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
 from contactbench.pipeline.session.lock import LOCK, Lock
 from contactbench.pipeline.session.remains import read_damaged
-from contactbench.pipeline.session.stale import stale_results
 from contactbench.pipeline.session.state import MESH, Result, State, fold
+from contactbench.pipeline.session.why import stale_results
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -39,16 +39,13 @@ def recipe_of(state: State) -> ProbeRecipe | None:
 
     What was set since in the session's parameters of the kind ``probe`` counts.
     """
-    made = [
-        each for each in state.current_results.values() if each.action.kind == PROBE and not each.rejected
-    ]
+    newest = state.made(PROBE)
     settings = {
         key.partition(".")[2]: setting
         for key, setting in state.settings.items()
         if key.startswith(f"{PROBE}.") and key.partition(".")[2] in ProbeParameters.model_fields
     }
-    if made:
-        newest = max(made, key=lambda each: each.number)
+    if newest is not None:
         since = {key: each.value for key, each in settings.items() if each.number > newest.number}
         return ProbeRecipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
     if state.mesh is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from contextlib import suppress
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
@@ -45,25 +44,6 @@ _AFTER_PAINTING = frozenset(
 _PAINTED = "painted.ply"
 # Of the work of opening: the surface.
 _SURFACE = 0.8
-
-
-class Standing(StrEnum):
-    """How the regions that are kept relate to the probe."""
-
-    NONE = "none"  # nothing is kept
-    PLANNED = "planned"  # kept; there is no probe yet, it takes them along when it is made
-    WAITING = "waiting"  # kept, but the probe does not have them yet
-    APPLIED = "applied"
-
-
-def standing(state: State) -> Standing:
-    """Say whether the newest probe has the regions that the session keeps."""
-    kept, recipe = state.newest(REGIONS), recipe_of(state)
-    if kept is None:
-        return Standing.NONE
-    if recipe is None or recipe.result is None:
-        return Standing.PLANNED
-    return Standing.APPLIED if recipe.inputs.get(REGIONS) == kept.content else Standing.WAITING
 
 
 def surface_key(state: State) -> object:

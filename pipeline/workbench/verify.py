@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
+from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
@@ -121,16 +122,6 @@ def tool_key(state: State) -> tuple[str, str] | None:
     """Return the hashes of a session's newest probe and calibration; None: one is missing."""
     probe, calibration = state.newest("probe"), state.newest("calibration")
     return None if probe is None or calibration is None else (probe.content, calibration.content)
-
-
-def why_locked(state: State, *kinds: str) -> str:
-    """Say what is missing before touches can be located, of some kinds or of all; empty: nothing."""
-    missing = [kind for kind in kinds or ("calibration", "probe") if state.newest(kind) is None]
-    if not missing:
-        return ""
-    steps = {"calibration": "calibrate in step 2, Gravity", "probe": "prepare the probe in step 3, Probe"}
-    todo = ", and ".join(steps[kind] for kind in missing)
-    return f"A contact cannot be located without {' and '.join(missing)}: {todo}."
 
 
 class VerifyWork:

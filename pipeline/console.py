@@ -94,7 +94,8 @@ class Noun(typer.Typer):
     """
     Commands about one thing: their help is their docstring, and each has ``--json``, ``--quiet`` and an example.
 
-    A parameter of a command that is a dataclass, or settings, becomes the options that its fields declare.
+    A parameter of a command that is a dataclass, or settings, becomes the options that its fields declare; one with
+    ``**`` becomes those it is annotated with, a list of `inspect.Parameter`.
 
     Parameters
     ----------
@@ -134,6 +135,9 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
     for parameter in inspect.signature(function, eval_str=True).parameters.values():
         told = parameter.annotation
         bare, *notes = get_args(told) if get_origin(told) is Annotated else (told,)
+        if parameter.kind is parameter.VAR_KEYWORD:
+            parameters += notes[0]
+            continue
         model: Callable[..., Any]
         if is_dataclass(bare):
             model, options = cast("Any", bare), _dataclass_options(bare)

@@ -159,8 +159,8 @@ def scene(
     inertia, friction, time step and places of the platform and the arm scene.
     """
     from contactbench.pipeline.reality import Reality
+    from contactbench.pipeline.simulation.marker_touches import check_bundled
     from contactbench.pipeline.study import reality_costs, scene_limits
-    from contactbench.pipeline.study.marker_touches import check_bundled
     from contactbench.pipeline.study.pages import publish
     from contactbench.pipeline.study.scene_page import KIND, rows_of
 

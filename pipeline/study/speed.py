@@ -14,7 +14,7 @@ from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise, me
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.study.pages import table
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.scores import bound_of

@@ -10,9 +10,9 @@ import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.study.ablation.smooth import SmoothNormals
-from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.timing import time_batches
 
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.simulation.marker_touches import ANGLES, press_markers, truth_of
 from contactbench.pipeline.simulation.scenes import (
     BenchScene,
     Payload,
@@ -24,7 +25,6 @@ from contactbench.pipeline.simulation.scenes import (
 from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study import scene_limits
-from contactbench.pipeline.study.marker_touches import ANGLES, press_markers, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

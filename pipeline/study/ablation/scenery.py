@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.simulation.marker_touches import truth_of
 from contactbench.pipeline.study import scene_limits
 from contactbench.pipeline.study.ablation.records import LEAST_N, SAMPLE_S, pressed, ridden
-from contactbench.pipeline.study.marker_touches import truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

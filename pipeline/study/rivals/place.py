@@ -13,9 +13,9 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.study.ablation.effects import NOISES
 from contactbench.pipeline.study.ablation.location_choices import sigmas_of
-from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.rivals.rays import TRACERS, bare_ray
 from contactbench.pipeline.study.rivals.rows import (
     BATCH,

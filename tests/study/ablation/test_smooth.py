@@ -5,9 +5,9 @@ import pytest
 from benchmarks.plane import FlatFace, _block
 
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.study.ablation.records import drawn
 from contactbench.pipeline.study.ablation.smooth import SmoothNormals, vertex_normals
-from contactbench.pipeline.study.marker_touches import model_of
 
 QUIET = WrenchNoise(1e-6, 1e-8)
 

@@ -5,7 +5,7 @@ import pytest
 
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.study.rivals import place, rays
 from contactbench.pipeline.study.rivals.place import medians
 from contactbench.pipeline.study.rivals.rows import OURS

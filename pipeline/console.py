@@ -96,7 +96,8 @@ class Noun(typer.Typer):
     Commands about one thing: their help is their docstring, and each has ``--json``, ``--quiet`` and an example.
 
     A parameter becomes an argument if it is positional only, else an option; one that is a dataclass, or settings,
-    becomes the options that its fields declare.
+    becomes the options that its fields declare, and one with ``**`` those that it is annotated with, a list of
+    `inspect.Parameter`.
 
     Parameters
     ----------
@@ -153,6 +154,9 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
     for parameter in inspect.signature(function, eval_str=True).parameters.values():
         told = parameter.annotation
         bare, *notes = get_args(told) if get_origin(told) is Annotated else (told,)
+        if parameter.kind is parameter.VAR_KEYWORD:
+            parameters += notes[0]
+            continue
         if is_dataclass(bare):
             model, (_, told_of) = cast("Any", bare), documented(cast("Any", bare))
             fields = inspect.signature(model, eval_str=True).parameters.values()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.heatmap import Heatmap
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.heatmap.selection import Selection
@@ -34,9 +34,9 @@ _HEAD = 4096  # bytes that tell a verification from a table
 class HeatmapFiles:
     """What a heatmap is made from; `mount` as a session says, degrees about x, y, z."""
 
-    contacts: Path
-    probe: Path
-    calibration: Path | None
+    contacts: File
+    probe: File
+    calibration: File | None
     mount: tuple[float, float, float] | None = None
 
 
@@ -58,11 +58,11 @@ def chosen(
         yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
+    from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
 
-    with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
+    with Session.open(contacts, write=False) as session:
         roles = newest_inputs(session.state, "report" if judged else "heatmap")
-        found = lay_out(session.folder, session.state, roles, Path(scratch))
+        found = inputs_of(session.folder, session.state, roles)
         said = ", ".join(f"{role} {file.name}" for role, file in found.items())
         say(f"from the session: {said}")
         main = found["verification" if judged else "recording"]
@@ -70,7 +70,7 @@ def chosen(
         yield HeatmapFiles(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
-def probe_in_sensor_frame(file: Path) -> ProbeFile:
+def probe_in_sensor_frame(file: File) -> ProbeFile:
     """Return a probe; HeatmapError if it was never aligned with the sensor."""
     from contactbench.pipeline.heatmap import HeatmapError
     from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -146,7 +146,7 @@ def _located(
         )
 
 
-def _is_json(file: Path) -> bool:
+def _is_json(file: File) -> bool:
     """Tell whether a file is an object in JSON; what cannot be read is refused where it is read."""
     if file.suffix.lower() == ".json":
         return True
@@ -297,7 +297,7 @@ def draw(
     answer({**facts, "noise": _noise(found)})
 
 
-def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
+def _check_weight(file: File, found: Contacts, selection: Selection) -> None:
     """Refuse, with the file's name, a weight that the contacts do not have."""
     from contactbench.pipeline.heatmap import HeatmapError
     from contactbench.pipeline.heatmap.selection import weights_of

@@ -373,29 +373,16 @@ def calibrated_rows(
     earlier : int
         How many of its poses are of an earlier recording.
     """
+    none = float("nan")
     rows = [
-        _row(
-            f"pose {index + 1}",
-            float("nan") if index < earlier or pose.time is None else pose.time,
-            pose.R_WS,
-            calibration,
-            index,
-        )
+        _row(f"pose {index + 1}", none if pose.time is None else pose.time, pose.R_WS, calibration, index)
         for index, pose in enumerate(calibration.poses)
     ]
-    rows[:earlier] = map(_of_earlier, rows[:earlier])
-    rows += [
-        PoseRow(
-            f"out {number}",
-            moment,
-            None,
-            "does not count",
-            PoseState.LEFT_OUT,
-            "You left it out.",
-        )
+    out = [
+        PoseRow(f"out {number}", moment, None, "does not count", PoseState.LEFT_OUT, "You left it out.")
         for number, moment in enumerate(left_out, 1)
     ]
-    return tuple(rows)
+    return (*map(_of_earlier, rows[:earlier]), *rows[earlier:], *out)
 
 
 def earlier_rows(
@@ -408,7 +395,7 @@ def earlier_rows(
 
 
 def _of_earlier(row: PoseRow) -> PoseRow:
-    return replace(row, earlier=True, changeable=False)
+    return replace(row, time=float("nan"), earlier=True, changeable=False)
 
 
 def live_rows(

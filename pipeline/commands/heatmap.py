@@ -186,50 +186,22 @@ class NormalisationName(StrEnum):
     example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"),
 )
 def draw(
-    contacts: Annotated[
-        Path,
-        typer.Argument(
-            metavar="CONTACTS", help="Recording, CSV of contacts, verification, or folder of a session."
-        ),
-    ],
-    out: Annotated[
-        Path,
-        typer.Option(
-            help="File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film:"
-            " .mp4 or .gif."
-        ),
-    ],
+    contacts: Path,
+    /,
+    out: Path,
     turned: MountSettings,
-    probe: Annotated[
-        Path | None,
-        typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
-    ] = None,
-    calibration: Annotated[
-        Path | None, typer.Option(help="For a recording: what contactbench calibrate fit wrote.")
-    ] = None,
-    quantity: Annotated[QuantityName, typer.Option(help="Quantity to show.")] = QuantityName.density,
-    bandwidth: Annotated[
-        float | None,
-        typer.Option(
-            help="Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5]."
-        ),
-    ] = None,
+    probe: Path | None = None,
+    calibration: Path | None = None,
+    quantity: QuantityName = QuantityName.density,
+    bandwidth: float | None = None,
     normalisation: Annotated[
         NormalisationName, typer.Option("--per", help="Integral of a density over the surface.")
     ] = NormalisationName.contacts,
-    wrenches: Annotated[
-        Path | None,
-        typer.Option(help="For a CSV of contacts: the wrenches they were located from, for forces."),
-    ] = None,
-    markers: Annotated[
-        Path | None,
-        typer.Option(help="For the error: CSV with x_mm,y_mm,z_mm of the touched points."),
-    ] = None,
-    marker_distance: Annotated[
-        float, typer.Option(help="A contact farther than this from every marker touched none, mm.")
-    ] = 10.0,
-    delay: Annotated[float, typer.Option(help="Delay of a wrench after its pose, s.")] = 0.0,
-    min_force: Annotated[float, typer.Option(help="In a recording, a touch is above this force, N.")] = 0.5,
+    wrenches: Path | None = None,
+    markers: Path | None = None,
+    marker_distance: float = 10.0,
+    delay: float = 0.0,
+    min_force: float = 0.5,
     start: Annotated[
         float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
     ] = None,
@@ -242,17 +214,9 @@ def draw(
     most_force: Annotated[
         float | None, typer.Option("--force-to", help="Only contacts with this force or less, N.")
     ] = None,
-    by_confidence: Annotated[
-        bool,
-        typer.Option("--by-confidence", help="Weight each contact by the confidence of its place, 0 to 1."),
-    ] = False,
-    speed: Annotated[
-        float, typer.Option(help="Film: seconds of contacts per second of film, 0.1 to 50.")
-    ] = 1.0,
-    last: Annotated[
-        float | None,
-        typer.Option(help="Film: show only the last seconds [touched places stay], s."),
-    ] = None,
+    by_confidence: bool = False,
+    speed: float = 1.0,
+    last: float | None = None,
 ) -> None:
     """Show where the probe was touched: how often, how hard, how certain and how accurate.
 
@@ -263,6 +227,38 @@ def draw(
     The integral of a density over the surface is the number of contacts, their seconds, or contacts per
     second. The peak is the largest force within one bandwidth. A film, .mp4 or .gif, shows it over
     time.
+
+    Parameters
+    ----------
+    contacts
+        Recording, CSV of contacts, verification, or folder of a session.
+    out
+        File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film: .mp4
+        or .gif.
+    probe
+        Probe that contactbench prepared, .ply [in a session: its newest].
+    calibration
+        For a recording: what contactbench calibrate fit wrote.
+    quantity
+        Quantity to show.
+    bandwidth
+        Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5].
+    wrenches
+        For a CSV of contacts: the wrenches they were located from, for forces.
+    markers
+        For the error: CSV with x_mm,y_mm,z_mm of the touched points.
+    marker_distance
+        A contact farther than this from every marker touched none, mm.
+    delay
+        Delay of a wrench after its pose, s.
+    min_force
+        In a recording, a touch is above this force, N.
+    by_confidence
+        Weight each contact by the confidence of its place, 0 to 1.
+    speed
+        Film: seconds of contacts per second of film, 0.1 to 50.
+    last
+        Film: show only the last seconds [touched places stay], s.
     """
     kind = out.suffix.lower()
     if kind not in (*_SUFFIXES, *_PAGES, *_FILMS):

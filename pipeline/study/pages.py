@@ -32,8 +32,6 @@ _HTML = ".html"  # ending of the same page in the design of the reports
 CHAPTERS = {
     "sweep": "sweep.page",
     "stability": "stability",
-    "ablation": "ablation.page",
-    "rivals": "rivals.page",
     "confidence": "confidence.page",
     "scene": "scene_page",
 }

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.simulation.marker_touches import check_bundled, truth_of
 from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     Payload,
@@ -18,7 +19,6 @@ from contactbench.pipeline.simulation.scenes import (
     depth_for,
 )
 from contactbench.pipeline.simulation.scenes.tissue import PLACES
-from contactbench.pipeline.study.marker_touches import check_bundled, truth_of
 from contactbench.pipeline.study.report import Sheet, StudyReport
 
 if TYPE_CHECKING:

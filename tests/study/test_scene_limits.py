@@ -57,7 +57,7 @@ def test_several_probes_are_one_object_and_one_page(
     assert page.startswith("## What the scenes with a moving phantom leave out")
     assert page.count("\n### ") == 3
     assert f"| linear | in plane | {study.ARM} |" in page
-    assert "study scene --moving --probe convex --probe linear --period 2.0" in page
+    assert "--probe convex --probe linear --seeds 5 --moving --period 2.0" in page
     assert make_page(tmp_path) == page
     unknown = CliRunner().invoke(cli.app, ["study", "scene", "--moving", "--probe", "round"])
     assert unknown.exit_code == 2

@@ -15,7 +15,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -135,7 +135,11 @@ def test_the_command_prints_one_object():
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [(["--probe", "banana"], "banana"), (["--seed", "-1"], "seed: -1"), (["--touches", "5"], "100")],
+    [
+        (["--probe", "banana"], "banana"),
+        (["--seed", "-1"], "--seed: Input should be greater"),
+        (["--touches", "5"], "100"),
+    ],
 )
 def test_wrong_options_are_named(arguments, said):
     result = CliRunner().invoke(app, ["study", "confidence", "--quick", *arguments])

@@ -127,17 +127,6 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
 
 
 @pytest.mark.parametrize(
-    ("kind", "name"), [("hard", "stability"), ("ablation", "ablation"), ("rivals", "rivals")]
-)
-def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind, name):
-    asked = {}
-    monkeypatch.setattr(f"contactbench.pipeline.study.commands.{name}", lambda **values: asked.update(values))
-    done = _invoke("run", "--preset", kind, "--seed", "4", "--out", tmp_path / "it")
-    assert done.exit_code == 0, done.stderr
-    assert (asked["seed"], asked["out"]) == (4, tmp_path / "it")
-
-
-@pytest.mark.parametrize(
     ("words", "said"),
     [
         (("run",), "give either a STUDY.toml or a --preset"),
@@ -146,11 +135,7 @@ def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind,
         (("run", "--preset", "slow"), "choose one of paper"),
         (("run", "--preset", "quick", "--probe", "banana"), "banana: the probe cannot be read"),
         (("run", "--preset", "quick", "--touches", "1"), "touches: Input should be greater"),
-        (("run", "--preset", "hard", "--workers", "2"), "--preset hard: --workers is not available"),
-        (
-            ("run", "--preset", "ablation", "--touches", "9", "--workers", "2"),
-            "--workers, --touches is not available",
-        ),
+        (("run", "--preset", "quick", "--part", "9/8"), "--part 9/8: give which of how many"),
         (("page", "nowhere"), "no results of a study"),
         (("compare", "nowhere", "nowhere"), "no results of a study"),
     ],

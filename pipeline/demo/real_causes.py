@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,11 +10,8 @@ import numpy as np
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.fit import two_stage
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.reality.presses import VERIFIED_S
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.verification.causes import across, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause
@@ -28,13 +24,11 @@ if TYPE_CHECKING:
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.loads import LoadedSensor
     from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch
-    from contactbench.pipeline.simulation.scenes.indenter import TipPress
+    from contactbench.pipeline.simulation.reality.presses import MarkedPresses
     from contactbench.pipeline.verification.figures import ModelError
 
     Array = NDArray[np.float64]
 
-POSES, TILTS = 9, (0.0, 30.0)  # to weigh a tool in; degrees between the force and the inward normal
-VERIFIED_S = 7200.0  # when markers are pressed, s since the sensor was switched on
 _RATE_HZ = 20.0  # without noise a few readings tell all
 
 # The effects that each cause names.
@@ -47,12 +41,6 @@ EFFECTS: dict[ErrorCause, tuple[str, ...]] = {
     ErrorCause.MARKERS: ("markers", "tip"),
     ErrorCause.TORSION: ("patch", "lean", "twist", "second"),
 }
-
-
-@cache
-def planned_poses() -> Array:
-    """Return the orientations (n, 3, 3) that a tool is weighed in, in the robot's base."""
-    return plan_poses(POSES, by_hand()).R_WS
 
 
 @dataclass(frozen=True)
@@ -70,26 +58,6 @@ class TrueCauses:
     def share(self) -> float:
         """What the largest has of all."""
         return self.squares[self.first] / max(sum(self.squares.values()), 1e-12)
-
-
-@dataclass(frozen=True, eq=False)
-class MarkedPresses:
-    """Presses of markers, n of them."""
-
-    markers: Sequence[int]  # from 1
-    presses: Sequence[TipPress]
-    R_WS: Array  # (n, 3, 3)
-
-    @classmethod
-    def drawn(cls, name: str, rng: np.random.Generator) -> MarkedPresses:
-        """Draw how every marker of a bundled probe is pressed, straight and at 30 degrees, with the tool in use."""
-        places = [(marker, tilt) for marker in range(1, len(markers(name)) + 1) for tilt in TILTS]
-        presses = [draw_press(rng, tilt) for _, tilt in places]
-        return cls([marker for marker, _ in places], presses, orientations_in_use(len(places), rng))
-
-    def on(self, bench: RealBench) -> list[RealTouch]:
-        """Return what they are on a bench."""
-        return [bench.marked(m, press) for m, press in zip(self.markers, self.presses, strict=True)]
 
 
 def true_causes(

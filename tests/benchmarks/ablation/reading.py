@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
-from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.ablation.locating import SENSOR, sigmas_of
+from benchmarks.ablation.records import WEIGHT
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
@@ -15,89 +15,39 @@ from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.simulation.sensor_model import preset
-from contactbench.pipeline.study.ablation.location_choices import SENSOR, sigmas_of
-from contactbench.pipeline.study.ablation.records import WEIGHT
-from contactbench.pipeline.timing import time_calls
 
 if TYPE_CHECKING:
+    from benchmarks.ablation.records import SceneRecord
     from numpy.typing import NDArray
 
+    Read = tuple[NDArray[np.float64], NDArray[np.float64]]
+
     from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.study.ablation.records import SceneRecord
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
-INERTIA = "inertia of the tool"  # of what moves; see `effects`
-# What each is varied by, and what it is where nothing else is said.
-UNITS = {DRIFT: "K", MOUNT: "deg", CROSSTALK: "% of full scale"}
-USUAL = {DRIFT: 4.0, MOUNT: 2.0, CROSSTALK: 0.5}
+# What each is: K, degrees, % of full scale.
+AMOUNTS = {DRIFT: 4.0, MOUNT: 2.0, CROSSTALK: 0.5}
 _POSES, _MEANED = 12, 200  # readings of a pose: a second
 _FREE_S, _FREE = (60.0, 3600.0), 12
 _FLOOR = np.repeat([1e-4, 2e-6], 3)  # N, N·m: below it a calibration would find no noise at all
 
 
-@dataclass(frozen=True, eq=False)
-class Read:
-    """The same wrenches without a choice and with it."""
-
-    # without, made: (n, 6) after compensation, S, N and N·m
-    without: NDArray[np.float64]
-    made: NDArray[np.float64]
-    # tuple of (3, 3): R_ES as it is, as it is taken to be without the choice, and with it: what a robot
-    # sees of a contact
-    turns: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
-
-
 def read(choice: str, record: SceneRecord, amount: float, noise: float, rng: np.random.Generator) -> Read:
     """
-    Read a record with a sensor that is not perfect.
+    Read a record with a sensor that is not perfect: (n, 6) wrenches without the choice, and with it, S, N and N·m.
 
     Parameters
     ----------
     choice : str
         Of CHOICES.
     amount : float
-        In the unit of UNITS.
+        See AMOUNTS.
     noise : float
         Times that of one reading.
     """
     drawn = sigmas_of(noise) * rng.standard_normal(record.contacts.shape)
     return {DRIFT: _drift, MOUNT: _mount, CROSSTALK: _crosstalk}[choice](record, amount, drawn, rng)
-
-
-def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float]]:
-    """Time what each choice adds, µs, medians: a moment without contact, a calibration, a reading, a control period."""
-    R_WE = _orientations()
-    readings = WEIGHT.predict(R_WE) + _bias() + _pose_noise().sigmas * rng.standard_normal((_POSES, 6))
-    poses = _poses(R_WE, readings)
-    calibration = calibrate(poses)
-    inverse, rows = np.linalg.inv(crosstalk_of(USUAL[CROSSTALK])), list(readings)
-    model, R, watch, begun = calibration.model, R_WE[0], _watch(calibration.model), count(60.0, 60.0)
-    calls: dict[str, Any] = {
-        "compensate": (lambda row: model.compensate(R, row), rows),
-        CROSSTALK: (lambda row: model.compensate(R, inverse @ row), rows),
-        "calibrate": (lambda _: calibrate(poses), rows),
-        MOUNT: (lambda _: estimate_mount(poses), rows),
-    }
-    timed = {name: timing.median / 1e3 for name, timing in time_calls(calls, rounds=rounds, block=12).items()}
-
-    def follow(_: None) -> None:
-        _see(watch, next(begun), R, model.compensate(R, readings[0]), rng)
-
-    inertia, place = Inertia(model, 0.04), np.zeros(3)
-
-    def weigh(_: None) -> None:
-        inertia.moved(R, place)
-        inertia.wrench(R, 0.02)
-
-    once = time_calls({DRIFT: (follow, [None] * 12), INERTIA: (weigh, [None] * 12)}, rounds=rounds, block=12)
-    return {
-        DRIFT: (0.0, once[DRIFT].median / 1e3),
-        INERTIA: (0.0, once[INERTIA].median / 1e3),
-        MOUNT: (timed["calibrate"], timed[MOUNT]),
-        CROSSTALK: (timed["compensate"], timed[CROSSTALK]),
-    }
 
 
 def crosstalk_of(percent: float) -> NDArray[np.float64]:
@@ -117,10 +67,7 @@ def _crosstalk(
     readings = (record.contacts + WEIGHT.predict(record.R_WS)) @ C.T + bias + drawn
     plain = calibrate(_poses(R, still)).model
     mended = calibrate(_poses(R, still @ back.T)).model
-    same = (np.eye(3),) * 3
-    return Read(
-        plain.compensate(record.R_WS, readings), mended.compensate(record.R_WS, readings @ back.T), same
-    )
+    return plain.compensate(record.R_WS, readings), mended.compensate(record.R_WS, readings @ back.T)
 
 
 def _mount(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
@@ -132,11 +79,8 @@ def _mount(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: 
     readings = record.contacts + WEIGHT.predict(record.R_WS) + bias + drawn
     used = record.R_WS @ R_SE  # R_WE while it is used
     believed, estimated = calibrate(poses), estimate_mount(poses)
-    return Read(
-        believed.model.compensate(used, readings),
-        estimated.calibration.model.compensate(used @ estimated.R_SE.T, readings),
-        (R_SE.T, np.eye(3), estimated.R_SE.T),
-    )
+    mended = estimated.calibration.model.compensate(used @ estimated.R_SE.T, readings)
+    return believed.model.compensate(used, readings), mended
 
 
 def _drift(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
@@ -153,11 +97,8 @@ def _drift(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: 
     zero = watch.at(last).offset
     moved = np.zeros(6) if zero is None else zero
     readings = record.contacts + WEIGHT.predict(record.R_WS) + bias + amount * drift + drawn
-    return Read(
-        model.compensate(record.R_WS, readings),
-        model.compensate(record.R_WS, readings) - moved,
-        (np.eye(3),) * 3,
-    )
+    compensated = model.compensate(record.R_WS, readings)
+    return compensated, compensated - moved
 
 
 def _watch(model: GravityModel) -> kernel.ZeroWatch:

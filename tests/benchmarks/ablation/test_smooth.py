@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from benchmarks.ablation.records import drawn
+from benchmarks.ablation.smooth import SmoothNormals, vertex_normals
 from benchmarks.plane import FlatFace, _block
 
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
-from contactbench.pipeline.study.ablation.records import drawn
-from contactbench.pipeline.study.ablation.smooth import SmoothNormals, vertex_normals
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 QUIET = WrenchNoise(1e-6, 1e-8)
 

@@ -16,7 +16,6 @@ from contactbench.pipeline.session.actions import (
     Origin,
     Record,
     parse_payload,
-    read_entry,
     records_of,
 )
 from contactbench.pipeline.session.errors import SchemaError, SessionError
@@ -81,15 +80,6 @@ def migrated(folder: Path, data: bytes, found: frames.Scan, version: int) -> lis
     return [frames.canonical(payload) for payload in payloads]
 
 
-def records_of_payloads(payloads: list[bytes]) -> tuple[Record, ...]:
-    """Return the records that payloads make in this order."""
-    records, before = [], frames.GENESIS
-    for number, payload in enumerate(payloads, 1):
-        before = frames.chained(before, payload)
-        records.append(Record(number, before.hex(), read_entry(parse_payload(payload, number), number)))
-    return tuple(records)
-
-
 def kept_origins(folder: Path, found: frames.Scan) -> dict[int, str]:
     """
     Return what an older journal says is kept of the one before it: version -> SHA-256.
@@ -128,7 +118,6 @@ def write_migrated(
     SessionError
         It cannot be written: the old journal is still the journal.
     """
-    records_of_payloads(payloads)  # what could not be read again is not written
     try:
         write_durably(original_of(folder, version), data[: found.end])
         write_durably(folder / JOURNAL, frames.encode_all(payloads))
@@ -192,27 +181,20 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     notes = [f"{folder / JOURNAL}: {found.torn}: {_fate(settle)}"] if found.torn else []
     version = version_of(folder, found)
     if version == VERSION:
-        return _content(records_of(found.frames), notes, found)
+        records = records_of(found.frames)
+        return Content(records, tuple(notes), found, fold(records[:1]).origins)
     payloads = migrated(folder, data, found, version)
-    records = records_of_payloads(payloads)
-    if settle:
-        write_migrated(folder, data, found, version, payloads)
-        notes.append(
-            f"{folder}: migrated from version {version} to {VERSION}; the previous journal is kept"
-            f" as {original_of(folder, version).name}."
-        )
-        found = frames.scan(frames.encode_all(payloads))
-    else:
+    renewed = frames.scan(frames.encode_all(payloads))
+    records = records_of(renewed.frames)  # what could not be read again is not written
+    if not settle:
         notes.append(f"{folder}: older version {version}; it will be migrated on the next write.")
-        return _content(records, notes, found, kept_origins(folder, found))
-    return _content(records, notes, found)
-
-
-def _content(
-    records: tuple[Record, ...], notes: list[str], found: frames.Scan, origins: dict[int, str] | None = None
-) -> Content:
-    kept = fold(records[:1]).origins if origins is None else origins
-    return Content(records, tuple(notes), found, kept)
+        return Content(records, tuple(notes), found, kept_origins(folder, found))
+    write_migrated(folder, data, found, version, payloads)
+    notes.append(
+        f"{folder}: migrated from version {version} to {VERSION}; the previous journal is kept"
+        f" as {original_of(folder, version).name}."
+    )
+    return Content(records, tuple(notes), renewed, fold(records[:1]).origins)
 
 
 def _fate(settle: bool) -> str:

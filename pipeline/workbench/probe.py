@@ -24,9 +24,10 @@ from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, pa
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.files import chunks_of, digest_of
+from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.make_probe import ProbeParameters
 from contactbench.pipeline.session.recompute import inputs_of
+from contactbench.pipeline.session.state import MESH
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
@@ -325,8 +326,7 @@ def _mesh(session: Session, mesh: Mesh) -> str:
         and set(known.companions) == set(mesh.companions)
     )
     if not same:
-        beside = {name: chunks_of(path) for name, path in mesh.companions.items()}
-        session.change_mesh(mesh.file.name, chunks_of(mesh.file), beside)
+        session.add_input(mesh.file, MESH, companions=mesh.companions)
     used = session.state.mesh
     assert used is not None  # noqa: S101  (it was just added)
     return used.content

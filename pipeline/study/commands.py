@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from contactbench.pipeline.study.results import Row
     from contactbench.pipeline.study.sweep.plan import SweepPlan
 
 study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
@@ -120,14 +119,11 @@ def scene(settings: SceneSettings) -> None:
     inertia, friction, time step and places of the platform and the arm scene.
     """
     from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.simulation.marker_touches import check_bundled
     from contactbench.pipeline.study import reality_costs, scene_limits
     from contactbench.pipeline.study.scene_page import KIND, rows_of
 
     if settings.moving:
-        names = check_bundled(settings.probe or ["convex"])
-        found = [scene_limits.run(name, settings.period, progress=say) for name in names]
-        report = scene_limits.report_of(found)
+        report = scene_limits.run(settings.probe or ("convex",), settings.period, progress=say)
     else:
         mixes = [Reality.parse(text) for text in settings.reality or ("typical", "harsh")]
         report = reality_costs.run(
@@ -201,44 +197,6 @@ def _estimate(plan: SweepPlan, workers: int | None) -> None:
 
 def _hours(hours: float) -> str:
     return f"{hours:,.1f} hours" if hours >= 1 else f"{60 * hours:,.1f} minutes"
-
-
-@study_app.command(example="study compare quick-study full-study")
-def compare(
-    small: Annotated[Path, typer.Argument(metavar="SMALL", help="Folder of a quick sweep.")],
-    large: Annotated[Path, typer.Argument(metavar="LARGE", help="Folder of a full one.")],
-) -> None:
-    """Compare the conclusions of two sweeps: the order of methods in time and error, and growth exponents.
-
-    Exit code 1: a clear order is reversed, or an exponent differs by more than 0.1.
-    """
-    from dataclasses import asdict
-
-    from rich.table import Table
-
-    from contactbench.pipeline.study.sweep.compare import compare as compared
-
-    found = compared(_sweep(small), _sweep(large))
-    differ = sum(not each.same for each in found)
-    if as_json():
-        answer({"same": not differ, "findings": [asdict(each) for each in found]})
-    else:
-        title = f"{len(found) - differ} of {len(found)} the same"
-        table = Table("conclusion", "small", "large", "", title=title)
-        for each in found:
-            table.add_row(each.what, each.small, each.large, "" if each.same else "differs")
-        show_tables(table)
-    _judge(not differ)
-
-
-def _sweep(place: Path) -> list[Row]:
-    from contactbench.pipeline.study.results import read_results
-    from contactbench.pipeline.study.sweep.run import KIND
-
-    results = read_results(place)
-    if results.kind != KIND:
-        raise InputError(f"{place}: a study of kind {results.kind!r}: give the folder of a sweep.")
-    return list(results.rows)
 
 
 @study_app.command(example="study page quick-study --out docs")

@@ -27,7 +27,7 @@ from contactbench.app.opening import (
 from contactbench.app.qt_classes import QtClasses
 from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -47,7 +47,7 @@ _NEEDED = (
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.workbench.live_outputs",
-    "contactbench.pipeline.workbench.standings",
+    "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
     "contactbench.app.undo",
     *(f"contactbench.app.pages.{step}" for step in Step),

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 import typer
 from pydantic import ValidationError
 
-from contactbench.pipeline.console import numbers
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import first_fault
 
 if TYPE_CHECKING:

@@ -1889,26 +1889,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
 <context>
     <name>LiveOutputsPanel</name>
     <message>
-        <source>OpenIGTLink (3D Slicer)</source>
-        <translation>OpenIGTLink (3D Slicer)</translation>
-    </message>
-    <message>
-        <source>Foxglove</source>
-        <translation>Foxglove</translation>
-    </message>
-    <message>
-        <source>ROS 2, DDS domain</source>
-        <translation>ROS 2, DDS-Domäne</translation>
-    </message>
-    <message>
-        <source>MQTT broker and topic</source>
-        <translation>MQTT: Broker und Thema</translation>
-    </message>
-    <message>
-        <source>UDP</source>
-        <translation>UDP</translation>
-    </message>
-    <message>
         <source>Address of {output}</source>
         <translation>Adresse: {output}</translation>
     </message>

@@ -41,12 +41,10 @@ RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000
 
 @bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
 def run(
-    script: Annotated[Path, typer.Argument(metavar="SCRIPT", help="Timed commands.")],
-    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; never overwrites a file.")],
-    truth: Annotated[
-        Path | None,
-        typer.Option(help="CSV to write: the truth beside every wrench; never overwrites a file."),
-    ] = None,
+    script: Path,
+    /,
+    out: Path,
+    truth: Path | None = None,
     probe: ProbeOption = "t-shape",
     mesh: MeshOption = None,
     sensor: SensorOption = "paper",
@@ -60,6 +58,15 @@ def run(
     seconds of the bench; use after for seconds after the previous command ended. do is turn_to (rpy or
     R_WS, seconds), touch (marker from 1 or point_S, force, tilt, azimuth, torsion, seconds), release,
     bump (force, seconds, lever), warm (kelvin), rezero, end. The same seed gives the same bytes.
+
+    Parameters
+    ----------
+    script
+        Timed commands.
+    out
+        Recording to write, .mcap; never overwrites a file.
+    truth
+        CSV to write: the truth beside every wrench; never overwrites a file.
     """
     from contactbench.pipeline.simulation.virtual.run import run_script
     from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
@@ -98,18 +105,27 @@ def serve(
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
     reality: RealityOption = "ideal",
-    script: Annotated[Path | None, typer.Option(help="Timed commands to start with.")] = None,
-    pty: Annotated[bool, typer.Option("--pty", help="Put the sensor on a pseudo-terminal.")] = False,
-    sri_port: Annotated[
-        int | None, typer.Option(help="Port of the sensor on the loopback interface [a free one].")
-    ] = None,
-    elfin_port: Annotated[int, typer.Option(help="Port of the robot; 0 for any free one.")] = 0,
+    script: Path | None = None,
+    pty: bool = False,
+    sri_port: int | None = None,
+    elfin_port: int = 0,
 ) -> None:
     """Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
 
     The first line of standard output is a JSON object with the two addresses. Commands come on standard
     input, one JSON object per line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
     each is answered with one line: the bench time at which it took effect, or the error.
+
+    Parameters
+    ----------
+    script
+        Timed commands to start with.
+    pty
+        Put the sensor on a pseudo-terminal.
+    sri_port
+        Port of the sensor on the loopback interface [a free one].
+    elfin_port
+        Port of the robot; 0 for any free one.
     """
     if pty and sri_port is not None:
         raise typer.BadParameter("--pty and --sri-port contradict each other: give only one.")
@@ -128,14 +144,15 @@ def serve(
 
 
 @bench_app.command("reality", example="bench reality typical,cable=0.2")
-def show_reality(
-    mix: Annotated[
-        str | None, typer.Argument(metavar="[MIX|EFFECT=SIZE,...]", help="Mix to show beside the others.")
-    ] = None,
-) -> None:
+def show_reality(mix: str | None = None, /) -> None:
     """List the effects of a real bench: unit, range, and size in each mix.
 
     Use the same text in an address, virtual://bench?reality=typical, and with --reality.
+
+    Parameters
+    ----------
+    mix : [MIX|EFFECT=SIZE,...]
+        Mix to show beside the others.
     """
     from contactbench.pipeline.reality import MIXES, Reality
 
@@ -236,25 +253,17 @@ def _obey(served: ServedBench) -> None:
 
 @bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
 def emulate(
-    device: Annotated[
-        str, typer.Argument(metavar="DEVICE", help="Device to emulate, such as sri or sri+tcp.")
-    ],
-    pty: Annotated[bool, typer.Option("--pty", help="Use a pseudo-terminal.")] = False,
-    port: Annotated[
-        int | None, typer.Option(help="Use this port of the loopback interface; 0 for any free one.")
-    ] = None,
-    rate: Annotated[float | None, typer.Option(help="Frames per second, until a command changes it.")] = None,
-    fault: Annotated[list[str] | None, typer.Option(metavar="FAULT", help="May be repeated.")] = None,
-    seconds: Annotated[float | None, typer.Option(help="How long to run.")] = None,
-    still: Annotated[
-        bool, typer.Option("--still", help="Send a constant signal instead of one that swings.")
-    ] = False,
-    quirk: Annotated[list[str] | None, typer.Option(metavar="QUIRK", help="May be repeated.")] = None,
-    option: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Option as in an address: profile=onrobot. May be repeated."),
-    ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the randomness in the faults.")] = 0,
+    device: str,
+    /,
+    pty: bool = False,
+    port: int | None = None,
+    rate: float | None = None,
+    fault: list[str] | None = None,
+    seconds: float | None = None,
+    still: bool = False,
+    quirk: list[str] | None = None,
+    option: list[str] | None = None,
+    seed: int = 0,
 ) -> None:
     """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur, or that of a plug-in.
 
@@ -264,6 +273,29 @@ def emulate(
 
     Quirks are the habits of some devices of a kind: older (sri, elfin, ur), crc32-only, crc32-silently,
     answers-start (sri), forgiving (sri, robotiq: no pause is needed between commands).
+
+    Parameters
+    ----------
+    device
+        Device to emulate, such as sri or sri+tcp.
+    pty
+        Use a pseudo-terminal.
+    port
+        Use this port of the loopback interface; 0 for any free one.
+    rate
+        Frames per second, until a command changes it.
+    fault : FAULT
+        May be repeated.
+    seconds
+        How long to run.
+    still
+        Send a constant signal instead of one that swings.
+    quirk : QUIRK
+        May be repeated.
+    option : NAME=VALUE
+        Option as in an address: profile=onrobot. May be repeated.
+    seed
+        Seed of the randomness in the faults.
     """
     if pty and port is not None:
         raise typer.BadParameter("--pty and --port contradict each other: give only one.")

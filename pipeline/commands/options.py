@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import numbers, say
+from contactbench.pipeline.console import say
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

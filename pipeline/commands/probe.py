@@ -10,8 +10,9 @@ import typer
 from contactbench.pipeline.commands.markers import markers_app
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
-from contactbench.pipeline.console import Bar, Noun, answer, numbers, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import Only, ProbeSettings, metres
 
 if TYPE_CHECKING:
@@ -88,73 +89,67 @@ def share(bar: Bar) -> Callable[[float], None]:
 @probe_app.command(example="probe align shell.ply --place 0,0,45,0,0,90 --out aligned.ply")
 def align(
     file: MeshArgument,
+    /,
     out: OutOption,
     read: Units,
-    place: Annotated[
-        str | None,
-        typer.Option(
-            "--place",
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With"
-            " --touches: the probe's present pose.",
-        ),
-    ] = None,
-    alignment: Annotated[Path | None, typer.Option(help="Instead: the .json file written by --save.")] = None,
-    points: Annotated[
-        Path | None,
-        typer.Option(help="CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more."),
-    ] = None,
-    frame: Annotated[
-        str | None,
-        typer.Option(
-            metavar="OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ",
-            help="Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.",
-        ),
-    ] = None,
-    flange_face: Annotated[
-        int | None, typer.Option(help="Facet on the plane face that sits on the sensor, counted from 0.")
-    ] = None,
-    toward: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y,Z", help="With --flange-face: point of the mesh that lies towards +x, mm."),
-    ] = None,
-    clock: Annotated[
-        float | None, typer.Option(help="With --toward: turn by this angle about z, degrees.")
-    ] = None,
-    axes: Annotated[
-        bool, typer.Option("--axes", help="Use the principal axes: longest along z, widest along x.")
-    ] = False,
-    tip: Annotated[
-        str | None, typer.Option(metavar="X,Y,Z", help="With --axes: a point of the mesh near the tip, mm.")
-    ] = None,
-    offset: Annotated[
-        float | None,
-        typer.Option(help="With --flange-face or --axes: height of the mounting plane in S, mm [0]."),
-    ] = None,
-    touches: Annotated[
-        Path | None,
-        typer.Option(
-            help="CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated)."
-        ),
-    ] = None,
-    noise_force: Annotated[
-        float | None, typer.Option(help="With --touches: standard deviation of a force, N [0.05].")
-    ] = None,
-    noise_torque: Annotated[float | None, typer.Option(help="The same for a torque, N·m [0.002].")] = None,
-    placement: Annotated[
-        float | None,
-        typer.Option(help="With --touches: accuracy of hitting a marker, mm, one standard deviation [0.3]."),
-    ] = None,
-    again: Annotated[
-        bool, typer.Option("--again", help="The probe is already in S: correct it there.")
-    ] = False,
-    save: Annotated[Path | None, typer.Option(help="Also write the alignment itself, .json.")] = None,
+    place: str | None = None,
+    alignment: Path | None = None,
+    points: Path | None = None,
+    frame: str | None = None,
+    flange_face: int | None = None,
+    toward: str | None = None,
+    clock: float | None = None,
+    axes: bool = False,
+    tip: str | None = None,
+    offset: float | None = None,
+    touches: Path | None = None,
+    noise_force: float | None = None,
+    noise_torque: float | None = None,
+    placement: float | None = None,
+    again: bool = False,
+    save: Path | None = None,
 ) -> None:
     """Move a mesh from its own frame P into the sensor frame S.
 
     By one of: typed numbers, matching points, the face that sits on the sensor, the principal axes, or
     touches of marked points. Exit code 1: the touches do not prove a better mount than the present one,
     which is kept.
+
+    Parameters
+    ----------
+    place : X,Y,Z,RX,RY,RZ
+        Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With --touches: the
+        probe's present pose.
+    alignment
+        Instead: the .json file written by --save.
+    points
+        CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more.
+    frame : OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ
+        Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.
+    flange_face
+        Facet on the plane face that sits on the sensor, counted from 0.
+    toward : X,Y,Z
+        With --flange-face: point of the mesh that lies towards +x, mm.
+    clock
+        With --toward: turn by this angle about z, degrees.
+    axes
+        Use the principal axes: longest along z, widest along x.
+    tip : X,Y,Z
+        With --axes: a point of the mesh near the tip, mm.
+    offset
+        With --flange-face or --axes: height of the mounting plane in S, mm [0].
+    touches
+        CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated).
+    noise_force
+        With --touches: standard deviation of a force, N [0.05].
+    noise_torque
+        The same for a torque, N·m [0.002].
+    placement
+        With --touches: accuracy of hitting a marker, mm, one standard deviation [0.3].
+    again
+        The probe is already in S: correct it there.
+    save
+        Also write the alignment itself, .json.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.alignment import Advice
@@ -406,11 +401,7 @@ def shell(
 
 
 @probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
-def simplify(
-    file: MeshArgument,
-    out: OutOption,
-    given: Simplified,
-) -> None:
+def simplify(file: MeshArgument, out: OutOption, given: Simplified) -> None:
     """Reduce the facets of a probe, and report the resulting error.
 
     Distances and angles are measured against the input mesh, both ways.
@@ -442,20 +433,32 @@ def simplify(
 @probe_app.command(example="probe ladder aligned.ply --out ladder")
 def ladder(
     file: MeshArgument,
+    /,
     given: Annotated[ProbeSettings, Only("units", "max_contact_error", "forces", "engine", "region_ratio")],
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-ladder"),
-    facets: Annotated[
-        str | None, typer.Option(metavar="N,N,...", help="Facet counts to try [250 to 20,000].")
-    ] = None,
-    noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
-    touches: Annotated[int, typer.Option(help="Touches to locate.")] = 4_000,
+    out: Path = Path("contactbench-ladder"),
+    facets: str | None = None,
+    noise_force: float = 0.05,
+    noise_torque: float = 0.002,
+    touches: int = 4_000,
 ) -> None:
     """Compare accuracy and speed over a range of facet counts, and recommend one.
 
     The same touches, with the sensor's noise, are located on the full mesh and on each simplified one.
     Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh meets the
     goal.
+
+    Parameters
+    ----------
+    out : DIR
+        Folder to write.
+    facets : N,N,...
+        Facet counts to try [250 to 20,000].
+    noise_force
+        Standard deviation of a force, N.
+    noise_torque
+        Standard deviation of a torque, N·m.
+    touches
+        Touches to locate.
     """
     from contactbench.pipeline.contact import WrenchNoise
     from contactbench.pipeline.preparation.ladder import (
@@ -494,17 +497,17 @@ def ladder(
 
 @probe_app.command(example="probe prepare housing.stl --place 0,0,45,0,0,90 --out probe.ply")
 def prepare(
-    file: MeshArgument,
-    out: OutOption,
-    given: ProbeSettings,
-    alignment: Annotated[
-        Path | None, typer.Option(help="Instead: the .json file written by `probe align --save`.")
-    ] = None,
+    file: MeshArgument, /, out: OutOption, given: ProbeSettings, alignment: Path | None = None
 ) -> None:
     """Read, close, align and simplify a mesh, and write the probe with its history, all in one go.
 
     Regions in the file are kept. Exit code 1: the result is not valid (open, crossing, folded or inside
     out), and nothing is written.
+
+    Parameters
+    ----------
+    alignment
+        Instead: the .json file written by `probe align --save`.
     """
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepared

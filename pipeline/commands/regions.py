@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, numbers, print_json, running_command, say
+from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
     import numpy as np
@@ -224,8 +225,6 @@ regions_app = Noun(
     " chosen, but none changed."
 )
 
-ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the next of a palette]")]
-
 
 @regions_app.command("list", example="probe regions list probe.ply")
 def list_regions(mesh: MeshArgument) -> None:
@@ -235,12 +234,16 @@ def list_regions(mesh: MeshArgument) -> None:
 
 
 @regions_app.command(example="probe regions add probe.ply Lens --colour '#e69f00'")
-def add(
-    mesh: MeshArgument,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
-    colour: ColourOption = None,
-) -> None:
-    """Add an empty region, with the last priority."""
+def add(mesh: MeshArgument, name: str, /, colour: str | None = None) -> None:
+    """Add an empty region, with the last priority.
+
+    Parameters
+    ----------
+    name
+        Name, at most 64 characters.
+    colour : #RRGGBB
+        Its colour [the next of a palette].
+    """
     session = ProbeRegions(mesh)
     session.model.add(name, colour)
     session.finish(None)
@@ -257,24 +260,28 @@ def remove(mesh: MeshArgument, region: RegionArgument) -> None:
 
 
 @regions_app.command(example="probe regions rename probe.ply Lens 'Acoustic window'")
-def rename(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
-) -> None:
-    """Give a region another name."""
+def rename(mesh: MeshArgument, region: RegionArgument, name: str, /) -> None:
+    """Give a region another name.
+
+    Parameters
+    ----------
+    name
+        New name, at most 64 characters.
+    """
     session = ProbeRegions(mesh)
     session.model.rename(session.rank(region), name)
     session.finish(None)
 
 
 @regions_app.command(example="probe regions colour probe.ply Lens '#0072b2'")
-def colour(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    value: Annotated[str, typer.Argument(metavar="#RRGGBB")],
-) -> None:
-    """Give a region another colour."""
+def colour(mesh: MeshArgument, region: RegionArgument, value: str, /) -> None:
+    """Give a region another colour.
+
+    Parameters
+    ----------
+    value : #RRGGBB
+        New colour.
+    """
     session = ProbeRegions(mesh)
     session.model.recolour(session.rank(region), value)
     session.finish(None)
@@ -298,11 +305,14 @@ def mark(
 
 
 @regions_app.command(example="probe regions reorder probe.ply Lens Neck Handle")
-def reorder(
-    mesh: MeshArgument,
-    order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Names of all regions, each once.")],
-) -> None:
-    """Change the priorities: name all regions, highest priority first."""
+def reorder(mesh: MeshArgument, order: list[str], /) -> None:
+    """Change the priorities: name all regions, highest priority first.
+
+    Parameters
+    ----------
+    order : REGION...
+        Names of all regions, each once.
+    """
     session = ProbeRegions(mesh)
     session.model.reorder([session.rank(region) for region in order])
     session.finish(None)
@@ -325,13 +335,15 @@ def redo(mesh: MeshArgument) -> None:
 
 
 @regions_app.command(example="probe regions export probe.ply --out regions.json")
-def export(
-    mesh: MeshArgument,
-    out: Annotated[Path, typer.Option(help="File to write, .json or .csv.")],
-) -> None:
+def export(mesh: MeshArgument, /, out: Path) -> None:
     """Export the regions to a .json or .csv file.
 
     JSON contains names, colours, marks and facets, and fits only this mesh; CSV contains face,region.
+
+    Parameters
+    ----------
+    out
+        File to write, .json or .csv.
     """
     from contactbench.pipeline.mesh.regions import RegionError, save_regions
     from contactbench.pipeline.mesh.sidecar import sidecar_of
@@ -345,14 +357,16 @@ def export(
 
 
 @regions_app.command("import", example="probe regions import probe.ply regions.json")
-def import_regions(
-    mesh: MeshArgument,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=".json or .csv.")],
-) -> None:
+def import_regions(mesh: MeshArgument, file: Path, /) -> None:
     """Replace all regions of a probe by those in a .json or .csv file.
 
     A .json file fits only the mesh it was made for; for another mesh use transfer. With .csv, existing
     names, colours and marks are kept.
+
+    Parameters
+    ----------
+    file
+        .json or .csv.
     """
     from contactbench.pipeline.mesh.regions import RegionSet, load_regions
 
@@ -366,19 +380,22 @@ def import_regions(
 
 
 @regions_app.command(example="probe regions transfer probe.ply probe-1000.ply")
-def transfer(
-    old: Annotated[Path, typer.Argument(metavar="OLD", help="Probe with regions, .ply.")],
-    new: Annotated[Path, typer.Argument(metavar="NEW", help="Probe that gets them, .ply; is overwritten.")],
-    reach: Annotated[
-        float | None, typer.Option(help="Facets farther than this from OLD get none, mm [2 % of the size].")
-    ] = None,
-) -> None:
+def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
     """Transfer the regions of one mesh to another mesh of the same surface.
 
     The other mesh may be simplified, a shell, or a new export.
 
     Both are in S. Each facet of NEW takes the region of the nearest facet of OLD that faces the same way.
     NEW's own regions are replaced. Exit code 1: a region vanished.
+
+    Parameters
+    ----------
+    old
+        Probe with regions, .ply.
+    new
+        Probe that gets them, .ply; is overwritten.
+    reach
+        Facets farther than this from OLD get none, mm [2 % of the size].
     """
     import warnings
 
@@ -434,19 +451,24 @@ NormalOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="Normal of the 
 def box(
     mesh: MeshArgument,
     region: RegionArgument,
-    low: Annotated[str, typer.Option(metavar="X,Y,Z", help="Lowest corner, mm.")],
-    high: Annotated[str, typer.Option(metavar="X,Y,Z", help="Highest corner, mm.")],
-    frame: Annotated[
-        str | None,
-        typer.Option(
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].",
-        ),
-    ] = None,
+    /,
+    low: str,
+    high: str,
+    frame: str | None = None,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets whose centroid lies in a box."""
+    """Give REGION the facets whose centroid lies in a box.
+
+    Parameters
+    ----------
+    low : X,Y,Z
+        Lowest corner, mm.
+    high : X,Y,Z
+        Highest corner, mm.
+    frame : X,Y,Z,RX,RY,RZ
+        Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].
+    """
     from contactbench.pipeline.mesh.regions import in_box
 
     corners = metres(low, "--low"), metres(high, "--high")
@@ -484,14 +506,21 @@ def plane(
 def flood(
     mesh: MeshArgument,
     region: RegionArgument,
-    at: Annotated[
-        str, typer.Option(metavar="X,Y,Z", help="Where to start: the facet nearest to this point, mm.")
-    ],
-    crease: Annotated[float, typer.Option(help="Sharpest edge to cross, degrees.")] = 30.0,
+    /,
+    at: str,
+    crease: float = 30.0,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets around a point, up to edges sharper than --crease."""
+    """Give REGION the facets around a point, up to edges sharper than --crease.
+
+    Parameters
+    ----------
+    at : X,Y,Z
+        Where to start: the facet nearest to this point, mm.
+    crease
+        Sharpest edge to cross, degrees.
+    """
     from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at, "--at")
@@ -505,12 +534,10 @@ def flood(
 def brush(
     mesh: MeshArgument,
     region: RegionArgument,
-    at: Annotated[list[str], typer.Option(metavar="X,Y,Z", help="A point of the stroke, mm.")],
-    radius: Annotated[float, typer.Option(help="Radius of the brush, mm.")],
-    straight: Annotated[
-        bool,
-        typer.Option("--straight", help="Measure through space, not along the surface."),
-    ] = False,
+    /,
+    at: list[str],
+    radius: float,
+    straight: bool = False,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
@@ -518,6 +545,15 @@ def brush(
 
     Give --at once for a dab, several times for a stroke. A point farther from the surface than the radius,
     or 2 % of the size if that is more, is refused.
+
+    Parameters
+    ----------
+    at : X,Y,Z
+        A point of the stroke, mm.
+    radius
+        Radius of the brush, mm.
+    straight
+        Measure through space, not along the surface.
     """
     from contactbench.pipeline.mesh.regions import Brush
 
@@ -535,10 +571,7 @@ def brush(
 
 @regions_app.command(example="probe regions grow probe.ply Lens --distance 2")
 def grow(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: RingsOption = None,
-    distance: DistanceOption = None,
+    mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Grow REGION at its border, by rings of facets or a distance. Other regions stay unchanged."""
     from contactbench.pipeline.mesh.regions import grow as extend
@@ -551,10 +584,7 @@ def grow(
 
 @regions_app.command(example="probe regions shrink probe.ply Lens --rings 2")
 def shrink(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: RingsOption = None,
-    distance: DistanceOption = None,
+    mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Shrink REGION at its border, by rings of facets or a distance."""
     from contactbench.pipeline.mesh.regions import shrink as reduce
@@ -566,16 +596,15 @@ def shrink(
 
 
 @regions_app.command(example="probe regions smooth probe.ply Lens --rings 3")
-def smooth(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: Annotated[
-        int, typer.Option(help="Features narrower than about this many facets are removed.")
-    ] = 2,
-) -> None:
+def smooth(mesh: MeshArgument, region: RegionArgument, /, rings: int = 2) -> None:
     """Straighten the border of REGION, fill its holes and remove its specks.
 
     Its area and other regions stay unchanged.
+
+    Parameters
+    ----------
+    rings
+        Features narrower than about this many facets are removed.
     """
     from contactbench.pipeline.mesh.regions import smooth as straighten
 
@@ -589,16 +618,20 @@ def smooth(
 def mirror(
     mesh: MeshArgument,
     region: RegionArgument,
+    /,
     normal: NormalOption,
     point: PointOption = "0,0,0",
-    tolerance: Annotated[
-        float | None, typer.Option(help="Tolerance of a centroid, mm [the mean edge].")
-    ] = None,
+    tolerance: float | None = None,
     protect: ProtectOption = False,
 ) -> None:
     """Add the mirror images of its facets to REGION.
 
     Exit code 1: some facets have no counterpart, because the surface is not symmetric there.
+
+    Parameters
+    ----------
+    tolerance
+        Tolerance of a centroid, mm [the mean edge].
     """
     from contactbench.pipeline.mesh.regions import mirror as reflect
 
@@ -625,12 +658,7 @@ def clear(mesh: MeshArgument, region: RegionArgument) -> None:
 
 
 def _assign(
-    session: ProbeRegions,
-    region: str,
-    chosen: NDArray[np.bool_],
-    what: str,
-    erase: bool,
-    protect: bool,
+    session: ProbeRegions, region: str, chosen: NDArray[np.bool_], what: str, erase: bool, protect: bool
 ) -> None:
     rank = session.rank(region)
     text = f"{what} {session.name(rank)}"

@@ -189,6 +189,11 @@ class State:
         found = (each for each in every if each.kind == kind)
         return max(found, key=lambda each: each.number, default=None)
 
+    def made(self, kind: str) -> Result | None:
+        """Return the newest of the current results of a kind that nobody rejected; None: there is none."""
+        found = [each for each in self.current_results.values() if each.kind == kind and not each.rejected]
+        return max(found, key=lambda each: each.number, default=None)
+
     def setting(self, key: str) -> Any:
         """Return the value of a setting; None: it was never set."""
         found = self.settings.get(key)

@@ -22,6 +22,7 @@ from contactbench.pipeline.session.actions import (
     SessionCreated,
     checked,
     entry,
+    files_of,
     payload_of,
     user,
 )
@@ -30,6 +31,7 @@ from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
     chunks_of,
+    file_problem,
     own_file,
     refuse_links,
     regular,
@@ -42,15 +44,17 @@ from contactbench.pipeline.session.files import (
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
 from contactbench.pipeline.session.lock import LOCK, Lock
 from contactbench.pipeline.session.remains import read_damaged
-from contactbench.pipeline.session.stale import stale_results
-from contactbench.pipeline.session.state import MESH, State, fold
+from contactbench.pipeline.session.state import MESH, Result, State, fold
+from contactbench.pipeline.session.why import stale_results
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
     from types import TracebackType
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.session.actions import Action, FileRef
+    from contactbench.pipeline.session.state import Input
 
 _NO_ROOM = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EROFS}
 
@@ -199,7 +203,7 @@ class Session:
 
     def add_input(
         self,
-        file: Path | bytes,
+        file: File | bytes,
         kind: str,
         *,
         name: str | None = None,
@@ -317,6 +321,31 @@ class Session:
         refs = self._store_all("results", {each: (content,) for each, content in files.items()})
         return self._append(checked(ResultAdded, files=refs, **given))
 
+    def add_again(self, there: Input | Result) -> Record:
+        """
+        Add what the session had once more, with the very files that it has, and say of it what was said last.
+
+        Raises
+        ------
+        SessionError
+            One of its files is not what the journal says, or the journal cannot be written.
+        """
+        if isinstance(there, Result):
+            action: Action = there.action
+        elif there.kind == MESH:
+            action = MeshChanged(name=there.name, file=there.file, companions=dict(there.companions))
+        else:
+            beside, about = dict(there.companions), dict(there.about)
+            action = InputAdded(
+                name=there.name, file=there.file, companions=beside,
+                kind=there.kind, sensor=there.sensor, about=about,
+            )  # fmt: skip
+        for ref in files_of(action):
+            if wrong := file_problem(self.folder, ref):
+                raise SessionError(f"{self.folder}: {wrong}")
+        record = self._append(action, None if isinstance(there, Result) else there.sensor)
+        return record if there.mark is None else self._append(there.mark)
+
     def mark(
         self, kind: str, name: str, mark: Literal["accepted", "rejected", "stale"], reason: str = ""
     ) -> Record:
@@ -406,7 +435,7 @@ class Session:
         return self._writer
 
 
-def _chunks(file: Path | bytes) -> Iterable[bytes]:
+def _chunks(file: File | bytes) -> Iterable[bytes]:
     return (file,) if isinstance(file, bytes) else chunks_of(regular(file))
 
 

@@ -16,17 +16,18 @@ from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.runtime.run import known
-from contactbench.pipeline.session.check import file_problem
-from contactbench.pipeline.workbench.standings import (
+from contactbench.pipeline.session.files import file_problem
+from contactbench.pipeline.session.why import (
+    NO_TROUBLE,
     RESULTS,
     CheckItem,
+    SessionTrouble,
     broken_behind,
     checklist,
     files_of_bundle,
     refuse_without,
     results_of,
 )
-from contactbench.pipeline.workbench.trouble import NO_TROUBLE, SessionTrouble
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -190,11 +190,10 @@ class GravityWork:
             self._changed()
 
     def finish(self) -> None:
-        """Take what was averaged until now, as the session will: nothing more comes."""
+        """Take what was averaged until now: nothing more comes, and the session computes what it amounts to."""
         with self._lock:
             self._stillness = self._detector.finish()
             self._notice()
-            self._changed()
 
     @property
     def left_out(self) -> tuple[float, ...]:

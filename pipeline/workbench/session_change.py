@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from contactbench.pipeline.session.recompute import RECOMPUTE
-from contactbench.pipeline.session.state import MESH
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,12 +45,12 @@ class SessionChange:
             if before is None:
                 session.mark(*slot, "rejected", UNDONE)
             else:
-                put_result(session, before)
+                session.add_again(before)
         for before_input, after in self.inputs.values():
             if before_input is None:
                 session.note(f"Undone: adding {after.kind} {after.name}. It stays in the session, unused.")
             else:
-                put_input(session, before_input)
+                session.add_again(before_input)
         for key, (value, _) in self.settings.items():
             session.set_parameter(key, value)
 
@@ -60,9 +59,9 @@ class SessionChange:
         for key, (_, value) in self.settings.items():
             session.set_parameter(key, value)
         for _, after in self.inputs.values():
-            put_input(session, after)
+            session.add_again(after)
         for _, after_result in self.results.values():
-            put_result(session, after_result)
+            session.add_again(after_result)
 
 
 def observed(action: Callable[[Session], T]) -> Callable[[Session], tuple[T, SessionChange]]:
@@ -107,29 +106,3 @@ def value_in(state: State, key: str) -> Any:
         return None
     default = RECOMPUTE[kind].parameters.model_fields[parameter].get_default(call_default_factory=True)
     return None if default is PydanticUndefined else to_jsonable_python(default)
-
-
-def put_result(session: Session, result: Result) -> None:
-    """Add a result that the session had once more, from its own files, and say of it what was said last."""
-    action = result.action
-    files = {name: (session.folder / ref.path).read_bytes() for name, ref in action.files.items()}
-    session.add_result(
-        action.kind, action.name, files, action.inputs, action.parameters, created=action.created
-    )
-    mark = result.mark
-    if mark is not None:
-        session.mark(mark.kind, mark.name, mark.mark, mark.reason)
-
-
-def put_input(session: Session, used: Input) -> None:
-    """Add an input that the session had once more, from its own files."""
-    companions = {name: session.folder / ref.path for name, ref in used.companions.items()}
-    about = {} if used.kind == MESH else used.about
-    session.add_input(
-        session.folder / used.file.path,
-        used.kind,
-        name=used.name,
-        sensor=used.sensor,
-        companions=companions,
-        about=about,
-    )

@@ -15,10 +15,9 @@ from waiting import until
 from contactbench.pipeline.devices.emulate import Fault, constant, emulator, swinging
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.igtl import IgtlError
-from contactbench.pipeline.devices.protocols.igtl_pose import BODY, BodyStream, IgtlModel
+from contactbench.pipeline.devices.protocols.igtl_pose import BODY, BodyStream, IgtlModel, TrackerPoses
 from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.tracker_poses import TrackerPoses
 from contactbench.pipeline.devices.url import DeviceAddress
 
 R_TB = Rotation.from_rotvec(IgtlModel.rest[3:]).as_matrix()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.options import Option
@@ -16,7 +17,10 @@ from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
 from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.transport import line_to
+from contactbench.pipeline.devices.watch import Watch
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -24,10 +28,11 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.protocols.device_model import Quirk
-    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
+    from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _MOST_NAMES = 20
+_GUESSED_HZ = 30.0  # trackers give 20 to 250 poses a second
 
 
 class BodyStream:
@@ -124,6 +129,66 @@ class BodyStream:
         return self._body in (None, name)
 
 
+class TrackerPoses(ReconnectingStream[FlangeSample]):
+    """
+    One body's poses. The body plays the flange, and the tracker the robot's base.
+
+    Without a rate in the address nothing is sent: the server is expected to stream. With one, QTDATA is asked for.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+        Its ``device`` names the body.
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        on_samples: OnFlanges,
+        on_change: OnChange = None,
+        *,
+        line: Line | None = None,
+    ) -> None:
+        self._bodies = BodyStream(address.options["device"])
+        self._clock = SampleClock(address.rate)
+        watch = Watch(address.rate or _GUESSED_HZ, rate_known=address.rate is not None)
+        super().__init__(address, line or line_to(address), watch, on_samples, on_change)
+
+    def _begin(self) -> None:
+        self._bodies.reset()
+        if self.address.rate is not None:
+            self._line.write(igtl.start_qtdata(self.address.rate))
+
+    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
+        return self._clock.stamp(self._bodies.feed(data, arrived))
+
+    def _end(self) -> None:
+        if self.address.rate is not None:
+            self._line.write(igtl.pack(igtl.STOP_QTDATA, "", 0, b""))
+
+    def _reset(self) -> None:
+        self._bodies.reset()
+        self._clock.forget()
+
+    def _counters(self) -> Counters:
+        return self._bodies.counters
+
+    def _troubles(self) -> dict[str, str]:
+        if self._bodies.trouble:
+            return {"pose": self._bodies.trouble}
+        wanted, names = self.address.options["device"], self._bodies.names
+        if wanted is None or not names or wanted in names:
+            return {}
+        return {
+            "body": (
+                f"The server sends no body {wanted!r}, only {', '.join(names)}: correct ?device= in the address, or"
+                " bring the body in sight."
+            )
+        }
+
+
 # ---- emulated: a tracker that streams one body ---------------------------------------------------
 
 BODY = "Probe"
@@ -196,6 +261,4 @@ class IgtlDriver(Driver):
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """As `Driver`."""
-        from contactbench.pipeline.devices.tracker_poses import TrackerPoses  # it needs what is here
-
         return TrackerPoses(address, on_samples, on_change)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
-from contactbench.pipeline.mesh.inspect.report import MeshFinding
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +29,26 @@ _NAMED = 3
 
 # A wall thinner than this share of the size is a copy of the surface: 0.01 mm on a probe of 100 mm.
 _COPY = 1e-4
+
+
+Level = Literal["fault", "doubt", "note"]
+
+
+@dataclass(frozen=True)
+class MeshFinding:
+    """
+    One thing found.
+
+    Attributes
+    ----------
+    level : {"fault", "doubt", "note"}
+        A fault spoils contacts and has to be mended; a doubt is to be looked at; a note is to be known.
+    text : str
+        What it is, why it matters and what to do, in sentences.
+    """
+
+    level: Level
+    text: str
 
 
 def facts(found: Inspection) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
@@ -136,16 +136,16 @@ def scene(settings: SceneSettings) -> None:
 
 
 @study_app.command(example="study run --preset quick --out quick-study")
-def run(
-    settings: SweepSettings,
-    study: Annotated[
-        Path | None, typer.Argument(metavar="[STUDY.toml]", help="Study file: what to vary.")
-    ] = None,
-) -> None:
+def run(study: Path | None = None, /, *, settings: SweepSettings) -> None:
     """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
 
     Errors are the same whatever the number of workers. After Ctrl-C or a crash, it resumes where it stopped.
     Exit code 1: a cell could not be computed.
+
+    Parameters
+    ----------
+    study : [STUDY.toml]
+        Study file: what to vary.
     """
     from contactbench.pipeline.study.sweep.plan import SweepPlan, preset_plan
     from contactbench.pipeline.study.sweep.run import run as sweep
@@ -200,15 +200,17 @@ def _hours(hours: float) -> str:
 
 
 @study_app.command(example="study page quick-study --out docs")
-def page(
-    studies: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders with results.parquet.")],
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Put the pages here, each under its study's name.")
-    ] = None,
-) -> None:
+def page(studies: list[Path], /, *, out: Path | None = None) -> None:
     """Make tables and plots of studies from their Parquet files: page.md in each, and all of them in one folder.
 
     Exit code 1: a sweep misses a target.
+
+    Parameters
+    ----------
+    studies : DIR...
+        Folders with results.parquet.
+    out : DIR
+        Put the pages here, each under its study's name.
     """
     from contactbench.pipeline.study.pages import PAGE, gather, make_page
     from contactbench.pipeline.study.results import read_results

@@ -45,10 +45,14 @@ def tree(widget, depth=0):
 @pytest.mark.parametrize("step", Step)
 def test_a_page_shows_what_it_showed(qtbot, pin, tmp_path, monkeypatch, step):
     monkeypatch.setenv("CONTACTBENCH_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr("contactbench.app.pages.devices.list_ports", list)
     import_archive(OLD / "session.zip", tmp_path / "s")
     with Session.open(tmp_path / "s") as session:
         window = PageWindow(qtbot, session, page_class(step), _Paper())
         window.enter()
+        window.wait(lambda: not window.bench.jobs.running)
+        window.page.tick()
+        window.wait(lambda: not window.bench.jobs.running)
         lines = tree(window.page)
         window.close()
     pin(f"page-{step}", "\n".join(lines).replace(str(tmp_path), "FOLDER") + "\n")

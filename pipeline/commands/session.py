@@ -545,8 +545,8 @@ def rezero(folder: FolderArgument, /, serial: str, reason: str) -> None:
 def replay(folder: FolderArgument) -> None:
     """Recompute every result from raw inputs and compare the bytes. Exit code 1: one differs or fails."""
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.replay import ReplayOutcome
-    from contactbench.pipeline.session.replay import replay as run
+    from contactbench.pipeline.session.recompute import ReplayOutcome
+    from contactbench.pipeline.session.recompute import replay as run
 
     with Session.open(folder, write=False) as session, Bar("replaying", counted=True) as bar:
         found = run(session, bar)

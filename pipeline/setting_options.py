@@ -37,7 +37,7 @@ def _option(name: str, field: FieldInfo) -> inspect.Parameter:
         default = None
     elif isinstance(default, tuple):
         default = ",".join(f"{number:g}" for number in default)
-    elif get_origin(_bare(field)) is Literal:
+    elif default is not None and get_origin(_bare(field)) is Literal:
         default = kind(default)
     # Without a name of its own, an option that is only given or not would also have a --no-name.
     names = [_option_name(name, field)] if kind is bool or extra["option"] else []

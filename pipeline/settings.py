@@ -421,3 +421,19 @@ class HeatmapSettings(ReadingSettings):
     least_force: float | None = knob(None, "Only contacts with this force or more, N.", option="--force-from")
     most_force: float | None = knob(None, "Only contacts with this force or less, N.", option="--force-to")
     by_confidence: bool = knob(False, "Weight each contact by the confidence of its place, 0 to 1.")
+
+
+# ---- motion control in simulation --------------------------------------------------------------
+
+
+class PhantomSettings(Settings):
+    """How the phantom under a virtual robot moves, and how its motion is met."""
+
+    motion: Literal["none", "vertical", "in-plane", "out-of-plane"] = knob(
+        "in-plane", "Motion of the phantom."
+    )
+    period: Annotated[float, Field(ge=0.5, le=1000)] = knob(10.0, "Period of that motion, s.")
+    size: Annotated[float, Field(ge=0, le=30)] = knob(10.0, "Size of that motion, mm or degrees.")
+    variant: Literal["plain", "aware"] | None = knob(
+        None, "The paper's control, or with motion feed-forward [the bundle's]."
+    )

@@ -103,7 +103,7 @@ def built(session: Session, *, unverified: bool) -> RuntimeConfig:
         As `export_from_session`.
     """
     options = ExportOptions.stored(session.state.settings)
-    return export_from_session(session, options.settings(), unverified=unverified)
+    return export_from_session(session, options, unverified=unverified)
 
 
 def export(session: Session, place: Path, *, unverified: bool = False) -> ExportedBundle:

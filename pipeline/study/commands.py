@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from contactbench.pipeline.study.results import Row
     from contactbench.pipeline.study.sweep.plan import SweepPlan
 
 study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
@@ -120,14 +119,11 @@ def scene(settings: SceneSettings) -> None:
     inertia, friction, time step and places of the platform and the arm scene.
     """
     from contactbench.pipeline.reality import Reality
-    from contactbench.pipeline.simulation.marker_touches import check_bundled
     from contactbench.pipeline.study import reality_costs, scene_limits
     from contactbench.pipeline.study.scene_page import KIND, rows_of
 
     if settings.moving:
-        names = check_bundled(settings.probe or ["convex"])
-        found = [scene_limits.run(name, settings.period, progress=say) for name in names]
-        report = scene_limits.report_of(found)
+        report = scene_limits.run(settings.probe or ("convex",), settings.period, progress=say)
     else:
         mixes = [Reality.parse(text) for text in settings.reality or ("typical", "harsh")]
         report = reality_costs.run(
@@ -140,16 +136,16 @@ def scene(settings: SceneSettings) -> None:
 
 
 @study_app.command(example="study run --preset quick --out quick-study")
-def run(
-    settings: SweepSettings,
-    study: Annotated[
-        Path | None, typer.Argument(metavar="[STUDY.toml]", help="Study file: what to vary.")
-    ] = None,
-) -> None:
+def run(study: Path | None = None, /, *, settings: SweepSettings) -> None:
     """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
 
     Errors are the same whatever the number of workers. After Ctrl-C or a crash, it resumes where it stopped.
     Exit code 1: a cell could not be computed.
+
+    Parameters
+    ----------
+    study : [STUDY.toml]
+        Study file: what to vary.
     """
     from contactbench.pipeline.study.sweep.plan import SweepPlan, preset_plan
     from contactbench.pipeline.study.sweep.run import run as sweep
@@ -203,54 +199,18 @@ def _hours(hours: float) -> str:
     return f"{hours:,.1f} hours" if hours >= 1 else f"{60 * hours:,.1f} minutes"
 
 
-@study_app.command(example="study compare quick-study full-study")
-def compare(
-    small: Annotated[Path, typer.Argument(metavar="SMALL", help="Folder of a quick sweep.")],
-    large: Annotated[Path, typer.Argument(metavar="LARGE", help="Folder of a full one.")],
-) -> None:
-    """Compare the conclusions of two sweeps: the order of methods in time and error, and growth exponents.
-
-    Exit code 1: a clear order is reversed, or an exponent differs by more than 0.1.
-    """
-    from dataclasses import asdict
-
-    from rich.table import Table
-
-    from contactbench.pipeline.study.sweep.compare import compare as compared
-
-    found = compared(_sweep(small), _sweep(large))
-    differ = sum(not each.same for each in found)
-    if as_json():
-        answer({"same": not differ, "findings": [asdict(each) for each in found]})
-    else:
-        title = f"{len(found) - differ} of {len(found)} the same"
-        table = Table("conclusion", "small", "large", "", title=title)
-        for each in found:
-            table.add_row(each.what, each.small, each.large, "" if each.same else "differs")
-        show_tables(table)
-    _judge(not differ)
-
-
-def _sweep(place: Path) -> list[Row]:
-    from contactbench.pipeline.study.results import read_results
-    from contactbench.pipeline.study.sweep.run import KIND
-
-    results = read_results(place)
-    if results.kind != KIND:
-        raise InputError(f"{place}: a study of kind {results.kind!r}: give the folder of a sweep.")
-    return list(results.rows)
-
-
 @study_app.command(example="study page quick-study --out docs")
-def page(
-    studies: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders with results.parquet.")],
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Put the pages here, each under its study's name.")
-    ] = None,
-) -> None:
+def page(studies: list[Path], /, *, out: Path | None = None) -> None:
     """Make tables and plots of studies from their Parquet files: page.md in each, and all of them in one folder.
 
     Exit code 1: a sweep misses a target.
+
+    Parameters
+    ----------
+    studies : DIR...
+        Folders with results.parquet.
+    out : DIR
+        Put the pages here, each under its study's name.
     """
     from contactbench.pipeline.study.pages import PAGE, gather, make_page
     from contactbench.pipeline.study.results import read_results

@@ -32,7 +32,7 @@ _HTML = ".html"  # ending of the same page in the design of the reports
 CHAPTERS = {
     "sweep": "sweep.page",
     "stability": "stability",
-    "confidence": "confidence.page",
+    "confidence": "confidence.study",
     "scene": "scene_page",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine

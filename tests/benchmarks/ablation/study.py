@@ -14,7 +14,9 @@ from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.control.settings import LEFT
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
+from contactbench.pipeline.study.pages import origin
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
+from contactbench.pipeline.study.results import environment
 from contactbench.pipeline.study.sweep.noise import FILTERS
 
 if TYPE_CHECKING:
@@ -89,7 +91,8 @@ def run(
         _costs(names, facets, rounds, seed),
     )
     settings = {"probes": ", ".join(names), "facets": facets, "seeds": seeds, "seed": seed}
-    return StudyReport("What a scene needs", settings, tuple(figures), (_ABOUT,), sheets)
+    notes = (_ABOUT, "", origin(environment(), "packaging/run benchmark ablation"))
+    return StudyReport("What a scene needs", settings, tuple(figures), notes, sheets)
 
 
 def _costs(names: Sequence[str], facets: int, rounds: int, seed: int) -> Sheet:

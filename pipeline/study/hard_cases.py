@@ -22,8 +22,8 @@ from contactbench.pipeline.study.hard_meshes import Drawn, SolidBody, places, pr
 from contactbench.pipeline.study.hard_trials import (
     CURVED,
     EXACT,
+    HEADINGS,
     HardCase,
-    HardCasesReport,
     HardOutcome,
     HardTrial,
     Rule,
@@ -35,13 +35,14 @@ from contactbench.pipeline.study.hard_trials import (
     refused,
     within,
 )
+from contactbench.pipeline.study.harness import CasesReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from contactbench.pipeline.study.hard_meshes import Float, Place, Solutions
 
-__all__ = ["HardCase", "HardCasesReport", "HardOutcome", "HardTrial", "Rule", "run"]
+__all__ = ["HardCase", "HardOutcome", "HardTrial", "Rule", "run"]
 
 Rng = np.random.Generator
 
@@ -59,7 +60,7 @@ _JUDGED = Rule(
 
 def run(
     *, samples: int = 2000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
-) -> HardCasesReport:
+) -> CasesReport[HardCase]:
     """Try every hard case.
 
     Parameters
@@ -83,7 +84,9 @@ def run(
     for said, group in GROUPS.items():
         progress(said)
         cases += [trial.run() for trial in group(samples, np.random.default_rng(seed))]
-    return HardCasesReport(samples, seed, cases)
+    title = f"Hard cases, contactbench / algorithm1, seed {seed}"
+    about = {"samples": samples, "seed": seed}
+    return CasesReport(title, about, tuple(cases), HEADINGS[:-1] + ("why",), "cases", whole=True)
 
 
 # ---- the cases ---------------------------------------------------------------------------------------

@@ -19,7 +19,6 @@ from contactbench.pipeline.contact import (
 )
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_judge import CaseJudge
 from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
 from contactbench.pipeline.study.harness import CaseRow
 from contactbench.pipeline.study.report import FigureVerdict
@@ -205,25 +204,11 @@ def certified(body: SolidBody, wrenches: Float) -> Check:
     return check
 
 
-def judged(drawn: Drawn) -> Check:
-    """Refuse answers that are not those of every facet one by one, judged by d2 as it is defined."""
-
-    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        if not isinstance(method.engine, ContactSolver):
-            return np.zeros(len(drawn), dtype=bool)
-        judge = CaseJudge(method.engine)
-        wrong = [bool(judge.faults(w, batch[i])) for i, w in enumerate(drawn.wrenches)]
-        return np.array(wrong, dtype=bool)
-
-    return check
-
-
 def complete(drawn: Drawn) -> Check:
-    """Refuse what `judged` does, and answers that have the truth neither as point nor as candidate."""
+    """Refuse answers that have the truth neither as point nor as candidate."""
 
     def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        broken = judged(drawn)(method, batch)
-        solver = method.engine
+        solver, broken = method.engine, np.zeros(len(drawn), dtype=bool)
         if not isinstance(solver, ContactSolver):
             return broken
         for i, truth in enumerate(drawn.points):
@@ -231,7 +216,7 @@ def complete(drawn: Drawn) -> Check:
             points = [c.point for c in found.candidates] + ([] if found.point is None else [found.point])
             off = np.linalg.norm(np.reshape(points, (-1, 3)) - truth, axis=1)
             # What is nearer to a candidate is the same touch.
-            broken[i] |= off.min(initial=np.inf) > solver.gates.ambiguity_distance
+            broken[i] = off.min(initial=np.inf) > solver.gates.ambiguity_distance
         return broken
 
     return check

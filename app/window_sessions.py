@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
-    from contactbench.pipeline.session.ways_in import WaysIn
+    from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 _NEEDED = (
@@ -335,7 +335,7 @@ class Sessions(QObject):
 
         def look(_progress: object, _cancelled: object) -> WaysIn | None:
             from contactbench.pipeline.session import SessionError
-            from contactbench.pipeline.session.ways_in import ways_in
+            from contactbench.pipeline.session.remains import ways_in
 
             try:
                 return ways_in(folder)

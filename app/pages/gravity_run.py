@@ -22,9 +22,9 @@ from contactbench.pipeline.workbench.gravity_fit import (
     MOUNT,
     ORIENTATION_NOISE,
     TILT,
+    PoseState,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 
@@ -35,8 +35,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings
-    from contactbench.pipeline.workbench.gravity_poses import PoseRow
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings, PoseRow
     from contactbench.pipeline.workbench.gravity_results import GravityOutcome
 
 

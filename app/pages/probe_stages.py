@@ -14,9 +14,8 @@ from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork
+from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork, Trade, trade_of
 from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
-from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
 from contactbench.widgets.numbers import filled
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from contactbench.pipeline.commands.control import control_app
-from contactbench.pipeline.commands.options import RealityOption
 from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, print_json, say
 from contactbench.pipeline.errors import InputError
 
@@ -30,13 +30,52 @@ bench_app.add_typer(control_app, name="control")
 
 _LOOK_S = 0.1  # how long an end may go unnoticed
 
-ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="Bundled probe.")]
-MeshOption = Annotated[Path | None, typer.Option(help="Your own probe instead: a mesh file in S.")]
-SensorOption = Annotated[
-    str, typer.Option("--model", metavar="paper|ideal|noisy", help="What the sensor is, with its faults.")
-]
-SeedOption = Annotated[int, typer.Option(help="Seed of the sensor's noise.")]
-RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000.")]
+
+@dataclass(frozen=True)
+class ChosenBench:
+    """
+    A virtual bench.
+
+    Parameters
+    ----------
+    probe : t-shape|linear|convex
+        Bundled probe.
+    mesh
+        Your own probe instead: a mesh file in S.
+    model : paper|ideal|noisy
+        What the sensor is, with its faults.
+    seed
+        Seed of the sensor's noise.
+    rate
+        Wrenches per second, up to 1000.
+    reality : MIX|EFFECT=SIZE,...
+        Deviation from the ideal bench: ideal, typical, harsh or tissue, effects with their sizes, or both, such as
+        typical,cable=0.2. `contactbench bench reality` lists them.
+    """
+
+    probe: str = "t-shape"
+    mesh: Path | None = None
+    model: str = "paper"
+    seed: int = 0
+    rate: float = 200.0
+    reality: str = "ideal"
+
+    def address(self, script: Path | None) -> DeviceAddress:
+        """Return its address, which checks what was given."""
+        from urllib.parse import quote, urlencode
+
+        from contactbench.pipeline.devices.url import DeviceAddress
+
+        options = {
+            **({"probe": self.probe} if self.mesh is None else {"mesh": str(self.mesh)}),
+            "sensor": self.model,
+            "seed": self.seed,
+            "rate": self.rate,
+            "speed": "step",
+            **({} if script is None else {"script": str(script)}),
+            **({} if self.reality == "ideal" else {"reality": self.reality}),
+        }
+        return DeviceAddress.parse(f"virtual://bench?{urlencode(options, quote_via=quote)}")
 
 
 @bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
@@ -44,13 +83,8 @@ def run(
     script: Path,
     /,
     out: Path,
+    chosen: ChosenBench,
     truth: Path | None = None,
-    probe: ProbeOption = "t-shape",
-    mesh: MeshOption = None,
-    sensor: SensorOption = "paper",
-    seed: SeedOption = 0,
-    rate: RateOption = 200.0,
-    reality: RealityOption = "ideal",
 ) -> None:
     """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
@@ -71,7 +105,7 @@ def run(
     from contactbench.pipeline.simulation.virtual.run import run_script
     from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
-    where = _address(probe, mesh, sensor, seed, rate, script, reality)
+    where = chosen.address(script)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))
     say(
         f"{ran.seconds:.2f} s of the bench: {ran.wrenches:,} wrenches, {ran.flanges:,} poses,"
@@ -99,12 +133,7 @@ def run(
 
 @bench_app.command(example="bench serve --probe t-shape --model paper --pty")
 def serve(
-    probe: ProbeOption = "t-shape",
-    mesh: MeshOption = None,
-    sensor: SensorOption = "paper",
-    seed: SeedOption = 0,
-    rate: RateOption = 200.0,
-    reality: RealityOption = "ideal",
+    chosen: ChosenBench,
     script: Path | None = None,
     pty: bool = False,
     sri_port: int | None = None,
@@ -131,7 +160,7 @@ def serve(
         raise typer.BadParameter("--pty and --sri-port contradict each other: give only one.")
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
-    bench = _bench(_address(probe, mesh, sensor, seed, rate, script, reality))
+    bench = _bench(chosen.address(script))
     with (
         ended_by_signals() as ended,
         ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served,
@@ -178,26 +207,6 @@ def _show_mixes(mixes: Mapping[str, Reality]) -> None:
         sizes = (f"{getattr(each, name):g}" for each in mixes.values())
         table.add_row(name, f"{least:g} to {most:g}", *sizes, field.description)
     Console().print(table)
-
-
-def _address(
-    probe: str, mesh: Path | None, sensor: str, seed: int, rate: float, script: Path | None, reality: str
-) -> DeviceAddress:
-    """Return the address of the bench: its door checks what was given."""
-    from urllib.parse import quote, urlencode
-
-    from contactbench.pipeline.devices.url import DeviceAddress
-
-    options = {
-        **({"probe": probe} if mesh is None else {"mesh": str(mesh)}),
-        "sensor": sensor,
-        "seed": seed,
-        "rate": rate,
-        "speed": "step",
-        **({} if script is None else {"script": str(script)}),
-        **({} if reality == "ideal" else {"reality": reality}),
-    }
-    return DeviceAddress.parse(f"virtual://bench?{urlencode(options, quote_via=quote)}")
 
 
 def _without_paths(where: DeviceAddress) -> DeviceAddress:

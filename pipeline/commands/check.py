@@ -9,11 +9,10 @@ import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
 from contactbench.pipeline.console import Noun, answer, say
-from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 _NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
@@ -76,7 +75,7 @@ def touch(
     probe: Path,
     calibration: CalibrationOption,
     said: TouchSettings,
-    point: str | None = None,
+    point: tuple[float, float, float] | None = None,
     markers: Path | None = None,
     marker: str | None = None,
     out: OutOption = None,
@@ -115,13 +114,13 @@ def touch(
     _finish(touch_content(inputs, given, _now()), out)
 
 
-def _point(point: str | None, markers: Path | None, marker: str | None) -> list[float]:
+def _point(point: Sequence[float] | None, markers: Path | None, marker: str | None) -> list[float]:
     if (markers is None) != (marker is None) or (point is None) == (marker is None):
         raise typer.BadParameter(
             "give the pressed point: --point X,Y,Z, or --markers FILE with --marker NAME."
         )
     if point is not None:
-        return numbers(point, 3, "--point")
+        return list(point)
     from contactbench.pipeline.verification import load_markers
 
     assert markers is not None  # noqa: S101 - for the type checker; seen to above

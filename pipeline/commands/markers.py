@@ -22,7 +22,7 @@ def generate(
     /,
     out: MarkersOut,
     region: int | None = None,
-    everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
+    all_: bool = False,
     count: int = 17,
     grid: float | None = None,
 ) -> None:
@@ -34,12 +34,14 @@ def generate(
         The probe, aligned with the sensor.
     region
         Only on the region with this rank.
+    all_
+        Anywhere on the probe.
     count
         Number of markers, spread evenly.
     grid
         Instead: markers on a grid of this pitch, mm.
     """
-    if (region is None) != everywhere:
+    if (region is None) != all_:
         raise typer.BadParameter("give either --region N or --all.")
     refuse_overwriting(out, [probe])
     from contactbench.pipeline.verification import grid_markers, spread_markers

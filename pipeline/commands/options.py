@@ -37,16 +37,6 @@ SerialOption = Annotated[
     ),
 ]
 
-RealityOption = Annotated[
-    str,
-    typer.Option(
-        "--reality",
-        metavar="MIX|EFFECT=SIZE,...",
-        help="Deviation from the ideal bench: ideal, typical, harsh or tissue, effects with their"
-        " sizes, or both, such as typical,cable=0.2. `contactbench bench reality` lists them.",
-    ),
-]
-
 _SENSOR_AT = typer.Option(
     "--sensor-at",
     metavar="X,Y,Z",

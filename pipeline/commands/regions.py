@@ -14,6 +14,8 @@ from contactbench.pipeline.console import Noun, as_json, print_json, running_com
 from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
 
 
+Three = tuple[float, float, float]
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
 ]
@@ -210,11 +213,11 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
     Console(markup=False).print(table)
 
 
-def metres(text: str, option: str) -> NDArray[np.float64]:
-    """Return x,y,z (3,) in metres from millimetres on the command line; typer.BadParameter if it is not that."""
+def metres(millimetres: Sequence[float]) -> NDArray[np.float64]:
+    """Return a point (3,) in m."""
     import numpy as np
 
-    return np.array(numbers(text, 3, option)) / 1000
+    return np.array(millimetres) / 1000
 
 
 regions_app = Noun(
@@ -452,9 +455,9 @@ def box(
     mesh: MeshArgument,
     region: RegionArgument,
     /,
-    low: str,
-    high: str,
-    frame: str | None = None,
+    low: Three,
+    high: Three,
+    frame: tuple[float, float, float, float, float, float] | None = None,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
@@ -471,16 +474,15 @@ def box(
     """
     from contactbench.pipeline.mesh.regions import in_box
 
-    corners = metres(low, "--low"), metres(high, "--high")
+    corners = metres(low), metres(high)
     session = ProbeRegions(mesh)
     if frame is None:
         chosen = in_box(session.graph, *corners)
     else:
         from scipy.spatial.transform import Rotation
 
-        values = numbers(frame, 6, "--frame")
-        R_SB = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()
-        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=[value / 1000 for value in values[:3]])
+        R_SB = Rotation.from_euler("xyz", frame[3:], degrees=True).as_matrix()
+        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=metres(frame[:3]))
     _assign(session, region, chosen, "box into", erase, protect)
 
 
@@ -496,7 +498,7 @@ def plane(
     """Give REGION the facets on the side of a plane to which its normal points."""
     from contactbench.pipeline.mesh.regions import half_space
 
-    where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
+    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
     session = ProbeRegions(mesh)
     chosen = half_space(session.graph, where, direction)
     _assign(session, region, chosen, "half into", erase, protect)
@@ -507,7 +509,7 @@ def flood(
     mesh: MeshArgument,
     region: RegionArgument,
     /,
-    at: str,
+    at: Three,
     crease: float = 30.0,
     erase: EraseOption = False,
     protect: ProtectOption = False,
@@ -523,7 +525,7 @@ def flood(
     """
     from contactbench.pipeline.mesh.regions import flood as fill
 
-    where = metres(at, "--at")
+    where = metres(at)
     session = ProbeRegions(mesh)
     faces, _ = session.graph.pick(where)
     chosen = fill(session.graph, int(faces[0]), math.radians(crease))
@@ -535,7 +537,7 @@ def brush(
     mesh: MeshArgument,
     region: RegionArgument,
     /,
-    at: list[str],
+    at: list[Three],
     radius: float,
     straight: bool = False,
     erase: EraseOption = False,
@@ -558,7 +560,7 @@ def brush(
     from contactbench.pipeline.mesh.regions import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
-    where = [metres(text, "--at") for text in at]
+    where = [metres(each) for each in at]
     session = ProbeRegions(mesh)
     faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
     rank = session.rank(region)
@@ -635,7 +637,7 @@ def mirror(
     """
     from contactbench.pipeline.mesh.regions import mirror as reflect
 
-    direction, where = numbers(normal, 3, "--normal"), metres(point, "--point")
+    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
     session = ProbeRegions(mesh)
     rank = session.rank(region)
     reach = None if tolerance is None else tolerance / 1000

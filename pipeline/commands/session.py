@@ -344,23 +344,8 @@ def compute(
     kind: str,
     name: str,
     /,
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="NAME=VALUE",
-            help="Parameter, as JSON or text; may be repeated. Others keep the values set by `session"
-            " set` or the window for this kind.",
-        ),
-    ] = None,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--input",
-            metavar="ROLE=NAME",
-            help="Use this recording, poses or alignment instead of the newest; without a name: none.",
-        ),
-    ] = None,
+    set_: list[str] | None = None,
+    input_: list[str] | None = None,
 ) -> None:
     """Compute a result from the newest inputs of its kind, raw or computed, and record it with its origin.
 
@@ -374,14 +359,19 @@ def compute(
         both checks.
     name
         Name of the result's file.
+    set_ : NAME=VALUE
+        Parameter, as JSON or text; may be repeated. Others keep the values set by `session set` or the window for
+        this kind.
+    input_ : ROLE=NAME
+        Use this recording, poses or alignment instead of the newest; without a name: none.
     """
     from contactbench.pipeline.session.actions import files_of
     from contactbench.pipeline.session.recompute import compute as run
     from contactbench.pipeline.session.recompute import newest_inputs, settings_of
 
-    chosen = dict(_choice(text) for text in inputs or [])
+    chosen = dict(_choice(text) for text in input_ or [])
     with _writing(folder) as session:
-        given = settings_of(session.state, kind) | dict(_setting(text) for text in settings or [])
+        given = settings_of(session.state, kind) | dict(_setting(text) for text in set_ or [])
         record = run(
             session,
             kind,
@@ -571,8 +561,8 @@ def rezero(folder: FolderArgument, /, serial: str, reason: str) -> None:
 def replay(folder: FolderArgument) -> None:
     """Recompute every result from raw inputs and compare the bytes. Exit code 1: one differs or fails."""
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.replay import ReplayOutcome
-    from contactbench.pipeline.session.replay import replay as run
+    from contactbench.pipeline.session.recompute import ReplayOutcome
+    from contactbench.pipeline.session.recompute import replay as run
 
     with Session.open(folder, write=False) as session, Bar("replaying", counted=True) as bar:
         found = run(session, bar)

@@ -15,7 +15,6 @@ from contactbench.pipeline.commands.options import (
     written,
 )
 from contactbench.pipeline.console import Noun, answer, say, show_tables
-from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import ReportSettings, VerificationSettings
 
 if TYPE_CHECKING:
@@ -44,7 +43,7 @@ def touches(
     calibration: Path,
     markers: Path,
     said: VerificationSettings,
-    force: list[str] | None = None,
+    force: list[tuple[float, float]] | None = None,
     order: str | None = None,
     leave_out: list[str] | None = None,
     limit_time: float = 1.0,
@@ -91,12 +90,11 @@ def touches(
     from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
     left_out = dict(_left_out(text) for text in leave_out or ())
-    windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
     given = VerificationParameters.checked(
         {
             **said.model_dump(),
             "name": "verification.json" if out is None else out.name,
-            "windows": windows,
+            "windows": force or [(8.0, 10.0)],
             "order": () if order is None else _in_order(order, left_out),
             "left_out": left_out,
             "p99_limit_s": limit_time / 1e3,

@@ -33,6 +33,8 @@ class ParsedPoses(ReconnectingStream[FlangeSample]):
         As for `ReconnectingStream`.
     start, stop : bytes
         What to send first and last; empty: nothing.
+    guess : float
+        Poses per second until they have come, where the address gives no rate.
     """
 
     def __init__(
@@ -44,14 +46,16 @@ class ParsedPoses(ReconnectingStream[FlangeSample]):
         *,
         start: bytes = b"",
         stop: bytes = b"",
+        guess: float = ASSUMED_RATE_HZ,
         line: Line | None = None,
     ) -> None:
         self._parser, self._start, self._stop = parser, start, stop
         self._clock = SampleClock(address.rate)
-        watch = Watch(address.rate or ASSUMED_RATE_HZ, rate_known=address.rate is not None)
+        watch = Watch(address.rate or guess, rate_known=address.rate is not None)
         super().__init__(address, line or line_to(address), watch, on_samples, on_change)
 
     def _begin(self) -> None:
+        self._parser.begin()
         if self._start:
             self._line.write(self._start)
 

@@ -10,7 +10,7 @@ from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.content import content_of, origin_problems
 from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
@@ -22,11 +22,9 @@ from contactbench.pipeline.session.files import (
 )
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
 from contactbench.pipeline.session.lock import Lock
-from contactbench.pipeline.session.migrate import origin_problems
-from contactbench.pipeline.session.sources import sources_of
-from contactbench.pipeline.session.state import fold
+from contactbench.pipeline.session.remains import upright
+from contactbench.pipeline.session.state import fold, sources_of
 from contactbench.pipeline.session.store import Session
-from contactbench.pipeline.session.ways_in import upright
 
 if TYPE_CHECKING:
     from collections.abc import Callable

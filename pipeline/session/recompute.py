@@ -8,9 +8,11 @@ lengths in mm.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import hashlib
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -18,7 +20,7 @@ from pydantic import TypeAdapter, ValidationError
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.report.report_file import ReportParameters, report
-from contactbench.pipeline.session.actions import main_file
+from contactbench.pipeline.session.actions import TOOL, main_file
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import touched_mark
 from contactbench.pipeline.session.make_calibration import (
@@ -36,12 +38,13 @@ from contactbench.pipeline.verification.result import REFERENCE, VerificationPar
 from contactbench.pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from pydantic import BaseModel
 
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import State
+    from contactbench.pipeline.session.state import Result, State
     from contactbench.pipeline.session.store import Session
 
 
@@ -280,10 +283,13 @@ def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
 def settings_of(state: State, kind: str) -> dict[str, Any]:
     """Return the parameters that the session's settings give a computation; those set to null are left out."""
     known = RECOMPUTE[kind].parameters.model_fields if kind in RECOMPUTE else {}
-    named = {
-        key.partition(".")[2]: each for key, each in state.settings.items() if key.startswith(f"{kind}.")
-    }
-    return {name: each.value for name, each in named.items() if name in known and each.value is not None}
+    return chosen_of(state, kind, known)
+
+
+def chosen_of(state: State, kind: str, known: Container[str]) -> dict[str, Any]:
+    """Return those of the known settings ``kind.parameter`` that a session has; those set to null are left out."""
+    named = state.named(kind).items()
+    return {name: each.value for name, each in named if name in known and each.value is not None}
 
 
 def mount_of(state: State) -> Three | None:
@@ -356,3 +362,82 @@ def _named(folder: Path, state: State, sha256: str, before: int | None) -> Named
 
 def _marks(files: Mapping[str, NamedFile]) -> list[tuple[int, int, int] | None]:
     return [touched_mark(place) for file in files.values() for place in file.beside.values()]
+
+
+# ---- computed once more ---------------------------------------------------------------------------
+
+
+class ReplayOutcome(StrEnum):
+    """What computing a result again gave."""
+
+    SAME = "same"
+    DIFFERENT = "different"
+    FAILED = "failed"
+    UNKNOWN = "unknown"  # nothing here computes this kind
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """One result, computed again."""
+
+    kind: str
+    name: str
+    number: int  # Of its record
+    outcome: ReplayOutcome
+    sentence: str  # What came of it
+
+
+def replay(session: Session, progress: Callable[[int, int], None] | None = None) -> tuple[Replayed, ...]:
+    """
+    Compute every result of a session again, also replaced and stale ones; adds nothing to it.
+
+    Parameters
+    ----------
+    session : Session
+        Open for reading or writing.
+    progress : callable, optional
+        Takes the number of results that are done, and of all.
+
+    Returns
+    -------
+    tuple of Replayed
+        Oldest first.
+    """
+    found = []
+    results = session.state.results
+    for done, result in enumerate(results, 1):
+        outcome, why = _again(session, result)
+        found.append(Replayed(*result.slot, result.number, outcome, f"{result.title}: {why}"))
+        if progress is not None:
+            progress(done, len(results))
+    return tuple(found)
+
+
+def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
+    action = result.action
+    if action.kind not in RECOMPUTE:
+        return ReplayOutcome.UNKNOWN, "this kind of result cannot be computed here, so it was not compared."
+    parameters = {**action.parameters, "name": action.name}
+    try:
+        files = recomputed(
+            session.folder,
+            session.state,
+            action.kind,
+            action.inputs,
+            parameters,
+            action.created,
+            before=result.number,
+        )
+    except InputError as error:
+        return ReplayOutcome.FAILED, f"it cannot be recomputed: {error}"
+    differing = sorted(
+        name
+        for name in files.keys() | action.files.keys()
+        if name not in files
+        or name not in action.files
+        or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
+    )
+    if not differing:
+        return ReplayOutcome.SAME, "identical bytes."
+    older = "" if result.tool == TOOL else f" It was made by {result.tool}, this is {TOOL}."
+    return ReplayOutcome.DIFFERENT, f"different bytes in {', '.join(differing)}.{older}"

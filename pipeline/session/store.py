@@ -232,22 +232,13 @@ class Session:
             name = "" if isinstance(file, bytes) else file.name
         source = _chunks(file)
         beside = {each: _chunks(there) for each, there in (companions or {}).items()}
-        if kind == MESH:
-            return self.change_mesh(name, source, beside)
-        given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about or {})}
+        action, folder, given = _input(kind, sensor, about or {})
         # Refused before anything is copied.
-        checked(InputAdded, file=NOWHERE, companions=dict.fromkeys(beside, NOWHERE), **given)
-        ref, refs = self._store("raw", name, source), self._store_all("raw", beside)
-        return self._append(checked(InputAdded, file=ref, companions=refs, **given), sensor)
-
-    def change_mesh(
-        self, name: str, chunks: Iterable[bytes], companions: Mapping[str, Iterable[bytes]] | None = None
-    ) -> Record:
-        """Use another mesh from now on; what was computed from the one before becomes stale."""
-        companions = companions or {}
-        checked(MeshChanged, name=name, file=NOWHERE, companions=dict.fromkeys(companions, NOWHERE))
-        ref, refs = self._store("meshes", name, chunks), self._store_all("meshes", companions)
-        return self._append(checked(MeshChanged, name=name, file=ref, companions=refs))
+        checked(action, name=name, file=NOWHERE, companions=dict.fromkeys(beside, NOWHERE), **given)
+        ref, refs = self._store(folder, name, source), self._store_all(folder, beside)
+        return self._append(
+            checked(action, name=name, file=ref, companions=refs, **given), given.get("sensor")
+        )
 
     def adopt(
         self, file: Path, kind: str, *, name: str, sensor: str | None, about: Mapping[str, Any]
@@ -330,20 +321,17 @@ class Session:
         SessionError
             One of its files is not what the journal says, or the journal cannot be written.
         """
+        action: Action
+        given: dict[str, Any] = {}
         if isinstance(there, Result):
-            action: Action = there.action
-        elif there.kind == MESH:
-            action = MeshChanged(name=there.name, file=there.file, companions=dict(there.companions))
+            action = there.action
         else:
-            beside, about = dict(there.companions), dict(there.about)
-            action = InputAdded(
-                name=there.name, file=there.file, companions=beside,
-                kind=there.kind, sensor=there.sensor, about=about,
-            )  # fmt: skip
+            make, _, given = _input(there.kind, there.sensor, there.about)
+            action = make(name=there.name, file=there.file, companions=dict(there.companions), **given)
         for ref in files_of(action):
             if wrong := file_problem(self.folder, ref):
                 raise SessionError(f"{self.folder}: {wrong}")
-        record = self._append(action, None if isinstance(there, Result) else there.sensor)
+        record = self._append(action, given.get("sensor"))
         return record if there.mark is None else self._append(there.mark)
 
     def mark(
@@ -433,6 +421,15 @@ class Session:
         if self._lock.held:  # a closed one says so itself
             self._lock.check()
         return self._writer
+
+
+def _input(
+    kind: str, sensor: str | None, about: Mapping[str, Any]
+) -> tuple[type[InputAdded | MeshChanged], str, dict[str, Any]]:
+    """Return the action that adds an input of a kind, the folder of its files, and what is said of it."""
+    if kind == MESH:
+        return MeshChanged, "meshes", {}
+    return InputAdded, "raw", {"kind": kind, "sensor": sensor, "about": dict(about)}
 
 
 def _chunks(file: File | bytes) -> Iterable[bytes]:

@@ -18,8 +18,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.files import file_problem, touched_mark
 from contactbench.pipeline.session.recompute import parameter_of
-from contactbench.pipeline.session.sources import Recorded, sources_of
-from contactbench.pipeline.session.state import MESH, Result, minute_of
+from contactbench.pipeline.session.state import MESH, Recorded, Result, minute_of, sources_of
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from contactbench.pipeline.session.actions import FileRef
-    from contactbench.pipeline.session.state import Input, Setting, State
+    from contactbench.pipeline.session.state import Input, State
 
     Content = dict[str, Any]
     Facts = Mapping[str, Content]
@@ -72,10 +71,7 @@ class _Follows:
         self._sources = sources_of(state)
         self._recorded = Recorded(state.inputs)
         self._rezeros = {each.sensor: each for each in state.rezeros}  # the newest of each sensor
-        self._settings: dict[str, list[tuple[str, Setting]]] = {}
-        for key, setting in state.settings.items():
-            kind, parameter = key.split(".", 1)
-            self._settings.setdefault(kind, []).append((parameter, setting))
+        self._settings = {kind: state.named(kind) for kind, _ in self._results}
         self._known: dict[int, tuple[str, ...]] = {}
 
     def reasons(self, result: Result) -> tuple[str, ...]:
@@ -146,7 +142,7 @@ class _Follows:
 
     def _of_parameters(self, result: Result) -> Iterator[str]:
         kind, given = result.action.kind, result.action.parameters
-        for parameter, setting in self._settings.get(kind, ()):
+        for parameter, setting in self._settings[kind].items():
             if setting.number < result.number:
                 continue
             used = parameter_of(kind, parameter, given)

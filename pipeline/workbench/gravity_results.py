@@ -15,10 +15,11 @@ from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,
     POSES_FILE,
     GravityFinding,
+    PoseRow,
+    calibrated_rows,
     findings,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -24,9 +24,10 @@ from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, pa
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.files import chunks_of, digest_of
+from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.make_probe import ProbeParameters
 from contactbench.pipeline.session.recompute import inputs_of
+from contactbench.pipeline.session.state import MESH
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
@@ -325,8 +326,7 @@ def _mesh(session: Session, mesh: Mesh) -> str:
         and set(known.companions) == set(mesh.companions)
     )
     if not same:
-        beside = {name: chunks_of(path) for name, path in mesh.companions.items()}
-        session.change_mesh(mesh.file.name, chunks_of(mesh.file), beside)
+        session.add_input(mesh.file, MESH, companions=mesh.companions)
     used = session.state.mesh
     assert used is not None  # noqa: S101  (it was just added)
     return used.content
@@ -337,3 +337,47 @@ def _alignment(session: Session, text: str) -> str:
     if known is None or (session.folder / known.file.path).read_bytes() != text.encode():
         session.add_input(text.encode(), ALIGNMENT, name=ALIGNMENT_FILE)
     return session.state.current_inputs[ALIGNMENT, ALIGNMENT_FILE].content
+
+
+# ---- what fewer facets cost -----------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class TradePoint:
+    """One number of facets."""
+
+    facets: int
+    error_mm: float  # What 95 % of the contacts move less than, against all facets, mm
+    solve_us: float  # Median time of a solve, µs
+    loop_us: float  # The same of the paper's loop over all facets, µs
+    advised: bool = False  # The fewest facets that will do: the knee
+
+
+@dataclass(frozen=True)
+class Trade:
+    """A chart of speed against error."""
+
+    points: tuple[TradePoint, ...]  # By facets, ascending; the last has all of them
+    allowed_mm: float  # Largest error that will do, mm
+    reason: str  # What to take and why
+
+    @property
+    def advised(self) -> int:
+        """Facets to take."""
+        return next((point.facets for point in self.points if point.advised), self.points[-1].facets)
+
+
+def trade_of(ladder: Ladder) -> Trade:
+    """Return a ladder's chart; rungs on which no touch could be compared are left out."""
+    points = [
+        TradePoint(
+            rung.facets,
+            1e3 * rung.judged.noisy.p95,
+            0.0 if rung.speed is None else rung.speed.contactbench.median / 1e3,
+            0.0 if rung.speed is None else rung.speed.algorithm1.median / 1e3,
+            rung is ladder.recommended,
+        )
+        for rung in ladder.rungs
+        if rung.judged.noisy.p95 is not None
+    ]
+    return Trade(tuple(points), 1e3 * ladder.recommendation.limit, ladder.recommendation.reason)

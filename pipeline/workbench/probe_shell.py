@@ -40,11 +40,8 @@ def recipe_of(state: State) -> ProbeRecipe | None:
     What was set since in the session's parameters of the kind ``probe`` counts.
     """
     newest = state.made(PROBE)
-    settings = {
-        key.partition(".")[2]: setting
-        for key, setting in state.settings.items()
-        if key.startswith(f"{PROBE}.") and key.partition(".")[2] in ProbeParameters.model_fields
-    }
+    known = ProbeParameters.model_fields
+    settings = {name: setting for name, setting in state.named(PROBE).items() if name in known}
     if newest is not None:
         since = {key: each.value for key, each in settings.items() if each.number > newest.number}
         return ProbeRecipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)

@@ -12,8 +12,7 @@ from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.adoption import adopt_unfinished
 from contactbench.pipeline.steps import StepState, StepStatus
-from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Solved
-from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseState, Solved
 
 from .page_window import PageWindow
 

@@ -10,8 +10,7 @@ from weighing_files import weighed, write_euler
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.recompute import RECOMPUTE, compute
-from contactbench.pipeline.session.replay import ReplayOutcome, replay
+from contactbench.pipeline.session.recompute import RECOMPUTE, ReplayOutcome, compute, replay
 
 
 def invoke(*arguments):

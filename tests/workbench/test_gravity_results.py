@@ -11,8 +11,7 @@ from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_fit import gravity_settings
-from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_fit import PoseState, gravity_settings
 from contactbench.pipeline.workbench.gravity_results import (
     change,
     finish,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from workbench.changes import observed
 from workbench.probe_files import egg
 
 from contactbench.pipeline.errors import InputError
@@ -16,7 +17,6 @@ from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork
 from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
-from contactbench.pipeline.workbench.session_change import observed
 
 PLAN = ProbePlan(
     units="mm",

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.options import Option
@@ -16,11 +15,9 @@ from contactbench.pipeline.devices.options import name as read_name
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
-from contactbench.pipeline.devices.protocols.parser import Counters
-from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
+from contactbench.pipeline.devices.protocols.parser import Counters, Parser
+from contactbench.pipeline.devices.robot_poses import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.devices.transport import line_to
-from contactbench.pipeline.devices.watch import Watch
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -28,14 +25,14 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.protocols.device_model import Quirk
-    from contactbench.pipeline.devices.transport import Line
+    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _MOST_NAMES = 20
 _GUESSED_HZ = 30.0  # trackers give 20 to 250 poses a second
 
 
-class BodyStream:
+class BodyStream(Parser[FlangeSample]):
     """
     Bytes of a server to poses of one body, which plays the flange: E is the body, the base B is the tracker.
 
@@ -48,8 +45,6 @@ class BodyStream:
     ----------
     names : list of str
         Bodies heard of, at most twenty.
-    trouble : str
-        Why the last pose that came is none; empty: it is one.
     """
 
     def __init__(self, body: str | None = None) -> None:
@@ -58,7 +53,7 @@ class BodyStream:
         self._refused = self._repeated = 0
         self._stamp: float | None = None
         self.names: list[str] = []
-        self.trouble = ""
+        self._trouble = ""
 
     @property
     def counters(self) -> Counters:
@@ -72,14 +67,18 @@ class BodyStream:
         )
 
     @property
-    def pending(self) -> int:
+    def pending(self) -> int:  # type: ignore[override]
         """Bytes that wait for the rest of their message."""
         return self._reader.pending
+
+    def begin(self) -> None:
+        """As `Parser`: half a message may be one that is never completed."""
+        self.reset()
 
     def reset(self) -> None:
         """Forget half a message, after the line was lost."""
         self._reader.reset()
-        self._stamp, self.trouble = None, ""
+        self._stamp, self._trouble = None, ""
 
     def feed(self, data: bytes, time: float) -> list[FlangeSample]:
         """
@@ -104,19 +103,32 @@ class BodyStream:
             try:
                 poses = igtl.poses_of(message)
             except IgtlError as error:
-                self.trouble = str(error)
+                self._trouble = str(error)
                 self._refused += 1
                 continue
             for pose in poses:
                 if not self._is_wanted(pose.body):
                     continue
-                self.trouble = ""
+                self._trouble = ""
                 if message.time is not None and message.time == self._stamp:
                     self._repeated += 1
                     continue
                 self._stamp = message.time
                 samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=message.time))
         return samples
+
+    def troubles(self) -> dict[str, str]:
+        """Return why the last pose that came is none, or that the body was not heard of, by kind."""
+        if self._trouble:
+            return {"pose": self._trouble}
+        if self._body is None or not self.names or self._body in self.names:
+            return {}
+        return {
+            "body": (
+                f"The server sends no body {self._body!r}, only {', '.join(self.names)}: correct ?device= in the"
+                " address, or bring the body in sight."
+            )
+        }
 
     def _is_wanted(self, name: str) -> bool:
         if name not in self.names and len(self.names) < _MOST_NAMES:
@@ -127,66 +139,6 @@ class BodyStream:
                 " address."
             )
         return self._body in (None, name)
-
-
-class TrackerPoses(ReconnectingStream[FlangeSample]):
-    """
-    One body's poses. The body plays the flange, and the tracker the robot's base.
-
-    Without a rate in the address nothing is sent: the server is expected to stream. With one, QTDATA is asked for.
-
-    Parameters
-    ----------
-    address : DeviceAddress
-        Its ``device`` names the body.
-    on_samples, on_change
-        As for `ReconnectingStream`.
-    """
-
-    def __init__(
-        self,
-        address: DeviceAddress,
-        on_samples: OnFlanges,
-        on_change: OnChange = None,
-        *,
-        line: Line | None = None,
-    ) -> None:
-        self._bodies = BodyStream(address.options["device"])
-        self._clock = SampleClock(address.rate)
-        watch = Watch(address.rate or _GUESSED_HZ, rate_known=address.rate is not None)
-        super().__init__(address, line or line_to(address), watch, on_samples, on_change)
-
-    def _begin(self) -> None:
-        self._bodies.reset()
-        if self.address.rate is not None:
-            self._line.write(igtl.start_qtdata(self.address.rate))
-
-    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
-        return self._clock.stamp(self._bodies.feed(data, arrived))
-
-    def _end(self) -> None:
-        if self.address.rate is not None:
-            self._line.write(igtl.pack(igtl.STOP_QTDATA, "", 0, b""))
-
-    def _reset(self) -> None:
-        self._bodies.reset()
-        self._clock.forget()
-
-    def _counters(self) -> Counters:
-        return self._bodies.counters
-
-    def _troubles(self) -> dict[str, str]:
-        if self._bodies.trouble:
-            return {"pose": self._bodies.trouble}
-        wanted, names = self.address.options["device"], self._bodies.names
-        if wanted is None or not names or wanted in names:
-            return {}
-        return {
-            "body": (
-                f"The server sends no body {wanted!r}, only {', '.join(names)}: correct ?device= in the address, or"
-                " bring the body in sight."
-            )
-        }
 
 
 # ---- emulated: a tracker that streams one body ---------------------------------------------------
@@ -261,4 +213,13 @@ class IgtlDriver(Driver):
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """As `Driver`."""
-        return TrackerPoses(address, on_samples, on_change)
+        rate = address.rate  # without one the server is expected to stream
+        return ParsedPoses(
+            address,
+            BodyStream(address.options["device"]),
+            on_samples,
+            on_change,
+            start=b"" if rate is None else igtl.start_qtdata(rate),
+            stop=b"" if rate is None else igtl.pack(igtl.STOP_QTDATA, "", 0, b""),
+            guess=_GUESSED_HZ,
+        )

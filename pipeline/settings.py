@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from datetime import date
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
@@ -29,12 +29,23 @@ Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 Three = tuple[Number, Number, Number]
 
+# What is known of a touch if nobody says more: one sigma of its torsion over its force, and of the model error.
+TORSION_ARM_M, DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.001, 0.05, 0.001
 # How well orientations are known by what gives them, degrees: 1 sigma about each axis.
 ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
 
 
 def knob(
-    default: Any = ..., text: str = "", *, metavar: str = "", option: str = "", hidden: bool = False
+    default: Any = ...,
+    text: str = "",
+    *,
+    unit: str = "",
+    scale: float = 1.0,
+    none: str = "",
+    why: str = "",
+    metavar: str = "",
+    option: str = "",
+    hidden: bool = False,
 ) -> Any:
     """
     Return a field that a command has as an option.
@@ -44,7 +55,15 @@ def knob(
     default
         Left out: it must be given.
     text : str
-        One sentence of help.
+        One sentence of help; the unit is put in where it ends.
+    unit : str
+        Of the number that a person reads and types.
+    scale : float
+        How many of that unit one of the field is: 1000 for a field in m that people give in mm.
+    none : str
+        What holds if the value is left out.
+    why : str
+        Why the default is what it is; for the documentation.
     metavar : str
         How a value is written on the command line, where that is not plain to see.
     option : str
@@ -55,14 +74,24 @@ def knob(
     return Field(
         default,
         description=text,
-        json_schema_extra={"metavar": metavar, "option": option, "hidden": hidden},
-    )
+        json_schema_extra={
+            "unit": unit, "scale": scale, "none": none, "why": why,
+            "metavar": metavar, "option": option, "hidden": hidden,
+        },
+    )  # fmt: skip
+
+
+def with_unit(text: str, unit: str, after: str = "") -> str:
+    """Return a sentence of help with the unit, and what comes after it, at the end of its first sentence."""
+    first, rest = (text.removesuffix("."), "") if ". " not in text else text.split(". ", 1)
+    return f"{first}{f', {unit}' if unit else ''}{after}.{f' {rest}' if rest else ''}"
 
 
 class Settings(BaseModel):
     """What is chosen for a step."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> Self:
@@ -186,6 +215,26 @@ class DelaySettings(Settings):
 
 class CapturesSettings(DelaySettings, PosesSettings):
     """How still poses are found in a recording."""
+
+
+# ---- locating ------------------------------------------------------------------------------------
+
+
+class TouchModelSettings(Settings):
+    """What is known of a wrench and of a touch before one is located."""
+
+    noise_force: float = knob(0.05, "Standard deviation of a force.", unit="N")
+    noise_torque: float = knob(0.002, "Standard deviation of a torque.", unit="N·m")
+    torsion_arm: float = knob(
+        TORSION_ARM_M,
+        "Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.",
+        unit="mm",
+        scale=1000,
+    )
+    model_force: float = knob(
+        DEFAULT_FORCE_N, "Error that drift, cable and hysteresis leave in a force, 1 sigma.", unit="N"
+    )
+    model_torque: float = knob(DEFAULT_TORQUE_NM, "The same for a torque.", unit="mN·m", scale=1000)
 
 
 # ---- calibration -------------------------------------------------------------------------------

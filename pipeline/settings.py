@@ -90,7 +90,8 @@ def with_unit(text: str, unit: str, after: str = "") -> str:
 class Settings(BaseModel):
     """What is chosen for a step."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # Built when the first is made: most commands take a few of them.
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
 
     @classmethod

@@ -13,7 +13,7 @@ from contactbench.widgets.phrases import said
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.workbench.standings import CheckItem
+    from contactbench.pipeline.session.why import CheckItem
 
 _ICONS = {
     "done": ("done", "good"),

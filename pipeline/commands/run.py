@@ -52,32 +52,15 @@ _PATCH_S = 1.0  # a line about the patch in so long
     ),
 )
 def run(
-    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    source: Annotated[
-        str, typer.Option(metavar="ADDRESS", help="Address of the force/torque sensor, or a replay.")
-    ],
-    pose: Annotated[
-        str,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
-            " poses:///file.csv, still://?rpy=0,90,0 (degrees).",
-        ),
-    ],
+    bundle: Path,
+    /,
+    source: str,
+    pose: str,
     patch: PatchOption = None,
-    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
-    unverified: Annotated[
-        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
-    ] = False,
-    other_sensor: Annotated[
-        bool, typer.Option("--other-sensor", help="Also run with a sensor of another serial number.")
-    ] = False,
-    allow_remote: Annotated[
-        bool,
-        typer.Option(
-            "--allow-remote", help="Outputs may reach other machines, neither encrypted nor signed."
-        ),
-    ] = False,
+    seconds: float | None = None,
+    unverified: bool = False,
+    other_sensor: bool = False,
+    allow_remote: bool = False,
     **addresses: Annotated[str | None, _OUTPUT_OPTIONS],
 ) -> None:
     """Run a bundle on live streams, and locate the contact at every sample.
@@ -97,6 +80,24 @@ def run(
     could not be used, a stream failed, or a replay could not be read to its end; 2: the
     bundle is refused, or an output failed or published nothing. --json reports the counts at the end; contacts
     then have to go elsewhere than to standard output.
+
+    Parameters
+    ----------
+    bundle
+        Folder or zip file of a runtime config.
+    source : ADDRESS
+        Address of the force/torque sensor, or a replay.
+    pose : ADDRESS
+        Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
+        poses:///file.csv, still://?rpy=0,90,0 (degrees).
+    seconds
+        Duration, s [until Ctrl-C].
+    unverified
+        Accept a bundle that is not verified.
+    other_sensor
+        Also run with a sensor of another serial number.
+    allow_remote
+        Outputs may reach other machines, neither encrypted nor signed.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import Bed, PatchReader

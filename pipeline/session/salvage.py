@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.session.actions import files_of
-from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.content import content_of, original_of
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
@@ -23,7 +23,6 @@ from contactbench.pipeline.session.files import (
     wrong_with,
 )
 from contactbench.pipeline.session.journal import JOURNAL, read_journal
-from contactbench.pipeline.session.migrate import original_of
 from contactbench.pipeline.session.remains import doubts, note_of, remains_of
 from contactbench.pipeline.session.store import Session
 

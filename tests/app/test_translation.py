@@ -15,7 +15,7 @@ from contactbench.app import translation
 from contactbench.app.cli import app
 from contactbench.app.sentences import templates
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.phrases import PhraseBook, said
 
 from . import spoken as spoken_words

@@ -44,6 +44,23 @@ class Only:
         object.__setattr__(self, "names", names)
 
 
+@dataclass(frozen=True)
+class Row:
+    """How a form asks for a number; in the annotation of the field."""
+
+    title: str
+    """What stands beside the field."""
+    span: tuple[float, float]
+    """The smallest and the largest number that it takes."""
+    unit: str = ""
+    decimals: int = 0
+    step: float = 1.0
+    start: float = 0.0
+    """What is offered where there is no default."""
+    none: str = ""
+    """What the smallest number stands for: that nothing is given."""
+
+
 def knob(
     default: Any = ..., text: str = "", *, metavar: str = "", option: str = "", hidden: bool = False
 ) -> Any:
@@ -296,12 +313,18 @@ class TouchSettings(PosesSettings):
 class VerificationSettings(OrientationSettings):
     """How touches of markers are judged."""
 
-    samples: int = knob(50, "Samples per touch, once it has settled.")
-    repeats: int = knob(1, "Accepted touches needed per marker.")
+    repeats: Annotated[int, Row("Per marker", (1, 100), "×")] = knob(
+        1, "Accepted touches required per marker."
+    )
+    samples: Annotated[int, Row("Samples", (4, 10_000))] = knob(50, "Samples per touch after settling.")
     touch_force: Positive | None = knob(None, "A touch begins at this |F|, N [2, less for windows below].")
     release_force: Positive | None = knob(None, "A touch ends below this |F|, N [1, less for windows below].")
-    mean_limit_mm: Positive = knob(1.0, "Largest mean error, mm.", option="--limit-mean")
-    max_limit_mm: Positive = knob(2.0, "Largest error, mm.", option="--limit-max")
+    mean_limit_mm: Annotated[Positive, Row("Mean error up to", (0.05, 50.0), "mm", 2, 0.5)] = knob(
+        1.0, "Largest permitted mean error, mm.", option="--limit-mean"
+    )
+    max_limit_mm: Annotated[Positive, Row("Single error up to", (0.05, 50.0), "mm", 2, 0.5)] = knob(
+        2.0, "Largest permitted error, mm.", option="--limit-max"
+    )
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
     noise_torque: Positive | None = knob(None, "The same for a torque, N·m.")
     seed: int = knob(0, "Seed of the bootstrap.")
@@ -348,7 +371,9 @@ class ProbeSettings(Settings):
         " others. fair: least bending. ruled: straight lines between the long rims. hull: no"
         " dent. open: leave it. [auto]",
     )
-    alpha: float | None = knob(None, "Size of the shell's facets, mm [1/190 of the size].")
+    alpha: Annotated[float | None, Row("Facet size", (0.0, 50.0), "mm", 2, none="Automatic")] = knob(
+        None, "Facet size of the outer surface, mm [1/190 of the size]."
+    )
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
     mount: tuple[Number, Number, Number, Number, Number, Number] | None = knob(
         None,
@@ -357,13 +382,19 @@ class ProbeSettings(Settings):
         metavar="X,Y,Z,RX,RY,RZ",
         option="--place",
     )
-    facets: int | None = knob(None, "Facets to keep.")
-    max_deviation: float | None = knob(None, "Or: as few as stay within this distance of the shell, mm.")
-    max_contact_error: float | None = knob(
-        None, "Or: as few as move 95 % of contacts by less than this, mm [0.1]."
+    facets: Annotated[int | None, Row("number of facets", (4, 2e6), step=100, start=2000)] = knob(
+        None, "Facets to keep."
     )
+    max_deviation: Annotated[
+        float | None, Row("largest deviation", (0.001, 50.0), "mm", 3, 0.01, start=0.1)
+    ] = knob(None, "Or: largest distance from the outer surface, mm.")
+    max_contact_error: Annotated[
+        float | None, Row("largest contact error", (0.001, 50.0), "mm", 3, 0.01, start=0.1)
+    ] = knob(None, "Or: 95 % of contacts move by less than this, mm [0.1].")
     forces: tuple[float, float] = knob((8.0, 10.0), "Expected touch forces, N.", metavar="LOW,HIGH")
     engine: Literal["auto", "fast-simplification", "meshlab", "best"] = knob(
         "auto", "From earlier versions; has no effect.", hidden=True
     )
-    region_ratio: float = knob(1.0, "Facet density in regions relative to the rest.")
+    region_ratio: Annotated[float, Row("Finer in regions", (1.0, 100.0), ": 1", 1)] = knob(
+        1.0, "Facet density inside regions relative to outside."
+    )

@@ -330,6 +330,18 @@ class VerificationSettings(OrientationSettings):
     seed: int = knob(0, "Seed of the bootstrap.")
 
 
+# ---- heatmaps ----------------------------------------------------------------------------------
+
+
+class ReadingSettings(MountSettings):
+    """How a heatmap reads a recording: what that does not say itself."""
+
+    delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
+    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), "N", 1)] = knob(
+        0.5, "Force above which a touch is counted in a recording, N."
+    )
+
+
 # ---- reports -----------------------------------------------------------------------------------
 
 

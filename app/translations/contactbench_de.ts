@@ -3275,16 +3275,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Verzögerung des Messwerts gegenüber seiner Pose, ms</translation>
     </message>
     <message>
-        <source>Force above which a touch is counted, N</source>
-        <translation>Kraft, ab der eine Berührung zählt, N</translation>
-    </message>
-    <message>
         <source>Delay</source>
         <translation>Verzug</translation>
-    </message>
-    <message>
-        <source>Touch threshold</source>
-        <translation>Berührschwelle</translation>
     </message>
 </context>
 <context>

@@ -12,7 +12,7 @@ import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.console import Bar, Noun, answer, say
-from contactbench.pipeline.settings import MountSettings, mount_rotation
+from contactbench.pipeline.settings import ReadingSettings, mount_rotation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -90,9 +90,7 @@ def found_contacts(
     files: HeatmapFiles,
     content: ProbeFile,
     wrenches: Path | None,
-    turned: MountSettings,
-    delay: float,
-    min_force: float,
+    reading: ReadingSettings,
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
     from contactbench.pipeline.calibration.files.capture_file import is_recording
@@ -101,7 +99,7 @@ def found_contacts(
     if is_recording(files.contacts):
         if wrenches is not None:
             raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording contains them.")
-        return _located(files, content, turned, delay, min_force)
+        return _located(files, content, reading)
     if files.calibration is not None:
         raise typer.BadParameter("--calibration is for a recording; these contacts are already located.")
     if not _is_json(files.contacts):
@@ -121,9 +119,7 @@ def found_contacts(
     return touches_of(verification)
 
 
-def _located(
-    files: HeatmapFiles, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
-) -> Contacts:
+def _located(files: HeatmapFiles, content: ProbeFile, reading: ReadingSettings) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(
             "a recording needs --calibration because its readings include the weight of the probe."
@@ -133,15 +129,15 @@ def _located(
     from contactbench.pipeline.heatmap.contacts import locate_recording
 
     model = load_calibration(files.calibration).model
-    R_ES = mount_rotation(turned.mount or files.mount)
+    R_ES = mount_rotation(reading.mount or files.mount)
     with Bar("reading") as bar:
         return locate_recording(
             files.contacts,
             content.probe,
             model,
-            gates=Gates(min_force=min_force),
+            gates=Gates(min_force=reading.min_force),
             R_ES=R_ES,
-            delay=delay,
+            delay=reading.delay,
             progress=bar,
         )
 
@@ -189,7 +185,7 @@ def draw(
     contacts: Path,
     /,
     out: Path,
-    turned: MountSettings,
+    reading: ReadingSettings,
     probe: Path | None = None,
     calibration: Path | None = None,
     quantity: QuantityName = QuantityName.density,
@@ -200,8 +196,6 @@ def draw(
     wrenches: Path | None = None,
     markers: Path | None = None,
     marker_distance: float = 10.0,
-    delay: float = 0.0,
-    min_force: float = 0.5,
     start: Annotated[
         float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
     ] = None,
@@ -249,10 +243,6 @@ def draw(
         For the error: CSV with x_mm,y_mm,z_mm of the touched points.
     marker_distance
         A contact farther than this from every marker touched none, mm.
-    delay
-        Delay of a wrench after its pose, s.
-    min_force
-        In a recording, a touch is above this force, N.
     by_confidence
         Weight each contact by the confidence of its place, 0 to 1.
     speed
@@ -280,7 +270,7 @@ def draw(
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = probe_in_sensor_frame(files.probe)
-        found = found_contacts(files, content, wrenches, turned, delay, min_force)
+        found = found_contacts(files, content, wrenches, reading)
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, marker_distance)

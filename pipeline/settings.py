@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from datetime import date
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
@@ -30,6 +30,8 @@ Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 Three = tuple[Number, Number, Number]
 
+# What is known of a touch if nobody says more: one sigma of its torsion over its force, and of the model error.
+TORSION_ARM_M, DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.001, 0.05, 0.001
 # How well orientations are known by what gives them, degrees: 1 sigma about each axis.
 ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
 
@@ -46,23 +48,33 @@ class Only:
 
 @dataclass(frozen=True)
 class Row:
-    """How a form asks for a number; in the annotation of the field."""
+    """How a form asks for a number, which has its unit from `knob`; in the annotation of the field."""
 
     title: str
     """What stands beside the field."""
     span: tuple[float, float]
     """The smallest and the largest number that it takes."""
-    unit: str = ""
     decimals: int = 0
     step: float = 1.0
     start: float = 0.0
     """What is offered where there is no default."""
+    suffix: str = ""
+    """What follows the number, where that is not its unit."""
     none: str = ""
     """What the smallest number stands for: that nothing is given."""
 
 
 def knob(
-    default: Any = ..., text: str = "", *, metavar: str = "", option: str = "", hidden: bool = False
+    default: Any = ...,
+    text: str = "",
+    *,
+    unit: str = "",
+    scale: float = 1.0,
+    none: str = "",
+    why: str = "",
+    metavar: str = "",
+    option: str = "",
+    hidden: bool = False,
 ) -> Any:
     """
     Return a field that a command has as an option.
@@ -72,7 +84,15 @@ def knob(
     default
         Left out: it must be given.
     text : str
-        One sentence of help.
+        One sentence of help; the unit is put in where it ends.
+    unit : str
+        Of the number that a person reads and types.
+    scale : float
+        How many of that unit one of the field is: 1000 for a field in m that people give in mm.
+    none : str
+        What holds if the value is left out.
+    why : str
+        Why the default is what it is; for the documentation.
     metavar : str
         How a value is written on the command line, where that is not plain to see.
     option : str
@@ -83,14 +103,24 @@ def knob(
     return Field(
         default,
         description=text,
-        json_schema_extra={"metavar": metavar, "option": option, "hidden": hidden},
-    )
+        json_schema_extra={
+            "unit": unit, "scale": scale, "none": none, "why": why,
+            "metavar": metavar, "option": option, "hidden": hidden,
+        },
+    )  # fmt: skip
+
+
+def with_unit(text: str, unit: str, after: str = "") -> str:
+    """Return a sentence of help with the unit, and what comes after it, at the end of its first sentence."""
+    first, rest = (text.removesuffix("."), "") if ". " not in text else text.split(". ", 1)
+    return f"{first}{f', {unit}' if unit else ''}{after}.{f' {rest}' if rest else ''}"
 
 
 class Settings(BaseModel):
     """What is chosen for a step."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> Self:
@@ -208,6 +238,26 @@ class CapturesSettings(PosesSettings):
     )
 
 
+# ---- locating ------------------------------------------------------------------------------------
+
+
+class TouchModelSettings(Settings):
+    """What is known of a wrench and of a touch before one is located."""
+
+    noise_force: float = knob(0.05, "Standard deviation of a force.", unit="N")
+    noise_torque: float = knob(0.002, "Standard deviation of a torque.", unit="N·m")
+    torsion_arm: float = knob(
+        TORSION_ARM_M,
+        "Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.",
+        unit="mm",
+        scale=1000,
+    )
+    model_force: float = knob(
+        DEFAULT_FORCE_N, "Error that drift, cable and hysteresis leave in a force, 1 sigma.", unit="N"
+    )
+    model_torque: float = knob(DEFAULT_TORQUE_NM, "The same for a torque.", unit="mN·m", scale=1000)
+
+
 # ---- calibration -------------------------------------------------------------------------------
 
 
@@ -313,17 +363,17 @@ class TouchSettings(PosesSettings):
 class VerificationSettings(OrientationSettings):
     """How touches of markers are judged."""
 
-    repeats: Annotated[int, Row("Per marker", (1, 100), "×")] = knob(
+    repeats: Annotated[int, Row("Per marker", (1, 100), suffix="×")] = knob(
         1, "Accepted touches required per marker."
     )
     samples: Annotated[int, Row("Samples", (4, 10_000))] = knob(50, "Samples per touch after settling.")
     touch_force: Positive | None = knob(None, "A touch begins at this |F|, N [2, less for windows below].")
     release_force: Positive | None = knob(None, "A touch ends below this |F|, N [1, less for windows below].")
-    mean_limit_mm: Annotated[Positive, Row("Mean error up to", (0.05, 50.0), "mm", 2, 0.5)] = knob(
-        1.0, "Largest permitted mean error, mm.", option="--limit-mean"
+    mean_limit_mm: Annotated[Positive, Row("Mean error up to", (0.05, 50.0), 2, 0.5)] = knob(
+        1.0, "Largest permitted mean error.", unit="mm", option="--limit-mean"
     )
-    max_limit_mm: Annotated[Positive, Row("Single error up to", (0.05, 50.0), "mm", 2, 0.5)] = knob(
-        2.0, "Largest permitted error, mm.", option="--limit-max"
+    max_limit_mm: Annotated[Positive, Row("Single error up to", (0.05, 50.0), 2, 0.5)] = knob(
+        2.0, "Largest permitted error.", unit="mm", option="--limit-max"
     )
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
     noise_torque: Positive | None = knob(None, "The same for a torque, N·m.")
@@ -337,8 +387,8 @@ class ReadingSettings(MountSettings):
     """How a heatmap reads a recording: what that does not say itself."""
 
     delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
-    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), "N", 1)] = knob(
-        0.5, "Force above which a touch is counted in a recording, N."
+    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), 1)] = knob(
+        0.5, "Force above which a touch is counted in a recording.", unit="N"
     )
 
 
@@ -383,8 +433,8 @@ class ProbeSettings(Settings):
         " others. fair: least bending. ruled: straight lines between the long rims. hull: no"
         " dent. open: leave it. [auto]",
     )
-    alpha: Annotated[float | None, Row("Facet size", (0.0, 50.0), "mm", 2, none="Automatic")] = knob(
-        None, "Facet size of the outer surface, mm [1/190 of the size]."
+    alpha: Annotated[float | None, Row("Facet size", (0.0, 50.0), 2, none="Automatic")] = knob(
+        None, "Facet size of the outer surface.", unit="mm", none="1/190 of the size"
     )
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
     mount: tuple[Number, Number, Number, Number, Number, Number] | None = knob(
@@ -397,16 +447,16 @@ class ProbeSettings(Settings):
     facets: Annotated[int | None, Row("number of facets", (4, 2e6), step=100, start=2000)] = knob(
         None, "Facets to keep."
     )
-    max_deviation: Annotated[
-        float | None, Row("largest deviation", (0.001, 50.0), "mm", 3, 0.01, start=0.1)
-    ] = knob(None, "Or: largest distance from the outer surface, mm.")
+    max_deviation: Annotated[float | None, Row("largest deviation", (0.001, 50.0), 3, 0.01, start=0.1)] = (
+        knob(None, "Or: largest distance from the outer surface.", unit="mm")
+    )
     max_contact_error: Annotated[
-        float | None, Row("largest contact error", (0.001, 50.0), "mm", 3, 0.01, start=0.1)
-    ] = knob(None, "Or: 95 % of contacts move by less than this, mm [0.1].")
+        float | None, Row("largest contact error", (0.001, 50.0), 3, 0.01, start=0.1)
+    ] = knob(None, "Or: 95 % of contacts move by less than this.", unit="mm", none="0.1")
     forces: tuple[float, float] = knob((8.0, 10.0), "Expected touch forces, N.", metavar="LOW,HIGH")
     engine: Literal["auto", "fast-simplification", "meshlab", "best"] = knob(
         "auto", "From earlier versions; has no effect.", hidden=True
     )
-    region_ratio: Annotated[float, Row("Finer in regions", (1.0, 100.0), ": 1", 1)] = knob(
+    region_ratio: Annotated[float, Row("Finer in regions", (1.0, 100.0), 1, suffix=": 1")] = knob(
         1.0, "Facet density inside regions relative to outside."
     )

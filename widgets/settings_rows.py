@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.settings import Row
+from contactbench.pipeline.settings import Row, with_unit
 from contactbench.widgets.controls import named, show_quietly
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.phrases import said
@@ -12,6 +12,7 @@ from contactbench.widgets.phrases import said
 if TYPE_CHECKING:
     from collections.abc import Collection
 
+    from pydantic.fields import FieldInfo
     from PySide6.QtCore import SignalInstance
 
     from contactbench.pipeline.settings import Settings
@@ -24,23 +25,27 @@ class SettingRow:
     Parameters
     ----------
     row : Row
-    name : str
-        What the setting is, one sentence.
+    setting : FieldInfo
+        Made by `knob`.
 
     Attributes
     ----------
     row : Row
     title : str
     name : str
-        The sentence without its stop and its default, in the reader's language.
+        What the setting is, with its unit, in the reader's language.
+    unit : str
     field : NumberBox
     """
 
-    def __init__(self, row: Row, name: str) -> None:
-        told, self.row = said(name).removesuffix("."), row
-        self.title, self.name = said(row.title), told.partition(" [")[0]
-        self.field = named(NumberBox(), self.name, tip=told)
-        put_row(self.field, row)
+    def __init__(self, row: Row, setting: FieldInfo) -> None:
+        extra: Any = setting.json_schema_extra
+        text, self.unit, none = said(setting.description or ""), extra["unit"], said(extra["none"])
+        self.title, self.row = said(row.title), row
+        self.name = with_unit(text, self.unit).removesuffix(".")
+        tip = with_unit(text, self.unit, f" [{none}]" if none else "").removesuffix(".")
+        self.field = named(NumberBox(), self.name, tip=tip)
+        self.put_into(self.field)
 
     @property
     def changed(self) -> SignalInstance:
@@ -55,18 +60,18 @@ class SettingRow:
             return None
         return shown if self.row.decimals else round(shown)
 
+    def put_into(self, field: NumberBox) -> None:
+        """Give a field the range, the steps and the unit of the setting."""
+        field.setDecimals(self.row.decimals)
+        field.setRange(*self.row.span)
+        field.setSingleStep(self.row.step)
+        suffix = self.row.suffix or self.unit
+        field.setSuffix(suffix and f" {suffix}")
+        field.setSpecialValueText(said(self.row.none))
+
     def show(self, value: float | None) -> None:
         """Show a value, without a signal; None: nothing is given."""
         show_quietly(self.field, self.row.span[0] if value is None else value)
-
-
-def put_row(field: NumberBox, row: Row) -> None:
-    """Give a field the range, the steps and the unit of a setting."""
-    field.setDecimals(row.decimals)
-    field.setRange(*row.span)
-    field.setSingleStep(row.step)
-    field.setSuffix(row.unit and f" {row.unit}")
-    field.setSpecialValueText(said(row.none))
 
 
 def rows_of(model: type[Settings], names: Collection[str] = ()) -> dict[str, SettingRow]:
@@ -80,7 +85,7 @@ def rows_of(model: type[Settings], names: Collection[str] = ()) -> dict[str, Set
         Left out: all that have a row. They come in the order of their declaration.
     """
     return {
-        name: SettingRow(each, field.description or "")
+        name: SettingRow(each, field)
         for name, field in model.model_fields.items()
         for each in field.metadata
         if isinstance(each, Row) and (not names or name in names)

@@ -68,7 +68,9 @@ class ReadingBox(QGroupBox):
         x, y, z = (field.value() for field in self.mount)
         own = self.own_mount.isChecked()
         return ReadingSettings(
-            mount=(x, y, z) if own else None, delay=self.delay.value() / 1e3, min_force=self.least.field.value()
+            mount=(x, y, z) if own else None,
+            delay=self.delay.value() / 1e3,
+            min_force=self.least.field.value(),
         )
 
     def _show_mount(self, own: bool) -> None:

@@ -28,7 +28,7 @@ from contactbench.widgets.controls import (
 )
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.numbers import NumberBox, filled
-from contactbench.widgets.settings_rows import put_row, rows_of
+from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
@@ -190,7 +190,7 @@ class FacetsSection(QGroupBox):
         target = self._targets[_TARGETS[index]]
         self.value.setToolTip(target.name)
         with QSignalBlocker(self.value):
-            put_row(self.value, target.row)
+            target.put_into(self.value)
             self.value.setValue(value)
 
     def show_plan(self, target: dict[str, float], ratio: float, regions: bool, painted: bool) -> None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import Reason
+from contactbench.pipeline.gates import BEHIND_M
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Contact, ContactSolver
@@ -95,7 +96,7 @@ class CaseJudge:
 
     def faults(self, wrench: Float, found: Contact) -> list[str]:
         """Return what is wrong with an answer, in words; nothing when it is right."""
-        gates, cost = self.gates, self.gates.kernel_arguments()
+        gates, cost = self.gates, self.gates.kernel_values()
         fits = self.fits(wrench, gates.friction_angle)
         d2, points, behind, most = fits.d2, fits.points, cost["behind_cost"], cost["implausible_misfit"]
         likely = np.flatnonzero(d2 <= most - _D2)
@@ -130,7 +131,7 @@ class CaseJudge:
             wrong.append("not the best point of its facet")
         radii = np.maximum(gates.ambiguity_distance, _SAME_TOUCH * across)
         depth = at @ f
-        in_front = depth[:, None] - depth > cost["behind_distance"]
+        in_front = depth[:, None] - depth > BEHIND_M
         hidden = in_front & (d2[faces] <= d2[faces][:, None] + behind)
         left = likely[
             d2[likely] <= d2.min() + cost["rival_cost"] + behind * bool(hidden.any(axis=1)[0]) - _D2

@@ -41,10 +41,9 @@ class Devices:
     @classmethod
     def of(cls, state: State) -> Devices:
         """Return what a session's settings say; what makes no sense counts as not set."""
-        found = {key: state.settings[key].value for key in (MOUNT, *_TEXTS.values()) if key in state.settings}
-        texts = {name: found[key] for name, key in _TEXTS.items() if isinstance(found.get(key), str)}
-        texts["poses"] = texts.get("poses") or None
-        return cls(**texts, mount=_angles(found.get(MOUNT)))
+        said = {name: state.setting(key) for name, key in _TEXTS.items()}
+        texts = {name: text for name, text in said.items() if isinstance(text, str) and text}
+        return cls(**texts, mount=_angles(state.setting(MOUNT)))
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -13,8 +13,8 @@ from contactbench.widgets.settings_rows import rows_of
 class Given(Settings):
     """Two with a row, one without."""
 
-    size: Annotated[float | None, Row("Size", (0.5, 9.0), "mm", 1, none="Automatic")] = knob(
-        None, "Size, mm [2]."
+    size: Annotated[float | None, Row("Size", (0.5, 9.0), 1, none="Automatic")] = knob(
+        None, "Size.", unit="mm", none="2"
     )
     count: Annotated[int, Row("Count", (1, 5))] = knob(2, "How many.")
     other: int = knob(0, "Not asked for.")

@@ -20,16 +20,13 @@ if TYPE_CHECKING:
 
     from pydantic.fields import FieldInfo
 
-    from contactbench.pipeline.settings import Only, Settings
+    from contactbench.pipeline.settings import Settings
 
 
-def options_of(
-    model: type[Settings], only: Only | None = None
-) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:
-    """Return what makes settings of options, and the options: of all fields that have a sentence, or of some."""
+def options_of(model: type[Settings]) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:
+    """Return what makes settings of options, and the options: of all fields that have a sentence."""
     told = [name for name, field in model.model_fields.items() if field.description is not None]
-    names = told if only is None else only.names
-    return partial(_chosen, model), [_option(model, name) for name in names]
+    return partial(_chosen, model), [_option(model, name) for name in told]
 
 
 def _option(model: type[Settings], name: str) -> inspect.Parameter:

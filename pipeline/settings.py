@@ -37,16 +37,6 @@ ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
 
 
 @dataclass(frozen=True)
-class Only:
-    """Some fields of settings, as options of a command: the others keep their defaults."""
-
-    names: tuple[str, ...]
-
-    def __init__(self, *names: str) -> None:
-        object.__setattr__(self, "names", names)
-
-
-@dataclass(frozen=True)
 class Row:
     """How a form asks for a number, which has its unit from `knob`; in the annotation of the field."""
 
@@ -210,14 +200,18 @@ class OrientationSettings(MountSettings):
     inverse: bool = knob(False, "Orientations turn world into sensor components (R_SW).")
 
 
-class PosesSettings(OrientationSettings):
-    """How orientations in a table are written, also as the joints of a robot."""
+class JointsSettings(Settings):
+    """Whose joints give an orientation."""
 
     robot: str | None = knob(
         None,
         "Orientation is that of a robot's flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.",
         metavar="NAME|FILE",
     )
+
+
+class PosesSettings(JointsSettings, OrientationSettings):
+    """How orientations in a table are written, also as the joints of a robot."""
 
 
 def _delay(value: object) -> object:
@@ -227,8 +221,8 @@ def _delay(value: object) -> object:
         raise ValueError("give seconds, or auto") from None
 
 
-class CapturesSettings(PosesSettings):
-    """How still poses are found in a recording."""
+class DelaySettings(Settings):
+    """How a recording's wrenches are put beside its poses."""
 
     delay: Annotated[Number | Literal["auto"] | None, BeforeValidator(_delay)] = knob(
         None,
@@ -236,6 +230,10 @@ class CapturesSettings(PosesSettings):
         " motion. A doubtful estimate is reported but not applied [0].",
         metavar="SECONDS|auto",
     )
+
+
+class CapturesSettings(DelaySettings, PosesSettings):
+    """How still poses are found in a recording."""
 
 
 # ---- locating ------------------------------------------------------------------------------------
@@ -380,18 +378,6 @@ class VerificationSettings(OrientationSettings):
     seed: int = knob(0, "Seed of the bootstrap.")
 
 
-# ---- heatmaps ----------------------------------------------------------------------------------
-
-
-class ReadingSettings(MountSettings):
-    """How a heatmap reads a recording: what that does not say itself."""
-
-    delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
-    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), 1)] = knob(
-        0.5, "Force above which a touch is counted in a recording.", unit="N"
-    )
-
-
 # ---- reports -----------------------------------------------------------------------------------
 
 
@@ -421,12 +407,17 @@ class ReportSettings(Settings):
 # ---- probe -------------------------------------------------------------------------------------
 
 
-class ProbeSettings(Settings):
-    """How a probe is made of a mesh file."""
+class MeshSettings(Settings):
+    """How a mesh file is read."""
 
     units: Literal["auto", "mm", "m", "cm", "in"] = knob(
         "auto", "Unit of the file's numbers; auto guesses it from the size and says why."
     )
+
+
+class ShellSettings(MeshSettings):
+    """How the closed outer surface of a mesh is made."""
+
     close: tuple[Literal["auto", "fair", "ruled", "hull", "open"], ...] = knob(
         (),
         "How to close the openings, largest first, one entry each; the last entry applies to all"
@@ -437,6 +428,11 @@ class ProbeSettings(Settings):
         None, "Facet size of the outer surface.", unit="mm", none="1/190 of the size"
     )
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
+
+
+class PlaceSettings(Settings):
+    """Where a mesh is in the sensor's frame."""
+
     mount: tuple[Number, Number, Number, Number, Number, Number] | None = knob(
         None,
         "Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh stays in its"
@@ -444,12 +440,22 @@ class ProbeSettings(Settings):
         metavar="X,Y,Z,RX,RY,RZ",
         option="--place",
     )
+
+
+class FacetSettings(MeshSettings):
+    """How many facets are left."""
+
     facets: Annotated[int | None, Row("number of facets", (4, 2e6), step=100, start=2000)] = knob(
         None, "Facets to keep."
     )
     max_deviation: Annotated[float | None, Row("largest deviation", (0.001, 50.0), 3, 0.01, start=0.1)] = (
         knob(None, "Or: largest distance from the outer surface.", unit="mm")
     )
+
+
+class LadderSettings(MeshSettings):
+    """What fewer facets may do to contacts."""
+
     max_contact_error: Annotated[
         float | None, Row("largest contact error", (0.001, 50.0), 3, 0.01, start=0.1)
     ] = knob(None, "Or: 95 % of contacts move by less than this.", unit="mm", none="0.1")
@@ -460,3 +466,42 @@ class ProbeSettings(Settings):
     region_ratio: Annotated[float, Row("Finer in regions", (1.0, 100.0), 1, suffix=": 1")] = knob(
         1.0, "Facet density inside regions relative to outside."
     )
+
+
+class SimplifySettings(LadderSettings, FacetSettings):
+    """How a probe is given fewer facets."""
+
+
+class ProbeSettings(SimplifySettings, PlaceSettings, ShellSettings):
+    """How a probe is made of a mesh file."""
+
+
+# ---- heatmap -----------------------------------------------------------------------------------
+
+Quantity = Literal["density", "force", "peak", "error", "uncertainty"]
+Normalisation = Literal["contacts", "seconds", "rate"]
+
+
+class ReadingSettings(MountSettings):
+    """What a recording does not say itself."""
+
+    delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
+    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), 1)] = knob(
+        0.5, "Force above which a touch is counted in a recording.", unit="N"
+    )
+
+
+class HeatmapSettings(ReadingSettings):
+    """What to show of contacts."""
+
+    quantity: Quantity = knob("density", "Quantity to show.")
+    bandwidth: float | None = knob(
+        None, "Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5]."
+    )
+    normalisation: Normalisation = knob("contacts", "Integral of a density over the surface.", option="--per")
+    marker_distance: float = knob(10.0, "A contact farther than this from every marker touched none, mm.")
+    start: float | None = knob(None, "Only contacts from here on, s after the first sample.", option="--from")
+    end: float | None = knob(None, "Only contacts up to here, s after the first sample.", option="--to")
+    least_force: float | None = knob(None, "Only contacts with this force or more, N.", option="--force-from")
+    most_force: float | None = knob(None, "Only contacts with this force or less, N.", option="--force-to")
+    by_confidence: bool = knob(False, "Weight each contact by the confidence of its place, 0 to 1.")

@@ -23,7 +23,7 @@ from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
-from contactbench.pipeline.settings import ReadingSettings, mount_rotation
+from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _MESHES = (".ply", ".stl", ".obj", ".off", ".3mf", ".glb", ".gltf")
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
-_MARKER_DISTANCE = 0.010  # m: as the command has it
+_MARKER_DISTANCE = HeatmapSettings().marker_distance / 1000  # m
 _USUAL = ReadingSettings()
 
 

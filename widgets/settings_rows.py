@@ -40,10 +40,11 @@ class SettingRow:
 
     def __init__(self, row: Row, setting: FieldInfo) -> None:
         extra: Any = setting.json_schema_extra
-        text, self.unit, none = said(setting.description or ""), extra["unit"], said(extra["none"])
+        text, self.unit = said(setting.description or ""), extra["unit"]
+        none = "" if extra["none"] in ("", row.none) else f" [{said(extra['none'])}]"
         self.title, self.row = said(row.title), row
         self.name = with_unit(text, self.unit).removesuffix(".")
-        tip = with_unit(text, self.unit, f" [{none}]" if none else "").removesuffix(".")
+        tip = with_unit(text, self.unit, none).removesuffix(".")
         self.field = named(NumberBox(), self.name, tip=tip)
         self.put_into(self.field)
 

@@ -960,18 +960,6 @@
         <translation>Bedienperson</translation>
     </message>
     <message>
-        <source>as verified</source>
-        <translation>wie geprüft</translation>
-    </message>
-    <message>
-        <source>Readings per second, Hz</source>
-        <translation>Messwerte pro Sekunde, Hz</translation>
-    </message>
-    <message>
-        <source>Readings</source>
-        <translation>Messwerte</translation>
-    </message>
-    <message>
         <source>Filter wrench</source>
         <translation>Kraft/Moment filtern</translation>
     </message>
@@ -980,40 +968,12 @@
         <translation>Kalman-Filter: weniger Rauschen, etwas Verzögerung</translation>
     </message>
     <message>
-        <source>none</source>
-        <translation>keiner</translation>
-    </message>
-    <message>
-        <source>Low-pass cutoff of the contact point, Hz</source>
-        <translation>Grenzfrequenz des Tiefpasses für den Kontaktpunkt, Hz</translation>
-    </message>
-    <message>
-        <source>Low-pass</source>
-        <translation>Tiefpass</translation>
-    </message>
-    <message>
         <source>Accept contacts on regions only</source>
         <translation>Nur Kontakte auf Regionen annehmen</translation>
     </message>
     <message>
         <source>The runtime rejects contacts outside all painted regions</source>
         <translation>Der Robotercomputer verwirft Kontakte außerhalb aller gemalten Regionen</translation>
-    </message>
-    <message>
-        <source>Force limit for the controller, N</source>
-        <translation>Kraftgrenze für die Regelung, N</translation>
-    </message>
-    <message>
-        <source>Maximum force</source>
-        <translation>Maximale Kraft</translation>
-    </message>
-    <message>
-        <source>Torque limit for the controller, N·m</source>
-        <translation>Momentgrenze für die Regelung, N·m</translation>
-    </message>
-    <message>
-        <source>Maximum torque</source>
-        <translation>Maximales Moment</translation>
     </message>
     <message>
         <source>Controller gains</source>

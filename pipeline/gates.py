@@ -109,6 +109,13 @@ class GateSettings(Settings):
         why="Friction would have to exceed 3.7, and the noise bound is already four times that of a perpendicular"
         " touch.",
     )
+    ambiguity_distance: Annotated[_Least0, Form("ambiguity_distance_m")] = knob(
+        0.005,
+        "Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.",
+        unit="mm",
+        scale=1000,
+        why="Smaller distances lie within the scatter of a light touch and do not disturb a controller.",
+    )
     implausible_probability: Annotated[
         float, Field(ge=1e-9, le=0.5), Form("implausible_misfit", "implausible_misfit", _CHANCE)
     ] = knob(
@@ -118,13 +125,6 @@ class GateSettings(Settings):
     )
     rival_odds: Annotated[_Odds, Form("rival_odds", "rival_cost", _ODDS)] = knob(
         100.0, "Reason ambiguous unless the likeliest place is this many times likelier than any other."
-    )
-    ambiguity_distance: Annotated[_Least0, Form("ambiguity_distance_m")] = knob(
-        0.005,
-        "Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.",
-        unit="mm",
-        scale=1000,
-        why="Smaller distances lie within the scatter of a light touch and do not disturb a controller.",
     )
     region_odds: _Odds = knob(
         1000.0,

@@ -12,12 +12,12 @@ struct Gates {
     double min_force = 0.5;
     // Reason tangential beyond this angle to the normal.
     double cos_friction = 0.25881904510252074;
+    // Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.
+    double ambiguity_distance = 0.005;
     // Reason implausible if a touch leaves a misfit that chance alone reaches with at most this probability.
     double implausible_misfit = 10.827566170662935;
     // Reason ambiguous unless the likeliest place is this many times likelier than any other.
     double rival_cost = 9.210340371976184;
-    // Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.
-    double ambiguity_distance = 0.005;
     // Odds that the first surface on the line of force is touched rather than one behind it.
     double behind_cost = 4.0;
     // When tracking: odds that a touch stays near the previous one rather than jumps.
@@ -46,9 +46,9 @@ template <class Visit>
 void each_gate(Gates& g, Visit&& visit) {
     visit("min_force_N", "min_force", g.min_force, From::value);
     visit("friction_angle_rad", "cos_friction", g.cos_friction, From::angle);
+    visit("ambiguity_distance_m", "ambiguity_distance", g.ambiguity_distance, From::value);
     visit("implausible_misfit", "implausible_misfit", g.implausible_misfit, From::value);
     visit("rival_odds", "rival_cost", g.rival_cost, From::odds);
-    visit("ambiguity_distance_m", "ambiguity_distance", g.ambiguity_distance, From::value);
     visit("first_odds", "behind_cost", g.behind_cost, From::odds);
     visit("follow_odds", "follow_cost", g.follow_cost, From::odds);
     visit("follow_distance_m", "follow_distance", g.follow_distance, From::value);

@@ -43,8 +43,8 @@ inline constexpr Member FiltersPart[] = {{"wrench", or_null(object(KalmanPart))}
     {"location", or_null(object(LowPassPart))}};
 inline constexpr Shape each_5 = or_null(positive);
 inline constexpr Member GatesPart[] = {{"min_force_N", not_negative},
-    {"friction_angle_rad", number(0, 1.5708, true, true)}, {"implausible_misfit", number(0.45, 37.4)},
-    {"rival_odds", number(1, 1000000000.0)}, {"ambiguity_distance_m", not_negative},
+    {"friction_angle_rad", number(0, 1.5708, true, true)}, {"ambiguity_distance_m", not_negative},
+    {"implausible_misfit", number(0.45, 37.4)}, {"rival_odds", number(1, 1000000000.0)},
     {"first_odds", number(1, 1000000000.0)}, {"follow_odds", number(1, 1000000000.0)},
     {"follow_distance_m", not_negative}, {"recent_samples", integer(0, 2147483647)}, {"max_age_s", not_negative},
     {"saturation", array(each_5, 6, 6)}, {"region_only", flag}, {"accept_by_region", flag}};

@@ -215,8 +215,8 @@ def page(studies: list[Path], /, *, out: Path | None = None) -> None:
     """
     from contactbench.pipeline.study.pages import PAGE, gather, make_page
     from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.growth import targets
     from contactbench.pipeline.study.sweep.run import KIND
-    from contactbench.pipeline.study.sweep.targets import targets
 
     if out is None:
         for folder in studies:

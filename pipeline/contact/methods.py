@@ -22,13 +22,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline import kernel
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.paraboloid import fit_contact_face
 from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.kernel import Batch, Contact
 from contactbench.pipeline.mesh import Probe
 

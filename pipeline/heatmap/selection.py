@@ -13,8 +13,6 @@ import numpy as np
 
 from contactbench.pipeline.heatmap.heatmap import (
     HeatmapError,
-    Normalisation,
-    Quantity,
     default_bandwidth,
     heatmap,
 )
@@ -26,6 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.settings import Normalisation, Quantity
 
 OUTSIDE_TIME, OUTSIDE_FORCE = "outside the time window", "outside the force range"
 

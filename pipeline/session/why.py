@@ -665,8 +665,7 @@ def _regions_line(standing: Standing) -> CheckItem:
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
     if count:
-        regions = "one priority region" if count == 1 else f"{count} priority regions"
-        words = f"The probe has {regions}."
+        words = f"The probe has {regions_in_words(count)}."
     elif standing.state.newest("regions") is not None:
         state = CheckState.MISSING
         words = "Regions are painted but not applied to the probe yet: apply them."
@@ -674,6 +673,13 @@ def _regions_line(standing: Standing) -> CheckItem:
         state = CheckState.OPTIONAL
         words = "No priority regions: all candidates are equal. That is fine for most probes."
     return CheckItem("Regions", state, words, Step.REGIONS)
+
+
+def regions_in_words(count: int) -> str:
+    """Say how many regions a probe has."""
+    if count == 1:
+        return "one priority region"
+    return f"{count} priority regions" if count else "no priority regions"
 
 
 def results_of(state: State) -> Mapping[str, str]:

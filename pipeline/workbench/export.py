@@ -32,6 +32,7 @@ from contactbench.pipeline.session.why import (
     checklist,
     files_of_bundle,
     refuse_without,
+    regions_in_words,
     results_of,
 )
 from contactbench.pipeline.settings import PayloadSettings
@@ -112,7 +113,7 @@ def built(session: Session, *, unverified: bool) -> RuntimeConfig:
         As `export_from_session`.
     """
     options = ExportOptions.stored(session.state.settings)
-    return export_from_session(session, options.settings(), unverified=unverified)
+    return export_from_session(session, options, unverified=unverified)
 
 
 def export(session: Session, place: Path, *, unverified: bool = False) -> ExportedBundle:
@@ -202,7 +203,10 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
         ("Sensor", _sensor(model.sensor)),
         ("Readings", f"{model.sensor.rate_Hz:g} readings per second"),
         ("Payload", f"{config.gravity.mass:.3f} kg"),
-        ("Probe", f"{model.probe.name} with {model.probe.facets:,} facets and {_regions(len(regions))}"),
+        (
+            "Probe",
+            f"{model.probe.name} with {model.probe.facets:,} facets and {regions_in_words(len(regions))}",
+        ),
         (
             "Limits",
             f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
@@ -213,31 +217,15 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     gains = model.controller
     if gains is not None:
         found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))
-    part = model.verification
-    if part is None:
-        found.append(("Contact error", "not verified"))
-    else:
-        found.append(
-            (
-                "Contact error",
-                (
-                    f"{1e3 * part.mean_error_m:.2f} mm on average, {1e3 * part.max_error_m:.2f} mm at most,"
-                    f" on {part.markers} markers"
-                ),
-            )
+    part, error = model.verification, "not verified"
+    if part is not None:
+        error = (
+            f"{1e3 * part.mean_error_m:.2f} mm on average, {1e3 * part.max_error_m:.2f} mm at most,"
+            f" on {part.markers} markers"
         )
+    found.append(("Contact error", error))
     found.append(("Made by", f"{model.provenance.operator}, {model.provenance.created}"))
     return tuple(found)
-
-
-def _regions(count: int) -> str:
-    return (
-        "no priority regions"
-        if not count
-        else "one priority region"
-        if count == 1
-        else f"{count} priority regions"
-    )
 
 
 def _sensor(part: SensorPart) -> str:

@@ -369,8 +369,8 @@ def test_batch_views_cannot_be_written(solver):
         ({"recent_samples": -1}, "recent_samples"),
         ({"recent_samples": 1.5}, "recent_samples"),
         ({"first_odds": float("inf")}, "first_odds"),
-        ({"saturation": (1, 1, 1)}, "six"),
-        ({"saturation": (1, 1, 1, 1, 1, 0)}, "positive"),
+        ({"saturation": (1, 1, 1)}, "saturation"),
+        ({"saturation": (1, 1, 1, 1, 1, 0)}, "saturation.5"),
         ({"max_age": float("nan")}, "max_age"),
     ],
 )

@@ -12,9 +12,9 @@ from benchmarks.solver import hard_meshes as hm
 from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differing, kernel_rows
 
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
-from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.study.solid import press
 from contactbench.pipeline.study.stability import DOUBLE, EXACT, OPEN, QUIET, ROUNDOFF, answers_on, touch

@@ -304,7 +304,9 @@ def _sizes(n: int, rng: Rng) -> Iterator[HardTrial]:
     def twin(
         name: str, what: str, other: SolidBody, of: Drawn, scale: float, move: Callable[[Float], Float]
     ) -> HardTrial:
-        gates = replace(plain, ambiguity_distance=0.005 * scale, follow_distance=0.010 * scale)
+        gates = Gates(
+            first_odds=plain.first_odds, ambiguity_distance=0.005 * scale, follow_distance=0.010 * scale
+        )
         check, probe, said = like(base, move, other.size), other.probe(), f"T-shape, {what}"
         grown = replace(model, torsion_arm=model.torsion_arm * scale)
         noise = WrenchNoise(0.001, 1e-5 * scale)

@@ -282,12 +282,9 @@ class _Scene:
         return kernel_rows(solver.locate_batch(wrenches))
 
     def _gates(self, length: float, force: float) -> Gates:
-        return replace(
-            self.gates,
-            min_force=self.gates.min_force * force,
-            ambiguity_distance=self.gates.ambiguity_distance * length,
-            follow_distance=self.gates.follow_distance * length,
-        )
+        scaled = {"min_force": force, "ambiguity_distance": length, "follow_distance": length}
+        values = {name: getattr(self.gates, name) * scale for name, scale in scaled.items()}
+        return self.gates.model_copy(update=values)
 
     def scaled(
         self, case: str, length: float, force: float, more: Where, *, exact: bool = False

@@ -38,7 +38,20 @@ PARTS = (
         "{0} with {1}",
     ),
     *("{0} ({1} kg)", "{0} negated", "pose {0}", "row {0}"),
-    *("degrees", "forces", "next", "previous", "radians", "torques", "transposed"),
+    *(
+        "Automatic",
+        "Low-pass",
+        "Readings",
+        "Samples",
+        "none",
+        "degrees",
+        "forces",
+        "next",
+        "previous",
+        "radians",
+        "torques",
+        "transposed",
+    ),
     "Correct the sensor's mounting: R_WS becomes R_WS · Rz({0}).",
 )
 

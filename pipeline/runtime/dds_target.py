@@ -14,6 +14,7 @@ from cyclonedds.util import duration
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.outlet import OutletTarget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,7 +42,7 @@ _LOOPBACK = """
 """
 
 
-class DdsTarget:
+class DdsTarget(OutletTarget):
     """
     ``geometry_msgs/msg/WrenchStamped`` and ``contactbench_msgs/msg/Contact``, as ROS 2 names and encodes them.
 
@@ -60,8 +61,6 @@ class DdsTarget:
     RunError
         It is no domain, or DDS does not start.
     """
-
-    pace, trouble = 0.0, ""
 
     def __init__(self, domain: str, context: OutputContext) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
@@ -84,7 +83,7 @@ class DdsTarget:
             raise RunError(f"--dds {domain}: DDS did not start ({error.msg}): check the network.") from error
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`."""
+        """As `OutletTarget`."""
         written = 0
         for answer in answers:
             try:
@@ -94,11 +93,8 @@ class DdsTarget:
             written += 1
         return written
 
-    def flush(self) -> None:
-        """As `Target`: nothing is held back."""
-
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         # Each is deleted with its last reference, and a writer refers to its topic and to the participant.
         self._writers = self._participant = self._domain = None
 

@@ -13,11 +13,11 @@ from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differ
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.study.stability import DOUBLE, OPEN, QUIET, ROUNDOFF, answers_on, touch
+from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Contact

@@ -7,7 +7,8 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from contactbench.pipeline.gates import GateSettings
-from contactbench.pipeline.settings import MountSettings, Row, knob
+from contactbench.pipeline.knobs import Row, knob
+from contactbench.pipeline.settings import MountSettings
 
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
 _Arm = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]

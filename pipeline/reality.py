@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field, ValidationError
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import Settings, first_fault, knob
+from contactbench.pipeline.knobs import Settings, first_fault, knob
 
 if TYPE_CHECKING:
     from typing import Self

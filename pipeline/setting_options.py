@@ -12,15 +12,15 @@ import typer
 from pydantic import ValidationError
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.knobs import first_fault, with_unit
 from contactbench.pipeline.parameter_options import numbers
-from contactbench.pipeline.settings import first_fault, with_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pydantic.fields import FieldInfo
 
-    from contactbench.pipeline.settings import Settings
+    from contactbench.pipeline.knobs import Settings
 
 
 def options_of(model: type[Settings]) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:

@@ -8,125 +8,21 @@ default, one sentence. Lengths are in mm and angles in degrees, as people say th
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from datetime import date
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BeforeValidator, Field
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.knobs import NotNegative, Number, Positive, Row, Settings, Three, knob
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from typing import Self
-
     import numpy as np
     from numpy.typing import NDArray
 
-# Kilometres and whole turns are mistakes, and squares of much more overflow.
-Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
-Three = tuple[Number, Number, Number]
-
-# What is known of a touch if nobody says more: one sigma of its torsion over its force, and of the model error.
-TORSION_ARM_M, DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.001, 0.05, 0.001
 # How well orientations are known by what gives them, degrees: 1 sigma about each axis.
 ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
-
-
-@dataclass(frozen=True)
-class Row:
-    """How a form asks for a number, which has its unit from `knob`; in the annotation of the field."""
-
-    title: str
-    """What stands beside the field."""
-    span: tuple[float, float]
-    """The smallest and the largest number that it takes."""
-    decimals: int = 0
-    step: float = 1.0
-    start: float = 0.0
-    """What is offered where there is no default."""
-    suffix: str = ""
-    """What follows the number, where that is not its unit."""
-    none: str = ""
-    """What the smallest number stands for: that nothing is given."""
-
-
-def knob(
-    default: Any = ...,
-    text: str = "",
-    *,
-    unit: str = "",
-    scale: float = 1.0,
-    none: str = "",
-    why: str = "",
-    metavar: str = "",
-    option: str = "",
-    hidden: bool = False,
-) -> Any:
-    """
-    Return a field that a command has as an option.
-
-    Parameters
-    ----------
-    default
-        Left out: it must be given.
-    text : str
-        One sentence of help; the unit is put in where it ends.
-    unit : str
-        Of the number that a person reads and types.
-    scale : float
-        How many of that unit one of the field is: 1000 for a field in m that people give in mm.
-    none : str
-        What holds if the value is left out.
-    why : str
-        Why the default is what it is; for the documentation.
-    metavar : str
-        How a value is written on the command line, where that is not plain to see.
-    option : str
-        Its name on the command line, if it is not that of the field.
-    hidden : bool
-        Of earlier versions, and without effect.
-    """
-    return Field(
-        default,
-        description=text,
-        json_schema_extra={
-            "unit": unit, "scale": scale, "none": none, "why": why,
-            "metavar": metavar, "option": option, "hidden": hidden,
-        },
-    )  # fmt: skip
-
-
-def with_unit(text: str, unit: str, after: str = "") -> str:
-    """Return a sentence of help with the unit, and what comes after it, at the end of its first sentence."""
-    first, rest = (text.removesuffix("."), "") if ". " not in text else text.split(". ", 1)
-    return f"{first}{f', {unit}' if unit else ''}{after}.{f' {rest}' if rest else ''}"
-
-
-class Settings(BaseModel):
-    """What is chosen for a step."""
-
-    # Built when the first is made: most commands take a few of them.
-    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
-    overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
-
-    @classmethod
-    def checked(cls, values: Mapping[str, Any]) -> Self:
-        """Return settings; InputError, with the first that is wrong."""
-        try:
-            return cls.model_validate(dict(values))
-        except ValidationError as error:
-            where, what = first_fault(error)
-            raise InputError(f"parameter {where}: {what}: correct it.") from error
-
-
-def first_fault(error: ValidationError) -> tuple[str, str]:
-    """Return the field that is wrong, and what is wrong with it."""
-    first = error.errors(include_url=False)[0]
-    return ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
 
 
 def metres(millimetres: float | None) -> float | None:
@@ -235,26 +131,6 @@ class DelaySettings(Settings):
 
 class CapturesSettings(DelaySettings, PosesSettings):
     """How still poses are found in a recording."""
-
-
-# ---- locating ------------------------------------------------------------------------------------
-
-
-class TouchModelSettings(Settings):
-    """What is known of a wrench and of a touch before one is located."""
-
-    noise_force: float = knob(0.05, "Standard deviation of a force.", unit="N")
-    noise_torque: float = knob(0.002, "Standard deviation of a torque.", unit="N·m")
-    torsion_arm: float = knob(
-        TORSION_ARM_M,
-        "Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.",
-        unit="mm",
-        scale=1000,
-    )
-    model_force: float = knob(
-        DEFAULT_FORCE_N, "Error that drift, cable and hysteresis leave in a force, 1 sigma.", unit="N"
-    )
-    model_torque: float = knob(DEFAULT_TORQUE_NM, "The same for a torque.", unit="mN·m", scale=1000)
 
 
 # ---- calibration -------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.settings import Row, with_unit
+from contactbench.pipeline.knobs import Row, with_unit
 from contactbench.widgets.controls import named, show_quietly
 from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.phrases import said
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
     from PySide6.QtCore import SignalInstance
 
-    from contactbench.pipeline.settings import Settings
+    from contactbench.pipeline.knobs import Settings
 
 
 class SettingRow:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import Settings
+from contactbench.pipeline.knobs import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

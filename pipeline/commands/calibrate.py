@@ -26,6 +26,7 @@ from contactbench.pipeline.commands.options import (
 )
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.knobs import knob
 from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import (
     CalibrationSettings,
@@ -38,7 +39,6 @@ from contactbench.pipeline.settings import (
     PosesSettings,
     ReportSettings,
     TaskSettings,
-    knob,
 )
 
 if TYPE_CHECKING:

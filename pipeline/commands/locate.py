@@ -12,7 +12,7 @@ import typer
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.gates import GateSettings
-from contactbench.pipeline.settings import TouchModelSettings
+from contactbench.pipeline.touch_settings import TouchModelSettings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

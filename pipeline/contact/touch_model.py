@@ -5,7 +5,7 @@ from math import isfinite
 
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M
+from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M
 
 
 @dataclass(frozen=True, eq=False)

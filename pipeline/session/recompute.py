@@ -19,6 +19,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.files import NamedFile
+from contactbench.pipeline.knobs import Three
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, main_file
 from contactbench.pipeline.session.errors import SessionError
@@ -31,7 +32,6 @@ from contactbench.pipeline.session.make import (
     captures,
     probe,
 )
-from contactbench.pipeline.settings import Three
 from contactbench.pipeline.verification.known_check import TOUCH_ROLES, WEIGHT_ROLES
 from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch
 from contactbench.pipeline.verification.known_weight import WeightParameters, known_weight

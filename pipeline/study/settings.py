@@ -9,7 +9,7 @@ from typing import Annotated, Any, cast
 from pydantic import Field
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import Settings, knob
+from contactbench.pipeline.knobs import Settings, knob
 
 _SAVED = "Save the results in this folder, with a page of tables and plots."
 

@@ -16,7 +16,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import Three, TouchSettings
+from contactbench.pipeline.knobs import Three
+from contactbench.pipeline.settings import TouchSettings
 from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
     TOUCH,

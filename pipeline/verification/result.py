@@ -10,7 +10,8 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
-from contactbench.pipeline.settings import Positive, VerificationSettings
+from contactbench.pipeline.knobs import Positive
+from contactbench.pipeline.settings import VerificationSettings
 from contactbench.pipeline.verification.figures import Times, VerificationLimits
 from contactbench.pipeline.verification.markers import load_markers
 from contactbench.pipeline.verification.protocol import ProtocolSettings

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import pytest
 
-from contactbench.pipeline.settings import Row, Settings, knob
+from contactbench.pipeline.knobs import Row, Settings, knob
 from contactbench.widgets.settings_rows import rows_of
 
 

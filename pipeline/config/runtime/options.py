@@ -14,7 +14,7 @@ from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates, GateSettings
-from contactbench.pipeline.settings import first_fault
+from contactbench.pipeline.knobs import first_fault
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,10 +14,10 @@ from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differ
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.study.solid import press
 from contactbench.pipeline.study.stability import DOUBLE, EXACT, OPEN, QUIET, ROUNDOFF, answers_on, touch
+from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
 if TYPE_CHECKING:
     from benchmarks.solver.hard_meshes import SolidBody

@@ -323,7 +323,7 @@ def _of_session(
     found: list[HeatmapSource] = []
     reasons: list[str] = []
     with Session.open(folder, write=False) as session:
-        how = replace(how, mount=how.mount or mount_of(session.state))
+        how = how.model_copy(update={"mount": how.mount or mount_of(session.state)})
         for kind, main in _OF_SESSION:
             try:
                 roles = newest_inputs(session.state, kind)

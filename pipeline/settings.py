@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -82,7 +82,7 @@ class Settings(BaseModel):
             return cls.model_validate(dict(values))
         except ValidationError as error:
             where, what = first_fault(error)
-            raise InputError(f"parameter {where}: {what}: correct it.") from error
+            raise InputError(f"parameter {arg(where)}: {arg(what)}: correct it.") from error
 
 
 def first_fault(error: ValidationError) -> tuple[str, str]:
@@ -177,7 +177,7 @@ def _delay(value: object) -> object:
     try:
         return value if value in (None, "auto") else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise ValueError("give seconds, or auto") from None
+        raise ValueError(message("give seconds, or auto")) from None
 
 
 class CapturesSettings(PosesSettings):
@@ -202,7 +202,9 @@ def _orientation_noise(value: object) -> object:
     except (TypeError, ValueError):
         degrees = math.nan
     if not 0 <= degrees < 180:
-        raise ValueError(f"give degrees, at least 0, or one of {', '.join(ORIENTATION_NOISE_DEG)}")
+        raise ValueError(
+            message(f"give degrees, at least 0, or one of {arg(', '.join(ORIENTATION_NOISE_DEG))}")
+        )
     return degrees
 
 
@@ -316,7 +318,7 @@ def _iso_date(value: object) -> object:
     try:
         return date.fromisoformat(str(value)).isoformat()
     except ValueError:
-        raise ValueError("give a date as 2027-03-31") from None
+        raise ValueError(message("give a date as 2027-03-31")) from None
 
 
 _Line = Annotated[str, Field(max_length=200)]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 LARGEST_ODDS = 1e9
 BEHIND_M = 0.003  # along the force: nearer surfaces are one, seen through the noise
@@ -95,25 +95,29 @@ class Gates:
         for name in ("min_force", "ambiguity_distance", "follow_distance", "max_age"):
             value = getattr(self, name)
             if isnan(value) or value < 0:
-                raise InputError(f"Gates.{name} must be at least 0, not {value}")
+                raise InputError(f"Gates.{arg(name)} must be at least 0, not {arg(value)}")
         for name in ("rival_odds", "region_odds", "untouchable_odds", "first_odds", "follow_odds"):
             value = getattr(self, name)
             if not 1 <= value <= LARGEST_ODDS:
-                raise InputError(f"Gates.{name} must be between 1 and {LARGEST_ODDS:g} to one, not {value}")
+                raise InputError(
+                    f"Gates.{arg(name)} must be between 1 and {arg(LARGEST_ODDS):g} to one, not {arg(value)}"
+                )
         if not 1e-9 <= self.implausible_probability <= 0.5:
             raise InputError(
-                f"Gates.implausible_probability must be between 1e-9 and 0.5, not {self.implausible_probability}"
+                f"Gates.implausible_probability must be between 1e-9 and 0.5, not {arg(self.implausible_probability)}"
             )
         if not 0 < self.friction_angle < 90:
             raise InputError(
-                f"Gates.friction_angle must be between 0 and 90 degrees, not {self.friction_angle}"
+                f"Gates.friction_angle must be between 0 and 90 degrees, not {arg(self.friction_angle)}"
             )
         if not isinstance(self.recent_samples, int) or not 0 <= self.recent_samples < 2**63:
             raise InputError(
-                f"Gates.recent_samples must be a whole number of at least 0, not {self.recent_samples}"
+                f"Gates.recent_samples must be a whole number of at least 0, not {arg(self.recent_samples)}"
             )
         if len(self.saturation) != 6 or any(isnan(v) or v <= 0 for v in self.saturation):
-            raise InputError(f"Gates.saturation needs six positive limits (N, N·m), not {self.saturation}")
+            raise InputError(
+                f"Gates.saturation needs six positive limits (N, N·m), not {arg(self.saturation)}"
+            )
 
     @property
     def implausible_misfit(self) -> float:

@@ -20,6 +20,7 @@ from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -170,7 +171,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
             self._asked = None
         elif waited > _UNANSWERED_S:
             raise LineLost(
-                f"{self._line.name}: no answer for {_UNANSWERED_S:g} s: check that the controller"
+                f"{arg(self._line.name)}: no answer for {arg(_UNANSWERED_S):g} s: check that the controller"
                 " is not busy. Reconnecting."
             )
 
@@ -215,9 +216,9 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
     def _troubles(self) -> dict[str, str]:
         found = {"answer": self._trouble} if self._trouble else {}
         if time.monotonic() - self._late_at < _SHOWN_S:
-            found["late"] = (
-                f"{self._late} answers of the robot were dropped because they took longer than"
-                f" {1e3 * _LATEST_S:.0f} ms; the last took {1e3 * self._lateness:.0f} ms: check"
+            found["late"] = message(
+                f"{arg(self._late)} answers of the robot were dropped because they took longer than"
+                f" {arg(1e3 * _LATEST_S):.0f} ms; the last took {arg(1e3 * self._lateness):.0f} ms: check"
                 " network and controller, or choose a lower rate."
             )
         return found
@@ -290,5 +291,5 @@ def poses_from(
     where = DeviceAddress.parse(address) if isinstance(address, str) else address
     known = driver_of(where.protocol)
     if known is None:
-        raise AddressError(f"address {str(where)!r}: not a robot. Give the address of a robot.")
+        raise AddressError(f"address {arg(str(where))!r}: not a robot. Give the address of a robot.")
     return known.poses(where, on_samples, on_change)

@@ -11,6 +11,7 @@ from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -76,8 +77,8 @@ class TrackerPoses(ReconnectingStream[FlangeSample]):
         if wanted is None or not names or wanted in names:
             return {}
         return {
-            "body": (
-                f"The server sends no body {wanted!r}, only {', '.join(names)}: correct ?device= in the address, or"
-                " bring the body in sight."
+            "body": message(
+                f"The server sends no body {arg(wanted)!r}, only {arg(', '.join(names))}: correct ?device="
+                " in the address, or bring the body in sight."
             )
         }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.runtime.errors import RunError
 
@@ -45,7 +46,9 @@ def network_target(
         return NETWORK_TARGETS[option](address, config, about, remote)
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
-        raise RunError(f"--{option} needs {package}, which is not installed: {remedy('live')}.") from error
+        raise RunError(
+            f"--{arg(option)} needs {arg(package)}, which is not installed: {arg(remedy('live'))}."
+        ) from error
 
 
 def _udp(address: str, _config: RuntimeConfig, _about: RecordingInfo, remote: bool) -> OutletTarget:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import VERSION, Record, records_of
 from contactbench.pipeline.session.journal import JOURNAL, read_journal, refuse_damage
@@ -67,12 +68,16 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     if settle:
         write_migrated(folder, data, found, version, payloads)
         notes.append(
-            f"{folder}: migrated from version {version} to {VERSION}; the previous journal is kept"
-            f" as {original_of(folder, version).name}."
+            message(
+                f"{arg(folder)}: migrated from version {arg(version)} to {arg(VERSION)}; the previous journal is kept"
+                f" as {arg(original_of(folder, version).name)}."
+            )
         )
         found = frames.scan(frames.encode_all(payloads))
     else:
-        notes.append(f"{folder}: older version {version}; it will be migrated on the next write.")
+        notes.append(
+            message(f"{arg(folder)}: older version {arg(version)}; it will be migrated on the next write.")
+        )
         return _content(records, notes, found, kept_origins(folder, found))
     return _content(records, notes, found)
 
@@ -86,7 +91,7 @@ def _content(
 
 def _fate(settle: bool) -> str:
     return (
-        "it was never confirmed and has been cut off."
+        message("it was never confirmed and has been cut off.")
         if settle
-        else "it was never confirmed and has been left out."
+        else message("it was never confirmed and has been left out.")
     )

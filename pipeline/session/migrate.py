@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import SCHEMA, VERSION, Origin, Record, parse_payload, read_entry
 from contactbench.pipeline.session.errors import SchemaError, SessionError
@@ -39,12 +40,12 @@ def version_of(folder: Path, found: frames.Scan) -> int:
     version = action.get("version") if isinstance(action, dict) else None
     if not isinstance(action, dict) or action.get("schema_id") != SCHEMA or type(version) is not int:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not state {SCHEMA}: choose a session folder."
+            f"{arg(folder / JOURNAL)}: its first record does not state {arg(SCHEMA)}: choose a session folder."
         )
     if version > VERSION:
         raise SchemaError(
-            f"{folder}: the session has version {version}, but this contactbench knows at most"
-            f" {VERSION}: use a newer contactbench. Nothing was changed."
+            f"{arg(folder)}: the session has version {arg(version)}, but this contactbench knows at most"
+            f" {arg(VERSION)}: use a newer contactbench. Nothing was changed."
         )
     return version
 
@@ -62,8 +63,8 @@ def migrated(folder: Path, data: bytes, found: frames.Scan, version: int) -> lis
     for step in range(version, VERSION):
         if step not in MIGRATIONS:
             raise SchemaError(
-                f"{folder}: the session has version {version}, too old for this contactbench: open"
-                f" it with a contactbench that migrates version {step}."
+                f"{arg(folder)}: the session has version {arg(version)}, too old for this contactbench: open"
+                f" it with a contactbench that migrates version {arg(step)}."
             )
         payloads = MIGRATIONS[step](payloads)
     digest = hashlib.sha256(data[: found.end]).hexdigest()
@@ -96,7 +97,7 @@ def kept_origins(folder: Path, found: frames.Scan) -> dict[int, str]:
         origin = Origin.model_validate(said)
     except ValidationError as error:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not state the version it was migrated"
+            f"{arg(folder / JOURNAL)}: its first record does not state the version it was migrated"
             " from: restore the session from a backup."
         ) from error
     return {origin.version: origin.sha256}
@@ -124,7 +125,7 @@ def write_migrated(
         write_durably(folder / JOURNAL, frames.encode_all(payloads))
     except OSError as error:
         raise SessionError(
-            f"{folder}: the session cannot be migrated to version {VERSION} ({error}): free disk"
+            f"{arg(folder)}: the session cannot be migrated to version {arg(VERSION)} ({arg(error)}): free disk"
             " space or check the permissions. The original is unchanged."
         ) from error
 
@@ -137,8 +138,10 @@ def origin_problems(folder: Path, origins: Mapping[int, str]) -> list[str]:
         try:
             digest = hashlib.sha256(file.read_bytes()).hexdigest()
         except OSError as error:
-            problems.append(f"{file.name}, the journal before its migration, cannot be read ({error})")
+            problems.append(
+                message(f"{arg(file.name)}, the journal before its migration, cannot be read ({arg(error)})")
+            )
             continue
         if digest != sha256:
-            problems.append(f"{file.name}, the journal before its migration, was changed")
+            problems.append(message(f"{arg(file.name)}, the journal before its migration, was changed"))
     return problems

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import main_file
 from contactbench.pipeline.session.errors import SessionError
@@ -164,7 +164,10 @@ def _known_of(session: Session) -> dict[str, Any]:
     """Return what a report can take from its session: who, of which one, and with which sensor."""
     state = session.state
     known = {each.sensor: each.name for each in state.current_inputs.values() if each.sensor}
-    named = {f"sensor of {name}" if len(known) > 1 else "sensor": serial for serial, name in known.items()}
+    named = {
+        message(f"sensor of {arg(name)}") if len(known) > 1 else "sensor": serial
+        for serial, name in known.items()
+    }
     # What is chosen on the page of devices, or for the bundle, is of the same sensor and the same people.
     chosen = {key: state.setting(key) for key in ("devices.serial", "config.sensor", "config.operator")}
     if not named and chosen["devices.serial"]:
@@ -198,7 +201,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     """
     if kind not in RECOMPUTE and kind != "heatmap":
         raise SessionError(
-            f"{kind}: this kind of result cannot be computed: choose one of {', '.join(RECOMPUTE)}."
+            f"{arg(kind)}: this kind of result cannot be computed: choose one of {arg(', '.join(RECOMPUTE))}."
         )
     chosen = chosen or {}
     roles = RECOMPUTE[kind].roles if kind in RECOMPUTE else _HEATMAP
@@ -206,7 +209,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     known = (*roles.needed, *roles.optional, *asked)
     if strangers := sorted(set(chosen) - {*known, *roles.on_request}):
         every = ", ".join((*roles.needed, *roles.optional, *roles.on_request))
-        raise SessionError(f"{strangers[0]}: a {kind} is computed from {every}.")
+        raise SessionError(f"{arg(strangers[0])}: a {arg(kind)} is computed from {arg(every)}.")
     found: dict[str, str] = {}
     for role in known:
         # A report is about what was verified, also when there is a newer probe or calibration by now.
@@ -217,7 +220,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
             found[role] = newest
         elif role in roles.needed or chosen.get(role):
             name = f" called {chosen[role]}" if chosen.get(role) else ""
-            raise SessionError(f"this session has no {role}{name}: add it with --kind {role}.")
+            raise SessionError(f"this session has no {arg(role)}{arg(name)}: add it with --kind {arg(role)}.")
     return found
 
 
@@ -252,7 +255,9 @@ def recomputed(
     another name, and names are written into results. For `progress`, `cancelled` and `tell` see `compute`.
     """
     if kind not in RECOMPUTE:
-        raise SessionError(f"{kind}: this kind of result cannot be computed. Known: {', '.join(RECOMPUTE)}.")
+        raise SessionError(
+            f"{arg(kind)}: this kind of result cannot be computed. Known: {arg(', '.join(RECOMPUTE))}."
+        )
     with laid_out(folder, state, inputs, before) as files:
         try:
             # Whoever looks at the past checks results, and has everything computed anew.
@@ -369,10 +374,12 @@ def _copied(folder: Path, state: State, sha256: str, target: Path, before: int |
     elif made is not None:  # with what belongs to it, such as the names of a probe's regions
         names, main = dict(made.action.files), main_file(made.action)
     else:
-        raise SessionError(f"the session contains nothing with the hash {sha256[:12]}: add it first.")
+        raise SessionError(f"the session contains nothing with the hash {arg(sha256[:12])}: add it first.")
     try:
         for name, ref in names.items():
             shutil.copyfile(folder / ref.path, target / name)
     except OSError as error:
-        raise SessionError(f"{folder}: an input cannot be read ({error}): run `session verify`.") from error
+        raise SessionError(
+            f"{arg(folder)}: an input cannot be read ({arg(error)}): run `session verify`."
+        ) from error
     return target / main

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.actions import TOOL
 from contactbench.pipeline.session.recompute import RECOMPUTE, recomputed
 
@@ -67,7 +67,9 @@ def replay(session: Session, progress: Callable[[int, int], None] | None = None)
 def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
     action = result.action
     if action.kind not in RECOMPUTE:
-        return ReplayOutcome.UNKNOWN, "this kind of result cannot be computed here, so it was not compared."
+        return ReplayOutcome.UNKNOWN, message(
+            "this kind of result cannot be computed here, so it was not compared."
+        )
     parameters = {**action.parameters, "name": action.name}
     try:
         files = recomputed(
@@ -80,7 +82,7 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
             before=result.number,
         )
     except InputError as error:
-        return ReplayOutcome.FAILED, f"it cannot be recomputed: {error}"
+        return ReplayOutcome.FAILED, message(f"it cannot be recomputed: {arg(error)}")
     differing = sorted(
         name
         for name in files.keys() | action.files.keys()
@@ -89,6 +91,8 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
         or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
     )
     if not differing:
-        return ReplayOutcome.SAME, "identical bytes."
-    older = "" if result.tool == TOOL else f" It was made by {result.tool}, this is {TOOL}."
-    return ReplayOutcome.DIFFERENT, f"different bytes in {', '.join(differing)}.{older}"
+        return ReplayOutcome.SAME, message("identical bytes.")
+    older = (
+        "" if result.tool == TOOL else message(f" It was made by {arg(result.tool)}, this is {arg(TOOL)}.")
+    )
+    return ReplayOutcome.DIFFERENT, message(f"different bytes in {arg(', '.join(differing))}.{arg(older)}")

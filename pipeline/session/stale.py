@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.recompute import parameter_of
 from contactbench.pipeline.session.sources import Recorded, sources_of
 from contactbench.pipeline.session.state import MESH, minute_of
@@ -72,7 +73,9 @@ class _Judge:
         """Yield what makes it stale by itself."""
         for role, source in zip(result.action.inputs, self._sources[result.number], strict=True):
             if source.lost:
-                yield f"The {role} it was computed from is in no earlier record: a record was lost."
+                yield message(
+                    f"The {arg(role)} it was computed from is in no earlier record: a record was lost."
+                )
             for used in source.inputs:
                 yield from self._of_raw(used)
         yield from self._of_parameters(result)
@@ -86,19 +89,23 @@ class _Judge:
     def _of_made(self, made: Result) -> Iterator[str]:
         newest = self._results[made.slot]
         if made.outcome != self._outcomes[made.slot]:
-            yield f"The {made.title} it was computed from was recomputed on {minute_of(newest.at)}."
+            yield message(
+                f"The {arg(made.title)} it was computed from was recomputed on {arg(minute_of(newest.at))}."
+            )
             return
         # In a circle, which the newest results of journals made by hand can be, what it is by itself must do.
         known = self._known.get(newest.number)
         why = next(self._own(newest), None) if known is None else next(iter(known), None)
         if why is not None:
-            yield f"It was computed from the {made.title}, which is stale: {why}"
+            yield message(f"It was computed from the {arg(made.title)}, which is stale: {arg(why)}")
 
     def _of_raw(self, used: Input) -> Iterator[str]:
         newest = self._inputs[used.slot]
         if newest.number != used.number and newest.content != used.content:
-            what = "The mesh" if used.kind == MESH else f"The {used.kind} {used.name}"
-            yield f"{what} it was computed from was replaced by {newest.name} on {minute_of(newest.at)}."
+            what = message("The mesh") if used.kind == MESH else f"The {used.kind} {used.name}"
+            yield message(
+                f"{arg(what)} it was computed from was replaced by {arg(newest.name)} on {arg(minute_of(newest.at))}."
+            )
         if used.kind != MESH:
             yield from self._of_rezeros(used)
 
@@ -109,8 +116,10 @@ class _Judge:
             rezero = self._rezeros.get(sensor)
             if rezero is not None and self._recorded.is_before(used, rezero):
                 why = f" ({rezero.reason})" if rezero.reason else ""
-                what = f"The sensor {rezero.sensor} was re-zeroed on {minute_of(rezero.at)}{why}"
-                yield f"{what}, after the {used.kind} {used.name} was recorded."
+                what = message(
+                    f"The sensor {arg(rezero.sensor)} was re-zeroed on {arg(minute_of(rezero.at))}{arg(why)}"
+                )
+                yield message(f"{arg(what)}, after the {arg(used.kind)} {arg(used.name)} was recorded.")
                 return
 
     def _of_parameters(self, result: Result) -> Iterator[str]:
@@ -120,13 +129,13 @@ class _Judge:
                 continue
             used = parameter_of(kind, parameter, given)
             if parameter_of(kind, parameter, {**given, parameter: setting.value}) != used:
-                yield (
-                    f"The parameter {kind}.{parameter} was set to {setting.value!r} on"
-                    f" {minute_of(setting.at)}; this was computed with {used!r}."
+                yield message(
+                    f"The parameter {arg(kind)}.{arg(parameter)} was set to {arg(setting.value)!r} on"
+                    f" {arg(minute_of(setting.at))}; this was computed with {arg(used)!r}."
                 )
 
 
 def _said(result: Result) -> Iterator[str]:
     if result.mark is not None and result.mark.mark in {"stale", "rejected"}:
-        what = "marked as stale" if result.mark.mark == "stale" else "rejected"
-        yield f"It was {what}: {result.mark.reason or 'no reason was given'}."
+        what = message("marked as stale") if result.mark.mark == "stale" else "rejected"
+        yield message(f"It was {arg(what)}: {arg(result.mark.reason or 'no reason was given')}.")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
@@ -72,11 +72,11 @@ class VerifySettings:
             raise InputError("noise of force and torque: give both or neither.")
         limits = (self.limits.mean_m, self.limits.max_m, self.limits.p99_s)
         if not all(0 < limit < 1e3 for limit in limits):
-            raise InputError(f"limits {limits}: give positive numbers.")
+            raise InputError(f"limits {arg(limits)}: give positive numbers.")
         if not 100 <= self.resamples <= 1_000_000 or self.seed < 0:
             raise InputError("bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.")
         if unexplained := [name for name, why in self.left_out.items() if not why.strip()]:
-            raise InputError(f"skipped: give the reason for skipping {', '.join(unexplained)}.")
+            raise InputError(f"skipped: give the reason for skipping {arg(', '.join(unexplained))}.")
 
 
 def find_touches(
@@ -152,7 +152,7 @@ def verify(
     touches = find_touches(compensated, placing, settings.protocol)
     if not touches:
         raise InputError(
-            f"the recording contains no touch: |F| never reaches {settings.protocol.touch_N:g} N."
+            f"the recording contains no touch: |F| never reaches {arg(settings.protocol.touch_N):g} N."
             " Check that it is the right recording, and that the calibration belongs to it."
         )
     evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples, stated is None)
@@ -201,7 +201,7 @@ def judge(
     """
     names = placing.markers.names
     if strangers := sorted(set(settings.left_out) - set(names)):
-        raise InputError(f"skipped: there are no markers {', '.join(strangers)}: correct the names.")
+        raise InputError(f"skipped: there are no markers {arg(', '.join(strangers))}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
     every, evidence = (
         evidence,

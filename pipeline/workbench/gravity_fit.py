@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.make_calibration import CalibrationParameters
 
 if TYPE_CHECKING:
@@ -99,7 +99,9 @@ def gravity_settings(state: State) -> GravitySettings:
     tilt = state.settings.get(TILT)
     degrees = 180.0 if tilt is None else tilt.value
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
-        raise InputError(f"{TILT}: {degrees!r} is not an angle above 0 and up to 180 degrees: set it again.")
+        raise InputError(
+            f"{arg(TILT)}: {arg(degrees)!r} is not an angle above 0 and up to 180 degrees: set it again."
+        )
     return GravitySettings(parameters, float(degrees))
 
 
@@ -220,10 +222,12 @@ def findings(
     found = [
         GravityFinding(
             f"rejected {rejection.name}",
-            f"{_capital(rejection.name)}: {rejection.reason} It does not count. Retake it, or"
-            f" continue with {int(calibration.kept.sum())} poses.",
+            message(
+                f"{arg(_capital(rejection.name))}: {arg(rejection.reason)} It does not count. Retake it, or"
+                f" continue with {arg(int(calibration.kept.sum()))} poses."
+            ),
             leave_out=(rejection.index,),
-            remedy="Leave it out",
+            remedy=message("Leave it out"),
         )
         for rejection in calibration.rejected
     ]
@@ -264,14 +268,16 @@ def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Gravit
             key,
             sentence,
             settings=((INVERSE, not settings.parameters.inverse),),
-            remedy="Invert the orientations",
+            remedy=message("Invert the orientations"),
         )
     if turn is not None:
         return _turned(key, sentence, settings.R_ES @ turn)
     if key.startswith("rezero_before_"):
         change = int(key.removeprefix("rezero_before_")) - 1
         short = range(change) if change <= count - change else range(change, count)
-        return GravityFinding(key, sentence, leave_out=tuple(short), remedy="Leave out the smaller part")
+        return GravityFinding(
+            key, sentence, leave_out=tuple(short), remedy=message("Leave out the smaller part")
+        )
     return GravityFinding(key, sentence)
 
 
@@ -281,7 +287,10 @@ def _turned(key: str, sentence: str, R_ES: NDArray[np.float64]) -> GravityFindin
     ]
     words = ", ".join(f"{angle:.1f}" for angle in degrees)
     return GravityFinding(
-        key, sentence, settings=((MOUNT, degrees),), remedy=f"Set the mount to {words}° about x, y, z"
+        key,
+        sentence,
+        settings=((MOUNT, degrees),),
+        remedy=message(f"Set the mount to {arg(words)}° about x, y, z"),
     )
 
 
@@ -302,9 +311,9 @@ def _mounted(
     if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
-    sentence = (
-        f"The sensor is mounted on the flange {off:.0f}° differently than declared: with that"
-        f" corrected, the poses agree. {mounted.mounting} Set the mount accordingly, or check how"
+    sentence = message(
+        f"The sensor is mounted on the flange {arg(off):.0f}° differently than declared: with that"
+        f" corrected, the poses agree. {arg(mounted.mounting)} Set the mount accordingly, or check how"
         " the sensor is bolted on."
     )
     return _turned("mount", " ".join(sentence.split()), mounted.R_SE.T)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -22,7 +24,7 @@ class PoseState(StrEnum):
     """Whether a pose counts."""
 
     TAKEN = "taken"
-    LEFT_OUT = "left out"  # by the technician
+    LEFT_OUT = message("left out")  # by the technician
     REJECTED = "rejected"  # by what it reads, or because it was disturbed
 
 
@@ -89,9 +91,9 @@ def calibrated_rows(
             f"out {number}",
             moment,
             None,
-            "does not count",
+            message("does not count"),
             PoseState.LEFT_OUT,
-            "You left it out.",
+            message("You left it out."),
         )
         for number, moment in enumerate(left_out, 1)
     ]
@@ -141,13 +143,13 @@ def live_rows(
             continue
         row = _live_row(f"pose {number}", middle(capture), capture.R_WS, settings, fitted if counts else None)
         if not counts:
-            reason = "It does not count. Restore it if it was good."
+            reason = message("It does not count. Restore it if it was good.")
             row = replace(row, state=PoseState.LEFT_OUT, reason=reason)
         rows.append((capture.start, row))
     for each in rejected:
         row = PoseRow(
             f"at {each.start - origin:.0f} s", 0.5 * (each.start + each.stop), None,
-            f"{each.state.value}: not captured", PoseState.REJECTED, each.reason, changeable=False,
+            message(f"{arg(each.state.value)}: not captured"), PoseState.REJECTED, each.reason, changeable=False,
         )  # fmt: skip
         rows.append((each.start, row))
     return tuple(row for _, row in sorted(rows, key=lambda each: each[0]))

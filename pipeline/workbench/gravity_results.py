@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.live import RECORDING, next_recording
@@ -219,15 +220,15 @@ def difference(live: Calibration | None, outcome: GravityOutcome) -> str:
     if live is None:
         return ""
     if len(live.poses) != len(made.poses):
-        return (
-            f"Recomputed from the recording, there are {len(made.poses)} poses instead of"
-            f" {len(live.poses)}: one pose was just at the limit of stillness. The recording"
+        return message(
+            f"Recomputed from the recording, there are {arg(len(made.poses))} poses instead of"
+            f" {arg(len(live.poses))}: one pose was just at the limit of stillness. The recording"
             " counts."
         )
     if abs(made.contact_error - live.contact_error) > _DIFFERS * max(made.contact_error, live.contact_error):
-        return (
-            f"Recomputed from the recording, the contact error is {1e3 * made.contact_error:.2g}"
-            f" mm instead of {1e3 * live.contact_error:.2g} mm. The recording counts."
+        return message(
+            f"Recomputed from the recording, the contact error is {arg(1e3 * made.contact_error):.2g}"
+            f" mm instead of {arg(1e3 * live.contact_error):.2g} mm. The recording counts."
         )
     return ""
 
@@ -236,6 +237,6 @@ def _recording(state: State, name: str) -> Input:
     found = state.current_inputs.get((RECORDING, name))
     if found is None:
         raise SessionError(
-            f"{name}: the session has no recording with this name: `session info` lists the recordings."
+            f"{arg(name)}: the session has no recording with this name: `session info` lists the recordings."
         )
     return found

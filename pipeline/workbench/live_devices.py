@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 from contactbench.pipeline.devices.protocols.registry import drivers
 from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
 from contactbench.pipeline.workbench.standings import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 
@@ -118,15 +118,17 @@ def due_problem(due: str) -> str:
     try:
         ReportSettings.checked({"due": due})
     except InputError:
-        return f"The certificate's date {due!r} is not a date: write it as 2027-03-31, or leave it empty."
+        return message(
+            f"The certificate's date {arg(due)!r} is not a date: write it as 2027-03-31, or leave it empty."
+        )
     return ""
 
 
 def problem_of(address: str, *, poses: bool = False) -> str:
     """Say why an address is none of a sensor, or of a source of poses; empty: it is one."""
     if not address.strip():
-        what = "of the robot, such as ur+tcp://192.168.0.10" if poses else "of the sensor"
-        return f"Give the address {what}."
+        what = "of the robot, such as ur+tcp://192.168.0.10" if poses else message("of the sensor")
+        return message(f"Give the address {arg(what)}.")
     try:
         parsed = DeviceAddress.parse(address.strip())
     except AddressError as error:

@@ -22,7 +22,7 @@ from typing import IO, TYPE_CHECKING, Any, cast
 import numpy as np
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import module_command
 
 if TYPE_CHECKING:
@@ -76,17 +76,17 @@ class MotionChoice:
 
     def __post_init__(self) -> None:
         for given, known, what in (
-            (self.robot, ROBOTS, "virtual robot"),
+            (self.robot, ROBOTS, message("virtual robot")),
             (self.motion, MOTIONS, "motion"),
             (self.variant, (None, *VARIANTS), "variant"),
         ):
             if given not in known:
                 named = ", ".join(str(each) for each in known if each is not None)
-                raise InputError(f"there is no {what} {given!r}: choose one of {named}.")
+                raise InputError(f"there is no {arg(what)} {arg(given)!r}: choose one of {arg(named)}.")
         if not (0.5 <= self.period_s <= 1000 and 0 <= self.size <= 30):
             raise InputError(
-                f"motion: a period of {self.period_s:g} s, a size of {self.size:g}: give 0.5 to 1000 s, and 0 to 30 mm"
-                " or degrees."
+                f"motion: a period of {arg(self.period_s):g} s, a size of {arg(self.size):g}: give 0.5 to"
+                " 1000 s, and 0 to 30 mm or degrees."
             )
 
     def arguments(self, bundle: Path) -> list[str]:
@@ -179,9 +179,9 @@ class MotionRun:
         except OSError as error:
             self._said.close()
             raise InputError(
-                f"the virtual robot cannot be started ({error}): check {sys.executable}."
+                f"the virtual robot cannot be started ({arg(error)}): check {arg(sys.executable)}."
             ) from error
-        self._reader = threading.Thread(target=self._read, name="closed loop", daemon=True)
+        self._reader = threading.Thread(target=self._read, name=message("closed loop"), daemon=True)
         self._reader.start()
 
     # ---- what is asked -----------------------------------------------------------------------------
@@ -250,11 +250,11 @@ class MotionRun:
                 for line in lines:
                     self._take(read_line(line))
         except (InputError, OSError, ValueError) as error:
-            self._failure = f"the virtual robot sent an invalid answer ({error})."
+            self._failure = message(f"the virtual robot sent an invalid answer ({arg(error)}).")
             self._process.kill()
         code = self._process.wait()
         if self.outcome is None and not self._failure:
-            self._failure = self._last_words() or f"the virtual robot stopped with code {code}."
+            self._failure = self._last_words() or message(f"the virtual robot stopped with code {arg(code)}.")
 
     def _take(self, told: Beginning | LoopFrame | dict[str, Any]) -> None:
         if isinstance(told, Beginning):

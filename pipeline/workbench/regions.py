@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import (
     FacetGraph,
@@ -95,8 +96,8 @@ class Clear:
 Tool = Flood | Box | Plane | Mirror | Grow | Shrink | Smooth | Clear
 _WORDS: dict[type, str] = {
     Flood: "fill",
-    Box: "box into",
-    Plane: "half into",
+    Box: message("box into"),
+    Plane: message("half into"),
     Mirror: "mirror",
     Grow: "grow",
     Shrink: "shrink",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic_core import PydanticUndefined, to_jsonable_python
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.recompute import RECOMPUTE
 from contactbench.pipeline.session.state import MESH
 
@@ -49,7 +50,11 @@ class SessionChange:
                 put_result(session, before)
         for before_input, after in self.inputs.values():
             if before_input is None:
-                session.note(f"Undone: adding {after.kind} {after.name}. It stays in the session, unused.")
+                session.note(
+                    message(
+                        f"Undone: adding {arg(after.kind)} {arg(after.name)}. It stays in the session, unused."
+                    )
+                )
             else:
                 put_input(session, before_input)
         for key, (value, _) in self.settings.items():

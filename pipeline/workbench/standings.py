@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.state import minute_of
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
@@ -40,7 +40,7 @@ class CheckState(StrEnum):
     STALE = "stale"
     MISSING = "missing"
     FAILED = "failed"
-    OPTIONAL = "left out"
+    OPTIONAL = message("left out")
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class Judge:
         )
         if not isinstance(mean, int | float) or not isinstance(most, int | float):
             return ""
-        return f"{mean:.2f} mm on average, {most:.2f} mm at most"
+        return message(f"{arg(mean):.2f} mm on average, {arg(most):.2f} mm at most")
 
 
 # ---- the steps -------------------------------------------------------------------------------------
@@ -248,27 +248,27 @@ def _broken(judge: Judge, known: Mapping[Step, StepStatus]) -> dict[Step, str]:
 
 
 GOING_ON = {
-    Step.DEVICES: "Testing the devices.",
-    Step.GRAVITY: "Recording a calibration.",
-    Step.PROBE: "Preparing the probe.",
-    Step.REGIONS: "Applying the regions to the probe.",
-    Step.VERIFY: "Recording a verification.",
-    Step.EXPORT: "Writing a bundle.",
+    Step.DEVICES: message("Testing the devices."),
+    Step.GRAVITY: message("Recording a calibration."),
+    Step.PROBE: message("Preparing the probe."),
+    Step.REGIONS: message("Applying the regions to the probe."),
+    Step.VERIFY: message("Recording a verification."),
+    Step.EXPORT: message("Writing a bundle."),
 }
 
 
 def _devices(state: State, connected: bool) -> tuple[StepState, str]:
     sensor = state.setting(SENSOR)
     if not sensor:
-        words = "Choose the sensor and the source of its orientation, then test the connection."
+        words = message("Choose the sensor and the source of its orientation, then test the connection.")
         return StepState.READY, words
     scheme, name = str(sensor).partition("://")[0], str(sensor).partition("?")[0]
-    name = {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, name)
+    name = {"virtual": message("the virtual bench"), "replay": "a recording"}.get(scheme, name)
     if not connected:
-        return StepState.DONE, f"Chosen: {name}. Not connected: connect to measure."
-    words = f"Connected: {name}."
+        return StepState.DONE, message(f"Chosen: {arg(name)}. Not connected: connect to measure.")
+    words = message(f"Connected: {arg(name)}.")
     if not state.setting(POSES):
-        words += " Its orientation is unknown, so gravity cannot be calibrated."
+        words += message(" Its orientation is unknown, so gravity cannot be calibrated.")
     return StepState.DONE, words
 
 
@@ -276,67 +276,77 @@ def _gravity(judge: Judge) -> tuple[StepState, str]:
     judged = judge.of("calibration")
     if judged.found is None:
         if not judge.state.setting(SENSOR):
-            return StepState.LOCKED, "Choose the devices first."
-        return StepState.READY, "Hold the tool still in about six orientations; the next one is always shown."
+            return StepState.LOCKED, message("Choose the devices first.")
+        return StepState.READY, message(
+            "Hold the tool still in about six orientations; the next one is always shown."
+        )
     if judged.state is CheckState.STALE:
-        return StepState.STALE, f"{judged.why} Calibrate again."
+        return StepState.STALE, message(f"{arg(judged.why)} Calibrate again.")
     if judged.state is CheckState.FAILED:
-        return StepState.FAILED, f"The calibration was refused. {judged.why} Recalibrate."
-    usable = " It is usable, but not good." if judge.verdict("calibration").get("level") == "usable" else ""
-    return StepState.DONE, f"Calibrated on {judged.day}.{usable}"
+        return StepState.FAILED, message(f"The calibration was refused. {arg(judged.why)} Recalibrate.")
+    usable = (
+        message(" It is usable, but not good.")
+        if judge.verdict("calibration").get("level") == "usable"
+        else ""
+    )
+    return StepState.DONE, message(f"Calibrated on {arg(judged.day)}.{arg(usable)}")
 
 
 def _probe(judge: Judge) -> tuple[StepState, str]:
     judged, draft = judge.of("probe"), judge.state.setting(PROBE_DRAFT)
     if judged.found is None:
         if draft:
-            return StepState.READY, "In preparation: continue where you left off, then use it."
-        return StepState.READY, "Choose the probe's mesh, align it and simplify it."
+            return StepState.READY, message("In preparation: continue where you left off, then use it.")
+        return StepState.READY, message("Choose the probe's mesh, align it and simplify it.")
     if judged.state is CheckState.STALE:
-        return StepState.STALE, f"{judged.why} Prepare it again."
-    begun = " Another one is in preparation: use it, or undo it." if draft else ""
-    return StepState.DONE, f"Prepared on {judged.day}.{begun}"
+        return StepState.STALE, message(f"{arg(judged.why)} Prepare it again.")
+    begun = message(" Another one is in preparation: use it, or undo it.") if draft else ""
+    return StepState.DONE, message(f"Prepared on {arg(judged.day)}.{arg(begun)}")
 
 
 def _regions(judge: Judge) -> tuple[StepState, str]:
     where = standing(judge.state)
     if where is Standing.NONE:
         if judge.of("probe").found is None:
-            return StepState.LOCKED, "Prepare the probe first."
-        return StepState.READY, "Optional: paint where contacts are preferred, or continue with Verify."
+            return StepState.LOCKED, message("Prepare the probe first.")
+        return StepState.READY, message(
+            "Optional: paint where contacts are preferred, or continue with Verify."
+        )
     if where is Standing.WAITING:
-        words = "The regions are painted but not applied to the probe yet: apply them."
+        words = message("The regions are painted but not applied to the probe yet: apply them.")
         return StepState.STALE, words
     if where is Standing.PLANNED:
-        return StepState.DONE, "Painted. The regions are applied when the probe is prepared."
-    return StepState.DONE, "Painted and applied to the probe."
+        return StepState.DONE, message("Painted. The regions are applied when the probe is prepared.")
+    return StepState.DONE, message("Painted and applied to the probe.")
 
 
 def _verify(judge: Judge) -> tuple[StepState, str]:
     judged = judge.of("verification")
     if judged.found is None:
-        return StepState.READY, "Touch the markers to check that contacts are correct."
+        return StepState.READY, message("Touch the markers to check that contacts are correct.")
     if judged.state is CheckState.STALE:
-        return StepState.STALE, f"{judged.why} Verify again."
+        return StepState.STALE, message(f"{arg(judged.why)} Verify again.")
     why = judged.why or judge.figures
     if judged.state is CheckState.FAILED:
-        return StepState.FAILED, f"Not passed. {why} Correct the cause, then verify again."
-    return StepState.DONE, f"Passed: {why}." if why else f"Verified on {judged.day}."
+        return StepState.FAILED, message(f"Not passed. {arg(why)} Correct the cause, then verify again.")
+    return StepState.DONE, message(f"Passed: {arg(why)}.") if why else message(
+        f"Verified on {arg(judged.day)}."
+    )
 
 
 def _export(judge: Judge) -> tuple[StepState, str]:
     parts = [judge.of(kind) for kind in ("calibration", "probe", "verification")]
     if parts[-1].found is None:
-        return StepState.LOCKED, "Verify first. For trials, an unverified bundle can be exported."
+        return StepState.LOCKED, message("Verify first. For trials, an unverified bundle can be exported.")
     exported = judge.state.setting(RESULTS)
     if not exported:
-        return StepState.READY, "Review the bundle, then export it."
+        return StepState.READY, message("Review the bundle, then export it.")
     if exported != dict(results_of(judge.state)):
-        return StepState.STALE, "Results have changed since the last export: export again."
+        return StepState.STALE, message("Results have changed since the last export: export again.")
     for part in parts:
         if part.state is CheckState.STALE:
-            return StepState.STALE, f"{part.why} Repeat that, then export again."
-    return StepState.DONE, "The latest results are exported."
+            return StepState.STALE, message(f"{arg(part.why)} Repeat that, then export again.")
+    return StepState.DONE, message("The latest results are exported.")
 
 
 def _missing(judge: Judge) -> str:
@@ -344,11 +354,11 @@ def _missing(judge: Judge) -> str:
     calibration, probe = judge.of("calibration"), judge.of("probe")
     if calibration.found is None:
         if probe.found is None:
-            return "Calibrate gravity and prepare the probe first."
-        return "Calibrate gravity first."
+            return message("Calibrate gravity and prepare the probe first.")
+        return message("Calibrate gravity first.")
     if judge.verdict("calibration").get("level") == "refuse":
-        return "The calibration was refused: recalibrate gravity first."
-    return "" if probe.found is not None else "Prepare the probe first."
+        return message("The calibration was refused: recalibrate gravity first.")
+    return "" if probe.found is not None else message("Prepare the probe first.")
 
 
 # ---- the checklist of an export --------------------------------------------------------------------
@@ -360,21 +370,33 @@ def checklist(
     """Say how everything stands that a bundle rests on; reads files, see `read_facts`."""
     judge = Judge(state, stale, read_facts(folder, state), trouble)
     checks = [
-        _line(judge, "Known weight", "known_weight", Step.GRAVITY, "Hang a known weight on the tool."),
-        _line(judge, "Known touch", "known_touch", Step.VERIFY, "Press a known point of the probe."),
+        _line(
+            judge,
+            message("Known weight"),
+            "known_weight",
+            Step.GRAVITY,
+            message("Hang a known weight on the tool."),
+        ),
+        _line(
+            judge,
+            message("Known touch"),
+            "known_touch",
+            Step.VERIFY,
+            message("Press a known point of the probe."),
+        ),
     ]
     if any(each.state is CheckState.DONE for each in checks):  # one of them is enough
         checks = [
             replace(each, state=CheckState.OPTIONAL) if each.state is CheckState.MISSING else each
             for each in checks
         ]
-    touch = "Touch the markers to verify contacts."
-    report = "Finish a verification: its report is part of the bundle."
-    calibrate = "Calibrate the sensor with this tool."
+    touch = message("Touch the markers to verify contacts.")
+    report = message("Finish a verification: its report is part of the bundle.")
+    calibrate = message("Calibrate the sensor with this tool.")
     return (
         _sensor_line(judge),
         _line(judge, "Calibration", "calibration", Step.GRAVITY, calibrate),
-        _line(judge, "Probe", "probe", Step.PROBE, "Prepare the probe's mesh."),
+        _line(judge, "Probe", "probe", Step.PROBE, message("Prepare the probe's mesh.")),
         _regions_line(judge),
         _line(judge, "Verification", "verification", Step.VERIFY, touch),
         *checks,
@@ -387,29 +409,31 @@ def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckI
     judged = judge.of(kind)
     state = judged.state
     if judged.found is None and state is CheckState.MISSING:
-        unseen = "Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. "
+        unseen = message("Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. ")
         words = (unseen if kind in CHECK_KINDS else "") + remedy
     elif judged.found is None:
-        words = f"It was rejected. {judged.why} {remedy}".strip()
+        words = message(f"It was rejected. {arg(judged.why)} {arg(remedy)}").strip()
     elif judged.broken:
         words = judged.broken
     elif state is CheckState.STALE:
-        words = f"{judged.why} Repeat it."
+        words = message(f"{arg(judged.why)} Repeat it.")
     elif kind in CHECK_KINDS:
         outcome, words = judge.fact(kind, "outcome"), str(judge.fact(kind, "sentence") or "")
         if outcome == "failed":
-            state, words = CheckState.FAILED, words or f"The check failed. {remedy}"
+            state, words = CheckState.FAILED, words or message(f"The check failed. {arg(remedy)}")
         elif outcome != "passed":
             state = CheckState.MISSING
     elif kind == "calibration" and state is CheckState.FAILED:
-        words = "The calibration was refused: recalibrate."
+        words = message("The calibration was refused: recalibrate.")
     elif kind == "verification":
         if state is CheckState.FAILED:
-            words = f"Not passed: {'; '.join(judged.reasons) or 'see its report'}. Verify again."
+            words = message(
+                f"Not passed: {arg('; '.join(judged.reasons) or 'see its report')}. Verify again."
+            )
         else:
-            words = f"Passed: {judge.figures}." if judge.figures else "Passed."
+            words = message(f"Passed: {arg(judge.figures)}.") if judge.figures else "Passed."
     else:
-        words = f"Made on {judged.day}."
+        words = message(f"Made on {arg(judged.day)}.")
     return CheckItem(name, state, words, step)
 
 
@@ -421,8 +445,8 @@ def _sensor_line(judge: Judge) -> CheckItem:
     known = [each for each in known if each]
     known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
     if known:
-        return CheckItem("Sensor", CheckState.DONE, f"Serial number {known[0]}.", Step.DEVICES)
-    words = "Serial number missing: the bundle would say 'unknown'. Enter it below."
+        return CheckItem("Sensor", CheckState.DONE, message(f"Serial number {arg(known[0])}."), Step.DEVICES)
+    words = message("Serial number missing: the bundle would say 'unknown'. Enter it below.")
     return CheckItem("Sensor", CheckState.MISSING, words, Step.DEVICES)
 
 
@@ -433,14 +457,14 @@ def _regions_line(judge: Judge) -> CheckItem:
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
     if count:
-        regions = "one priority region" if count == 1 else f"{count} priority regions"
-        words = f"The probe has {regions}."
+        regions = message("one priority region") if count == 1 else message(f"{arg(count)} priority regions")
+        words = message(f"The probe has {arg(regions)}.")
     elif judge.state.newest("regions") is not None:
         state = CheckState.MISSING
-        words = "Regions are painted but not applied to the probe yet: apply them."
+        words = message("Regions are painted but not applied to the probe yet: apply them.")
     else:
         state = CheckState.OPTIONAL
-        words = "No priority regions: all candidates are equal. That is fine for most probes."
+        words = message("No priority regions: all candidates are equal. That is fine for most probes.")
     return CheckItem("Regions", state, words, Step.REGIONS)
 
 
@@ -464,6 +488,9 @@ def files_of_bundle(state: State) -> tuple[FileRef, ...]:
 
 def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
-    for kind, what in (("calibration", "Calibrate first."), ("probe", "Prepare the probe first.")):
+    for kind, what in (
+        ("calibration", message("Calibrate first.")),
+        ("probe", message("Prepare the probe first.")),
+    ):
         if state.newest(kind) is None:
-            raise InputError(f"There is no {kind} yet, so nothing can be exported. {what}")
+            raise InputError(f"There is no {arg(kind)} yet, so nothing can be exported. {arg(what)}")

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.check import file_problem
 from contactbench.pipeline.session.state import Result
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.state import Input
 
-DISK = (
+DISK = message(
     "The last write failed, so nothing is written to this session at the moment. Free disk space,"
     " or check the disk; writing then resumes automatically."
 )

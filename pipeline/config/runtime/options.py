@@ -12,6 +12,7 @@ from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 from contactbench.pipeline.config.runtime.mounts import mount_of_angles
 from contactbench.pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.bench import ExportSettings
 
 KIND, SERIAL = "config", "devices.serial"
-_GIVE_PAIR = "Give both --noise-force and --noise-torque, or neither."
+_GIVE_PAIR = message("Give both --noise-force and --noise-torque, or neither.")
 
 _Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
@@ -67,7 +68,7 @@ class ExportOptions(BaseModel):
             first = error.errors(include_url=False)[0]
             where = ".".join(map(str, first["loc"])) or "options"
             raise ConfigError(
-                f"--{where.replace('_', '-')} ({KIND}.{where}): {first['msg']}: correct it."
+                f"--{arg(where.replace('_', '-'))} ({arg(KIND)}.{arg(where)}): {arg(first['msg'])}: correct it."
             ) from None
 
     @classmethod

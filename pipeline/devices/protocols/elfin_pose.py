@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.elfin import ElfinError
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,12 +83,15 @@ def resolve_order(numbers: Sequence[float], robot: Robot) -> OrderFit:
     if good:
         raise ElfinError("Elfin: joints and pose look the same here. Move the arm and try again.")
     found = " and ".join(
-        f"{fit.rotation_deg:.1f}° and {np.linalg.norm(fit.tool) * 1e3:.0f} mm ({fit.order.name.lower()})"
+        message(
+            f"{arg(fit.rotation_deg):.1f}° and {arg(np.linalg.norm(fit.tool) * 1e3):.0f} mm"
+            f" ({arg(fit.order.name.lower())})"
+        )
         for fit in fits
     )
     raise ElfinError(
-        f"Elfin: joints and pose do not match: the tool frame is {found} from the flange of"
-        f" {robot.description.name}. Choose a tool frame without rotation, and check the robot"
+        f"Elfin: joints and pose do not match: the tool frame is {arg(found)} from the flange of"
+        f" {arg(robot.description.name)}. Choose a tool frame without rotation, and check the robot"
         " model."
     )
 
@@ -134,7 +138,7 @@ def _split(
     values = np.asarray(numbers, dtype=np.float64)
     # NaN fails the comparison too.
     if values.shape != (_NUMBERS,) or not (np.abs(values) < _ABSURD).all():
-        raise ElfinError(f"Elfin: {tuple(numbers)!r} are not six angles and a pose: reconnect.")
+        raise ElfinError(f"Elfin: {arg(tuple(numbers))!r} are not six angles and a pose: reconnect.")
     joints, pose = values[:6], values[6:]
     if order is FieldOrder.POSE_FIRST:
         joints, pose = pose, joints

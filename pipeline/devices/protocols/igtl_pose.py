@@ -17,6 +17,7 @@ from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Mo
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
 from contactbench.pipeline.devices.protocols.parser import Counters
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -95,9 +96,9 @@ class BodyStream:
             The server has several bodies, and none was chosen.
         """
         samples: list[FlangeSample] = []
-        for message in self._reader.feed(data):
+        for packet in self._reader.feed(data):
             try:
-                poses = igtl.poses_of(message)
+                poses = igtl.poses_of(packet)
             except IgtlError as error:
                 self.trouble = str(error)
                 self._refused += 1
@@ -106,11 +107,11 @@ class BodyStream:
                 if not self._is_wanted(pose.body):
                     continue
                 self.trouble = ""
-                if message.time is not None and message.time == self._stamp:
+                if packet.time is not None and packet.time == self._stamp:
                     self._repeated += 1
                     continue
-                self._stamp = message.time
-                samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=message.time))
+                self._stamp = packet.time
+                samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=packet.time))
         return samples
 
     def _is_wanted(self, name: str) -> bool:
@@ -118,7 +119,7 @@ class BodyStream:
             self.names.append(name)
         if self._body is None and len(self.names) > 1:
             raise IgtlError(
-                f"OpenIGTLink: the server sends several bodies ({', '.join(self.names)}): add ?device=NAME to the"
+                f"OpenIGTLink: the server sends several bodies ({arg(', '.join(self.names))}): add ?device=NAME to the"
                 " address."
             )
         return self._body in (None, name)
@@ -168,24 +169,24 @@ class IgtlModel(Model):
         if whole is None:
             return []
         kind, size = whole
-        message = self._take(size)
+        packet = self._take(size)
         if kind == igtl.START_QTDATA and size == len(igtl.start_qtdata(1.0)):
-            self.rate = 1e3 / max(1, struct.unpack_from(">i", message, size - 36)[0])
+            self.rate = 1e3 / max(1, struct.unpack_from(">i", packet, size - 36)[0])
             self._lists = True
-            self._obey(message)
+            self._obey(packet)
             return [igtl.pack(igtl.ANSWER_QTDATA, "Tracker", 0, b"\0")]
         if kind == igtl.STOP_QTDATA:
             self._lists = False
-            self._obey(message)
+            self._obey(packet)
             return []
-        self._refuse(message)
+        self._refuse(packet)
         return []
 
 
 class IgtlDriver(Driver):
     """A tracker that serves OpenIGTLink."""
 
-    scheme, title = "igtl", "OpenIGTLink tracker"
+    scheme, title = "igtl", message("OpenIGTLink tracker")
     ways = (Way(Carrier.TCP, port=18_944),)
     options: ClassVar[Mapping[str, Option]] = {
         "device": Option("Name of the tracked body, where the server sends several.", read_name)

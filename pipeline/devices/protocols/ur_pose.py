@@ -27,6 +27,7 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
 )
 from contactbench.pipeline.devices.protocols.ur_wrench import wrench_driver
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -82,7 +83,7 @@ class UrStream:
         self._rate = check_rate("UR", rate_hz, ur_rtde.LOWEST_RATE, ur_rtde.HIGHEST_RATE)
         self._tool = None if tool is None else tuple(tool)
         if self._tool is not None and (len(self._tool) != 6 or not np.isfinite(self._tool).all()):
-            raise RtdeError(f"UR: a tool frame has six finite numbers, not {tool!r}.")
+            raise RtdeError(f"UR: a tool frame has six finite numbers, not {arg(tool)!r}.")
         self._reader = PacketReader()
         self._recipe: OutputRecipe | None = None
         self._variables: tuple[str, ...] = _WITH_TOOL
@@ -199,10 +200,10 @@ def flange_sample(
         raise RtdeError("UR: data must hold a clock, six joints and a pose of six: reconnect.")
     pose = np.asarray(values[POSE], dtype=np.float64)
     if not (np.abs(pose) < _ABSURD).all():
-        raise RtdeError(f"UR: {tuple(pose)!r} is not a pose: reconnect.")
+        raise RtdeError(f"UR: {arg(tuple(pose))!r} is not a pose: reconnect.")
     R_BE, p_BE_B = Rotation.from_rotvec(pose[3:]), np.full(3, np.nan)
     if tool is not None and (len(tool) != 6 or not (np.abs(tool) < _ABSURD).all()):
-        raise RtdeError(f"UR: {tuple(tool)!r} is not a tool frame: reconnect.")
+        raise RtdeError(f"UR: {arg(tuple(tool))!r} is not a tool frame: reconnect.")
     if tool is not None:
         R_BE = R_BE * Rotation.from_rotvec(tool[3:]).inv()
         p_BE_B = pose[:3] - R_BE.apply(tool[:3])
@@ -278,7 +279,7 @@ class UrModel(Model):
     ) -> None:
         super().__init__(rate, quirks)
         if len(tool) != 6 or not all(map(math.isfinite, tool)):
-            raise EmulatorError(f"tool {tool}: give six finite numbers, m and rad.")
+            raise EmulatorError(f"tool {arg(tool)}: give six finite numbers, m and rad.")
         self._tool = tool
         self._R_ET = Rotation.from_rotvec(tool[3:]).as_matrix()
         self._agreed = False

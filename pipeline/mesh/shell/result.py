@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.shell.patch import Closing
 
 if TYPE_CHECKING:
@@ -36,10 +37,10 @@ class ClosedOpening:
     def sentence(self) -> str:
         """What was done, in words."""
         how = {
-            Closing.FAIR: "closed by a smooth surface",
-            Closing.RULED: "closed by straight lines between its long rims",
-            Closing.HULL: "closed by the hull of its rim",
-            Closing.OPEN: "left open",
+            Closing.FAIR: message("closed by a smooth surface"),
+            Closing.RULED: message("closed by straight lines between its long rims"),
+            Closing.HULL: message("closed by the hull of its rim"),
+            Closing.OPEN: message("left open"),
         }[self.closing]
         return f"{self.opening.sentence}: {how}."
 
@@ -133,15 +134,17 @@ class Shell:
         if self.how == HULL:
             out += [text.format(number) for text, number in zip(_DONE, self._done, strict=True) if number]
         if self.how == WRAPPED and self.dropped:
-            out.append(f"Specks next to the part were left out (facets: {self.dropped}).")
+            out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
         out += [f"Found {opening.sentence}" for opening in self.openings]
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
-                f"{1e6 * self.invented_area:.0f} mm² ({100 * share:.1f} %) of the shell is"
-                " invented: contacts there rest on a guess. If that area will be touched, measure"
-                " the part or get its drawing."
+                message(
+                    f"{arg(1e6 * self.invented_area):.0f} mm² ({arg(100 * share):.1f} %) of the shell is"
+                    " invented: contacts there rest on a guess. If that area will be touched, measure"
+                    " the part or get its drawing."
+                )
             )
         if self.fit is not None:
             out.append(self.fit.sentence)
@@ -171,19 +174,21 @@ class Shell:
 
 
 _HOW = {
-    UNCHANGED: "The mesh is its own outer shell: no repair was needed.",
-    HULL: "The outer hull was made from the facets of the file; none was moved.",
-    WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
+    UNCHANGED: message("The mesh is its own outer shell: no repair was needed."),
+    HULL: message("The outer hull was made from the facets of the file; none was moved."),
+    WRAPPED: message("The outside was wrapped in a closed surface; inner walls and parts are gone."),
 }
 
-NO_SPACE = (
+NO_SPACE = message(
     "The mesh's own facets enclose no space, even with the holes closed: too many are loose, torn"
     " or without thickness."
 )
-LEAKS = (
+LEAKS = message(
     "The mesh's own facets could not be used: the patches do not meet the rims of the openings everywhere."
 )
-UNSOUND = "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
+UNSOUND = message(
+    "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
+)
 
 _DONE = (
     "Facets turned to face outwards: {:,}.",

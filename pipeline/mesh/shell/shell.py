@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
@@ -87,7 +88,7 @@ class Steps:
         Cancelled
         """
         if self.cancelled is not None and self.cancelled():
-            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
+            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
         if self._progress is not None:
             self._progress(self._from + share * (self._to - self._from))
 
@@ -333,8 +334,9 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     shell = Probe.from_arrays(wrapped.vertices, wrapped.faces, invented=invented, name=name, check_size=False)
     if shell.health.sentences:
         raise MeshError(
-            "the wrap is not valid (" + " ".join(shell.health.sentences) + ") Try another alpha, or close the"
-            " mesh in the CAD program."
+            message("the wrap is not valid (")
+            + " ".join(shell.health.sentences)
+            + message(") Try another alpha, or close the mesh in the CAD program.")
         )
     if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
         raise MeshError(
@@ -373,8 +375,8 @@ def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
     if np.count_nonzero(large) > 1:
         one, two = (vertices[faces[label == part]].mean(axis=(0, 1)) for part in np.argsort(-areas)[:2])
         raise MeshError(
-            f"the mesh has {np.count_nonzero(large)} parts that do not touch; the middles of two"
-            f" of them are {1e3 * np.linalg.norm(one - two):.4g} mm apart. Delete everything that"
+            f"the mesh has {arg(np.count_nonzero(large))} parts that do not touch; the middles of two"
+            f" of them are {arg(1e3 * np.linalg.norm(one - two)):.4g} mm apart. Delete everything that"
             " is not the probe in the CAD program, or bridge the gap with a larger value (gap)."
         )
     _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
@@ -490,7 +492,7 @@ def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> 
     listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
     if len(listed) > max(len(found), 1):
         raise MeshError(
-            f"{len(listed)} closings were given, but the mesh has {len(found)} openings: leave out the rest."
+            f"{arg(len(listed))} closings were given, but the mesh has {arg(len(found))} openings: leave out the rest."
         )
     return [*listed, *[listed[-1]] * (len(found) - len(listed))][: len(found)]
 
@@ -498,6 +500,6 @@ def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> 
 def _check_lengths(alpha: float, coarse: float, size: float) -> None:
     if not _FINEST * size <= alpha <= coarse <= size / 4:
         raise MeshError(
-            f"alpha {1e3 * alpha:.4g} mm and gap {1e3 * coarse:.4g} mm: alpha must be at least"
-            f" {1e3 * _FINEST * size:.3g} mm, the gap at least alpha and at most {1e3 * size / 4:.3g} mm."
+            f"alpha {arg(1e3 * alpha):.4g} mm and gap {arg(1e3 * coarse):.4g} mm: alpha must be at least"
+            f" {arg(1e3 * _FINEST * size):.3g} mm, the gap at least alpha and at most {arg(1e3 * size / 4):.3g} mm."
         )

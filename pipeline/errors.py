@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from typing import Self
 
 # Noncharacters, which Unicode keeps for use inside a program: they show where a message and what is filled in begin
-# and end, and which letter is to be a capital.
-_OPEN, _CLOSE, _FILL, _FILLED, _CAPITAL = "\ufdd0", "\ufdd1", "\ufdd2", "\ufdd3", "\ufdd4"
-_MARK = re.compile("([\ufdd0-\ufdd4])")
+# and end, and what is done to the next one in every language.
+_OPEN, _CLOSE, _FILL, _FILLED = "\ufdd0", "\ufdd1", "\ufdd2", "\ufdd3"
+_CAPITAL, _STRIP = "\ufdd4", "\ufdd5"
+_MARK = re.compile("([\ufdd0-\ufdd5])")
 _FIELD = re.compile(r"\{(\d+)\}")
 
 
@@ -44,6 +45,12 @@ class Message(str):
 
     def __format__(self, spec: str) -> str:
         return format(self[:], spec) if spec else self
+
+    def strip(self, characters: str | None = None) -> str:
+        """Return it without blanks at its ends, in any language."""
+        return (
+            Message(f"{_STRIP}{self._marked}{_FILLED}") if characters is None else super().strip(characters)
+        )
 
     def __add__(self, other: str) -> str:
         return join("", (self, other))
@@ -105,7 +112,7 @@ def join(separator: str, parts: Iterable[str]) -> str:
 
 def capitalised(text: str) -> str:
     """Return a text with a capital letter first, a message in any language."""
-    return Message(_CAPITAL + _filled(text))
+    return Message(f"{_CAPITAL}{_filled(text)}{_FILLED}")
 
 
 class InputError(ValueError):
@@ -135,16 +142,19 @@ def _said(marked: str, of: Callable[[str], str]) -> str:
 
 def _text(tokens: Iterator[str], of: Callable[[str], str]) -> str:
     """Return what stands before the end of what is filled in."""
-    text, capital = "", False
+    text = ""
     for token in tokens:
         if token == _FILLED:
             break
         if token == _CAPITAL:
-            capital = True
-            continue
-        said = _message(tokens, of) if token == _OPEN else _text(tokens, of) if token == _FILL else of(token)
-        text += said[:1].upper() + said[1:] if capital else said
-        capital = capital and not said
+            words = _text(tokens, of)
+            text += words[:1].upper() + words[1:]
+        elif token == _STRIP:
+            text += _text(tokens, of).strip()
+        elif token == _OPEN:
+            text += _message(tokens, of)
+        else:
+            text += _text(tokens, of) if token == _FILL else of(token)
     return text
 
 

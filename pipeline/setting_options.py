@@ -12,7 +12,7 @@ import typer
 from pydantic import ValidationError
 
 from contactbench.pipeline.console import numbers
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.settings import first_fault
 
 if TYPE_CHECKING:
@@ -99,4 +99,4 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
         where, what = first_fault(error)
         name = where.partition(".")[0]
         option = _option_name(name, model.model_fields[name])
-        raise InputError(f"{option}: {what}: correct it.") from None
+        raise InputError(f"{arg(option)}: {arg(what)}: correct it.") from None

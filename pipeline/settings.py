@@ -88,7 +88,9 @@ class Settings(BaseModel):
 def first_fault(error: ValidationError) -> tuple[str, str]:
     """Return the field that is wrong, and what is wrong with it."""
     first = error.errors(include_url=False)[0]
-    return ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
+    raised = first.get("ctx", {}).get("error")  # of our own: its text is a message
+    what = first["msg"] if raised is None or isinstance(raised, str) else str(raised)
+    return ".".join(map(str, first["loc"])), what
 
 
 def metres(millimetres: float | None) -> float | None:

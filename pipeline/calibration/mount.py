@@ -343,7 +343,9 @@ def see(
         )
     else:
         grave = ""
-    return Sight(fit, (grave,) if grave else (), (f"{known}.",) if worst > _SURE else (), parameters)
+    return Sight(
+        fit, (grave,) if grave else (), (message(f"{arg(known)}."),) if worst > _SURE else (), parameters
+    )
 
 
 def _felt(inside: Stack, fit: Fit, noise: PoseNoise) -> bool:

@@ -41,7 +41,7 @@ class RowError(InputError):
     """
 
     def __init__(self, row: int, what: str) -> None:
-        super().__init__(f"row {row + 1}: {what}")
+        super().__init__(message(f"row {arg(row + 1)}: {arg(what)}"))
         self.row, self.what = row, what
 
 

@@ -174,7 +174,7 @@ def _moments(times: Sequence[float | None]) -> tuple[NDArray[np.float64], float 
 
 def named(poses: Sequence[PoseSample], index: int) -> str:
     """Return what to call a pose: its name, or its number from 1."""
-    return poses[index].name or f"pose {index + 1}"
+    return poses[index].name or message(f"pose {arg(index + 1)}")
 
 
 def _frozen(array: NDArray[np.float64]) -> NDArray[np.float64]:

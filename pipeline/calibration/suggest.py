@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, para
 from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import describe
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -102,7 +102,7 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     taken = np.array([np.asarray(reachable.down_W) @ pose.R_WS for pose in calibration.poses])
     chosen = _newest_good(errors if settled else _ignorance(calibration.covariance, J), reachable, taken)
     before, after = calibration.contact_error, float(errors[chosen])
-    sentence = f"Next: {_how(reachable, chosen)}. {_gain(before, after)}"
+    sentence = message(f"Next: {arg(_how(reachable, chosen))}. {arg(_gain(before, after))}")
     return Suggestion(
         reachable.R_WS[chosen],
         reachable.joint_vector(chosen),
@@ -335,4 +335,4 @@ def _how(reachable: Reachable, index: int) -> str:
         for number, (here, there) in enumerate(zip(start, joints, strict=True), 1)
         if abs(there - here) > np.radians(0.5)
     ]
-    return f"{', '.join(moves) or 'stay where you are'} ({stands})"
+    return message(f"{arg(join(', ', moves) or message('stay where you are'))} ({arg(stands)})")

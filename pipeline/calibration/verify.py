@@ -63,7 +63,7 @@ class StillVerification:
         limits, n = self.limits, len(self.names)
         worst = self.names[int(self.contact_errors.max(axis=1).argmax())]
         error = message(
-            f"In {arg(n)} new pose{arg('s' * (n > 1))} the residuals move a contact by"
+            f"In {arg(n)} new {arg(message('poses') if n > 1 else message('pose'))} the residuals move a contact by"
             f" {arg(1e3 * self.contact_rms):.2g} mm rms, at most {arg(1e3 * self.contact_worst):.2g} mm"
             f" ({arg(worst)})"
         )
@@ -88,10 +88,9 @@ class StillVerification:
             )
         if n < _FEW:
             words.append(
-                message(
-                    f"{arg(n)} {arg('poses say' if n > 1 else 'pose says')} little about other orientations."
-                    f" Take {arg(_FEW)} or more."
-                )
+                message(f"{arg(n)} poses say little about other orientations. Take {arg(_FEW)} or more.")
+                if n > 1
+                else message(f"{arg(n)} pose says little about other orientations. Take {arg(_FEW)} or more.")
             )
         if words:
             return Verdict(Level.USABLE, tuple(words))

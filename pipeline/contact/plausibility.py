@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import Reason, SurfaceIndex
 
 if TYPE_CHECKING:
@@ -87,7 +87,9 @@ class Plausibility:
             return (figures, _NO_CAUSE)
         first, *others = self.likely
         also = (
-            message(f" Equally many fit if {arg(' or if '.join(trial.cause for trial in others[:2]))}.")
+            message(
+                f" Equally many fit if {arg(join(message(' or if '), (trial.cause for trial in others[:2])))}."
+            )
             if others
             else ""
         )

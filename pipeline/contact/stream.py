@@ -307,18 +307,18 @@ class _Tally:
         return float(f"{value:.4g}")
 
     def warnings(self) -> tuple[str, ...]:
-        sentences = {
-            INVENTED: (
-                "Contacts on invented facets: {} of {}. The mesh file had an opening there, so"
-                " surface and contacts are guesses."
-            ),
-            UNTOUCHABLE: "Contacts on untouchable regions: {} of {}. Nothing should be able to touch there: check the"
-            " region, then the mount and the compensation.",
-        }
         contacts = self._bins.sum()
-        return tuple(
-            text.format(self.on[mark], contacts) for mark, text in sentences.items() if self.on[mark]
-        )
+        sentences = {
+            INVENTED: message(
+                f"Contacts on invented facets: {arg(self.on[INVENTED])} of {arg(contacts)}. The mesh file had an"
+                " opening there, so surface and contacts are guesses."
+            ),
+            UNTOUCHABLE: message(
+                f"Contacts on untouchable regions: {arg(self.on[UNTOUCHABLE])} of {arg(contacts)}. Nothing should"
+                " be able to touch there: check the region, then the mount and the compensation."
+            ),
+        }
+        return tuple(text for mark, text in sentences.items() if self.on[mark])
 
 
 # ---- files -------------------------------------------------------------------------------------

@@ -113,9 +113,9 @@ def read_line(line: str | bytes) -> Beginning | LoopFrame | dict[str, Any]:
         if kind == FRAME:
             return LoopFrame(**_checked(LoopFrame, content))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(f"line of a closed loop: it cannot be read ({arg(error)!r:.100}).") from error
+        raise InputError(f"line of a closed loop: it cannot be read ({arg(repr(error)[:100])}).") from error
     raise InputError(
-        f"line of a closed loop: its kind is {arg(kind)!a:.60}, not {arg(BEGIN)}, {arg(FRAME)} or {arg(END)}."
+        f"line of a closed loop: its kind is {arg(ascii(kind)[:60])}, not {arg(BEGIN)}, {arg(FRAME)} or {arg(END)}."
     )
 
 

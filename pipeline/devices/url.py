@@ -333,7 +333,9 @@ def _kind(scheme: str) -> _Kind:
             return kind
     devices = [kind.scheme for each in drivers().values() for kind in _kinds_of(each)]
     known = ", ".join((*devices, *_SOURCES))
-    raise ValueError(f"scheme {scheme or 'missing'}: start it with one of {known}, then ://")
+    raise ValueError(
+        message(f"scheme {arg(scheme or 'missing')}: start it with one of {arg(known)}, then ://")
+    )
 
 
 def _given(query: str, kind: _Kind) -> dict[str, Any]:
@@ -345,7 +347,7 @@ def _given(query: str, kind: _Kind) -> dict[str, Any]:
             query.replace("+", "%2B"), keep_blank_values=True, strict_parsing=bool(query), errors="strict"
         )
     except ValueError as error:
-        raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
+        raise ValueError(message(f"options: {arg(error)}: write them as ?name=value&name=value")) from error
     for key, value in pairs:
         if key not in kind.defaults:
             raise ValueError(
@@ -384,7 +386,7 @@ def _read(key: str, value: str, read: Callable[[str], Any]) -> Any:
     try:
         return read(value)
     except ValueError as error:
-        raise ValueError(f"{key} {value[:80]!r}: {error}") from error
+        raise ValueError(message(f"{arg(key)} {arg(value[:80])!r}: {arg(error)}")) from error
 
 
 def _place(parts: SplitResult, kind: _Kind) -> tuple[str, int | None, str]:

@@ -128,7 +128,7 @@ class KalmanFilter:
             rate = self.tuned_rate
         here = message(f"Kalman filter with Q = {arg(self.q):g}, R = {arg(self.r):g}")
         here += message(" per sample") if self.per_sample else message(f" at {arg(self.tuned_rate):g} Hz")
-        text = f"{here}: {self.figures()}."
+        text = message(f"{arg(here)}: {arg(self.figures())}.")
         if rate is None or rate == self.rate:
             return text
         same = (
@@ -136,7 +136,7 @@ class KalmanFilter:
             if self.per_sample
             else message("Q and R follow time")
         )
-        return f"{text} {same}: {self.figures(rate)}."
+        return message(f"{arg(text)} {arg(same)}: {arg(self.figures(rate))}.")
 
     @property
     def state(self) -> Floats | None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.heatmap.heatmap import (
     HeatmapError,
     Normalisation,
@@ -150,7 +150,7 @@ def empty_words(contacts: Contacts, selection: Selection) -> str:
         least = 0.0 if selection.least_force is None else selection.least_force
         upto = "" if selection.most_force is None else f" to {selection.most_force:.4g}"
         parts.append(f"with {least:.4g}{upto} N" if upto else message(f"with {arg(least):.4g} N or more"))
-    place = f" {' '.join(parts)}" if parts else ""
+    place = message(f" {arg(join(' ', parts))}") if parts else ""
     return message(
         f"there is no contact{arg(place)}: widen the time window or the force range (the recording"
         f" lasts {arg(contacts.duration):.4g} s)."

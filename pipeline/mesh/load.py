@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.clean import flip_flat_facets, merge_vertices
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.gltf import read_gltf
@@ -148,7 +148,7 @@ def load_probe(
     probe = probe_of(file, read, T_SP, name)
     sentences = (*read.notes, *probe.health.sentences)
     if sentences:
-        warnings.warn(f"{file}: " + " ".join(sentences), MeshWarning, stacklevel=2)
+        warnings.warn(f"{file}: " + join(" ", sentences), MeshWarning, stacklevel=2)
     return probe
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.errors import MeshError
 
 # `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
@@ -99,8 +99,9 @@ class PlyHeader:
     @property
     def contents(self) -> str:
         """What is announced, in words."""
-        return ", ".join(
-            message(f"{arg(element.count)} rows of '{arg(element.name)}'") for element in self.elements
+        return join(
+            ", ",
+            (message(f"{arg(element.count)} rows of '{arg(element.name)}'") for element in self.elements),
         )
 
 

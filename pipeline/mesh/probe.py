@@ -386,7 +386,10 @@ def _array_remedy(too_large: bool) -> str:
         else (message("another unit than metres"), message("its length in metres"))
     )
     advice = message(" (from a file: load_probe with units='mm')") if too_large else ""
-    return f"is the file in {unit}? Multiply by {factor}{advice}, or pass check_size=False if it is correct."
+    return message(
+        f"is the file in {arg(unit)}? Multiply by {arg(factor)}{arg(advice)}, or pass check_size=False if it"
+        " is correct."
+    )
 
 
 def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> None:

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import LARGEST_M, SMALLEST_M
 
@@ -74,7 +74,7 @@ class UnitGuess:
         return (
             ""
             if self.certain
-            else message(f"{arg(self.reason)} {arg(NAMES[self.units].capitalize())} are assumed.")
+            else message(f"{arg(self.reason)} {arg(capitalised(NAMES[self.units]))} are assumed.")
         )
 
     @property
@@ -167,8 +167,12 @@ def guess_units(
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)
         if unit in likely or (unit in possible and not likely):
-            return UnitGuess(unit, True, f"{_declares(unit, defined)}, and {_says(span, unit)}.", others)
-        said = f" {_declares(unit, defined)}, but {_unlikely(span, unit, unit in possible)}."
+            return UnitGuess(
+                unit, True, message(f"{arg(_declares(unit, defined))}, and {arg(_says(span, unit))}."), others
+            )
+        said = message(
+            f" {arg(_declares(unit, defined))}, but {arg(_unlikely(span, unit, unit in possible))}."
+        )
         return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
     said = ""
     if declared:
@@ -223,9 +227,12 @@ def _says(span: float, unit: Units) -> str:
 
 
 def _contrast(span: float, ranked: list[Units]) -> str:
-    others = "".join(
-        message(f"; it is {arg(_millimetres(span, unit))} long if they are {arg(NAMES[unit])}")
-        for unit in ranked[1:]
+    others = join(
+        "",
+        (
+            message(f"; it is {arg(_millimetres(span, unit))} long if they are {arg(NAMES[unit])}")
+            for unit in ranked[1:]
+        ),
     )
     return message(f"The numbers span {arg(_number(span))}: {arg(_says(span, ranked[0]))}{arg(others)}.")
 
@@ -234,7 +241,7 @@ def _question(span: float, ranked: list[Units]) -> str:
     first, *others = (
         message(f"{arg(_millimetres(span, unit))} if they are {arg(NAMES[unit])}") for unit in ranked[:3]
     )
-    choices = "".join(f", {other}" for other in others) if others else message(", an unusual size")
+    choices = join("", (f", {other}" for other in others)) if others else message(", an unusual size")
     options = ", ".join(ranked[:3])
     options = " or ".join(options.rsplit(", ", 1))
     return message(

@@ -15,7 +15,7 @@ import numpy as np
 
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import MOST_EVENT_BYTES, RecordingReader
@@ -94,7 +94,7 @@ def write_csv(
                     some = True
                     stream.write(csv_rows(*map(_cells, columns)))
             if not some:
-                reasons = " ".join(table.said()) or message("There is none.")
+                reasons = join(" ", table.said()) or message("There is none.")
                 raise RecordingError(
                     f"{arg(file)}: no reading of {arg(topic)} is usable for the table. {arg(reasons)}"
                 )

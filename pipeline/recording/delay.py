@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.errors import RecordingError
 
@@ -125,7 +125,7 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
         )
     estimate = _refined(poses, times, forces, float(shifts[best]))
     doubt = _doubt(wrenches, forces, poses, times, estimate)
-    return replace(estimate, sentence=f"{estimate.sentence} {doubt}".rstrip(), doubt=doubt)
+    return replace(estimate, sentence=message(f"{arg(estimate.sentence)} {arg(doubt)}").strip(), doubt=doubt)
 
 
 def _refined(
@@ -173,7 +173,9 @@ def _doubt(
     estimate: Delay,
 ) -> str:
     """Say whether the delay is an unlikely one, or leaves more unexplained than the sensor's noise does."""
-    return " ".join(filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate))))
+    return join(
+        " ", filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate)))
+    )
 
 
 def _unlikely(estimate: Delay) -> str:

@@ -12,7 +12,7 @@ from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
@@ -228,7 +228,7 @@ class RecordingReader:
                     raise
                 self._stream.warn(message(f"The description in the file is damaged ({arg(error)})."))
         if about is None:
-            reason = " ".join(self.warnings[:1]) or message(
+            reason = join(" ", self.warnings[:1]) or message(
                 "For a ROS 2 bag use: contactbench record import-ros2."
             )
             raise RecordingError(f"{arg(path)}: not a recording of contactbench. {arg(reason)}")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.ros2_poses import TransformTree, joint_pose, pose
@@ -246,9 +246,9 @@ def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -
     wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
     if wrench is not None:
         return wrench
-    listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics)
+    listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics) or message("no messages")
     raise RecordingError(
-        f"{arg(bag)}: there is no topic of WrenchStamped messages; there are: {arg(listed or 'no messages')}."
+        f"{arg(bag)}: there is no topic of WrenchStamped messages; there are: {arg(listed)}."
     )
 
 
@@ -261,9 +261,8 @@ def _choose(
         for topic in there:
             if topic.name == name:
                 return topic
-        raise RecordingError(
-            f"{arg(bag)}: {arg(option)}: {arg(name)} is not one of: {arg(listed or 'no such topics are there')}."
-        )
+        listed = listed or message("no such topics are there")
+        raise RecordingError(f"{arg(bag)}: {arg(option)}: {arg(name)} is not one of: {arg(listed)}.")
     if len(there) > 1:
         raise RecordingError(
             f"{arg(bag)}: there are several topics: {arg(listed)}. Choose one: {arg(option)} NAME."
@@ -313,4 +312,4 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> Tra
 
 def _some(names: set[str]) -> str:
     shown = sorted(names)[:40]
-    return ", ".join(shown) + (", ..." if len(names) > len(shown) else "")
+    return join(", ", shown) + (", ..." if len(names) > len(shown) else "")

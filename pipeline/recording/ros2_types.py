@@ -83,6 +83,6 @@ def decoder(name: str) -> Callable[[bytes], Any]:
         try:
             return plain(data)
         except (struct.error, IndexError, UnicodeDecodeError, OverflowError) as error:
-            raise ValueError(f"no {name}: {error}") from error
+            raise ValueError(message(f"no {arg(name)}: {arg(error)}")) from error
 
     return careful

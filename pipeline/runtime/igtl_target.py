@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.protocols import igtl
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
@@ -149,7 +149,7 @@ class IgtlTarget:
 def _status(reason: str, accepted: bool, health: int) -> bytes:
     names = health_names(health)
     code = next((_CODES.get(name, _UNKNOWN) for name in names), _WELL)
-    text = " ".join(("accepted" if accepted else message("not accepted"), *names))
+    text = join(" ", ("accepted" if accepted else message("not accepted"), *names))
     return igtl.status(code, health, reason[: igtl.LONGEST_NAME], text)
 
 

@@ -177,7 +177,7 @@ def check_runnable(config: RuntimeConfig, *, unverified: bool = False) -> None:
     if config.model.verified or unverified:
         return
     stale = config.model.provenance.stale
-    why = f" ({'; '.join(stale)})" if stale else ""
+    why = message(f" ({arg('; '.join(stale))})") if stale else ""
     raise RunError(
         f"the bundle is not verified{arg(why)}: verify and export again, or add --unverified for trials"
         " without a person."
@@ -209,7 +209,7 @@ def check_sensor(config: RuntimeConfig, serial: str, *, other: bool = False) -> 
     if other or not known(serial) or not known(wanted) or serial == wanted:
         return
     raise RunError(
-        f"the sensor's serial number is {arg(serial)!a:.100}, but the bundle is for {arg(wanted)!a:.100}:"
+        f"the sensor's serial number is {arg(ascii(serial)[:100])}, but the bundle is for {arg(ascii(wanted)[:100])}:"
         " connect that sensor, or calibrate, verify and export with this one. Add --other-sensor"
         " if they are the same."
     )
@@ -281,16 +281,18 @@ def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
 
 def mark_warnings(on: Counter[str]) -> list[str]:
     """Say how many contacts, counted by what they lie on, rest on a guess or should not be; empty: none."""
+    total = on.total()
     sentences = {
-        "invented": (
-            "{} of {} contacts are on invented facets: the mesh file had an opening there, so surface"
-            " and contacts are guesses."
+        "invented": message(
+            f"{arg(on['invented']):,} of {arg(total):,} contacts are on invented facets: the mesh file had an"
+            " opening there, so surface and contacts are guesses."
         ),
-        "untouchable": "{} of {} contacts are on untouchable regions: check the region, then the mount.",
+        "untouchable": message(
+            f"{arg(on['untouchable']):,} of {arg(total):,} contacts are on untouchable regions: check the region,"
+            " then the mount."
+        ),
     }
-    return [
-        text.format(f"{on[mark]:,}", f"{on.total():,}") for mark, text in sentences.items() if on[mark] > 0
-    ]
+    return [text for mark, text in sentences.items() if on[mark] > 0]
 
 
 def zero_words(zero: kernel.Zero) -> str:

@@ -295,7 +295,9 @@ def checked(action: type[_A], /, **fields: Any) -> _A:
         first = error.errors(include_url=False)[0]
         where = ".".join(str(part) for part in first["loc"] if part != "[key]")
         rule = _RULES.get(first.get("ctx", {}).get("pattern", ""), first["msg"])
-        raise SessionError(f"{arg(where)}: {arg(first['input'])!r:.100}: {arg(rule)}: correct it.") from error
+        raise SessionError(
+            f"{arg(where)}: {arg(repr(first['input'])[:100])}: {arg(rule)}: correct it."
+        ) from error
 
 
 def entry(action: Action, by: str, sensor: str | None) -> JournalEntry:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording import Event, RecordingError, RecordingReader, WrenchTrack
 from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
 from contactbench.pipeline.session.errors import SessionError
@@ -87,7 +87,7 @@ def _adopt(session: Session, file: Path) -> str:
     if not found.samples and not _only_begun(file, sound=found.sound):
         # A chunk that is damaged or cut may have held samples: somebody else may be able to read them.
         return _keep_unreadable(
-            session, file, name, " ".join((message("No sample is readable."), *found.warnings))
+            session, file, name, join(" ", (message("No sample is readable."), *found.warnings))
         )
     if not found.samples:
         words = message(f"The recording {arg(name)} ended abruptly before its first sample and was not kept.")

@@ -216,7 +216,7 @@ def _members(packed: zipfile.ZipFile, archive: Path, limits: ArchiveLimits) -> l
     for member in members:
         if wrong := _refused(member, limits):
             raise ArchiveError(
-                f"{arg(archive)}: {arg(member.filename)!r:.200}: {arg(wrong)}: this is not a session, or not"
+                f"{arg(archive)}: {arg(repr(member.filename)[:200])}: {arg(wrong)}: this is not a session, or not"
                 " a safe one."
             )
         # A.csv and a.csv of one content are one file where names have no case, and no harm.

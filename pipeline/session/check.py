@@ -113,7 +113,10 @@ def other_problems(folder: Path) -> tuple[str, ...]:
 
 
 def _others(folder: Path, content: Content) -> list[str]:
-    return [*(f"{each}." for each in origin_problems(folder, content.origins)), *_no_recordings(folder)]
+    return [
+        *(message(f"{arg(each)}.") for each in origin_problems(folder, content.origins)),
+        *_no_recordings(folder),
+    ]
 
 
 def _inputs_lost(content: Content) -> list[str]:

@@ -59,7 +59,9 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     """Read the bytes of a journal; see `read_content`."""
     found = frames.scan(data)
     refuse_damage(folder, found)
-    notes = [f"{folder / JOURNAL}: {found.torn}: {_fate(settle)}"] if found.torn else []
+    notes = (
+        [message(f"{arg(folder / JOURNAL)}: {arg(found.torn)}: {arg(_fate(settle))}")] if found.torn else []
+    )
     version = version_of(folder, found)
     if version == VERSION:
         return _content(records_of(found.frames), notes, found)

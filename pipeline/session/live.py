@@ -87,7 +87,7 @@ class LiveRecording:
         self.name = f"recording-{started:%Y%m%dT%H%M%S%f}Z.mcap" if name is None else name
         if not _NAME.fullmatch(self.name):
             raise SessionError(
-                f"{arg(self.name)!r:.100}: the name of a recording may have letters, digits, - and _,"
+                f"{arg(repr(self.name)[:100])}: the name of a recording may have letters, digits, - and _,"
                 " and must end in .mcap: choose another name."
             )
         self._session, self._sensor, self._started = session, sensor, started

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings
 
@@ -72,7 +72,13 @@ def captures(
     poses = (*before, *_chosen(found, given.leave_out, len(before)))
     fewest = 1 if given.partial else FEWEST_POSES
     if len(poses) < fewest:
-        why = "".join(f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.rejected[:3])
+        why = join(
+            "",
+            (
+                message(f" {arg(each.start):.1f} to {arg(each.stop):.1f} s: {arg(each.reason)}")
+                for each in found.rejected[:3]
+            ),
+        )
         left = message(f", {arg(len(given.leave_out))} left out") if given.leave_out else ""
         needs = (
             message(f"a calibration needs {arg(FEWEST_POSES)}")

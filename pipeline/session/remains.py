@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
     VERSION,
@@ -259,7 +259,7 @@ def _doubt(result: Result, sources: tuple[InputSource, ...], last: int, wrong: M
 
 def note_of(sentences: Collection[str]) -> Note:
     """Return what a salvaged session's journal says of its salvage."""
-    return Note(text=" ".join((message("Salvaged from a damaged session."), *sentences))[:_LONGEST_NOTE])
+    return Note(text=join(" ", (message("Salvaged from a damaged session."), *sentences))[:_LONGEST_NOTE])
 
 
 def read_damaged(folder: Path) -> Content:

@@ -102,7 +102,11 @@ class _Judge:
     def _of_raw(self, used: Input) -> Iterator[str]:
         newest = self._inputs[used.slot]
         if newest.number != used.number and newest.content != used.content:
-            what = message("The mesh") if used.kind == MESH else f"The {used.kind} {used.name}"
+            what = (
+                message("The mesh")
+                if used.kind == MESH
+                else message(f"The {arg(used.kind)} {arg(used.name)}")
+            )
             yield message(
                 f"{arg(what)} it was computed from was replaced by {arg(newest.name)} on {arg(minute_of(newest.at))}."
             )
@@ -115,7 +119,7 @@ class _Judge:
         for sensor in sensors or self._rezeros:
             rezero = self._rezeros.get(sensor)
             if rezero is not None and self._recorded.is_before(used, rezero):
-                why = f" ({rezero.reason})" if rezero.reason else ""
+                why = message(f" ({arg(rezero.reason)})") if rezero.reason else ""
                 what = message(
                     f"The sensor {arg(rezero.sensor)} was re-zeroed on {arg(minute_of(rezero.at))}{arg(why)}"
                 )
@@ -137,5 +141,5 @@ class _Judge:
 
 def _said(result: Result) -> Iterator[str]:
     if result.mark is not None and result.mark.mark in {"stale", "rejected"}:
-        what = message("marked as stale") if result.mark.mark == "stale" else "rejected"
-        yield message(f"It was {arg(what)}: {arg(result.mark.reason or 'no reason was given')}.")
+        what = message("marked as stale") if result.mark.mark == "stale" else message("rejected")
+        yield message(f"It was {arg(what)}: {arg(result.mark.reason or message('no reason was given'))}.")

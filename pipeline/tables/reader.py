@@ -165,7 +165,9 @@ class TableReader:
 
     def error(self, what: str, line: int | None = None) -> InputError:
         """Return the error to raise about this file, for what only the caller can find wrong."""
-        return self._wording.error(f"{self._name}: " + ("" if line is None else f"line {line}: ") + what)
+        if line is None:
+            return self._wording.error(message(f"{arg(self._name)}: {arg(what)}"))
+        return self._wording.error(message(f"{arg(self._name)}: line {arg(line)}: {arg(what)}"))
 
     # ---- bytes -------------------------------------------------------------------------------
 
@@ -227,11 +229,10 @@ class TableReader:
 
     def _check_names(self, missing: Sequence[str], wanted: Sequence[str]) -> None:
         if missing:
-            found = ", ".join(name if name else message("(no name)") for name in self.names)
-            what = message(
-                f"column{arg('s' * (len(missing) > 1))} {arg(', '.join(missing))} missing; found: {arg(found[:200])}."
-            )
-            raise self.error(f"{what} {self._header_remedy()}", 1)
+            found = ", ".join(name if name else "(no name)" for name in self.names)
+            lost = message("column") if len(missing) == 1 else message("columns")
+            what = message(f"{arg(lost)} {arg(', '.join(missing))} missing; found: {arg(found[:200])}.")
+            raise self.error(message(f"{arg(what)} {arg(self._header_remedy())}"), 1)
         for column in wanted:
             count = self.names.count(column)
             if count > 1:
@@ -249,8 +250,9 @@ class TableReader:
         try:
             float(self.names[0] if self.names else "")
         except ValueError:
-            meaning = self._wording.meaning
-            return message(f"Name the columns {arg(header)}") + (f": {meaning}." if meaning else ".")
+            if meaning := self._wording.meaning:
+                return message(f"Name the columns {arg(header)}: {arg(meaning)}.")
+            return message(f"Name the columns {arg(header)}.")
         return message(f"The first line contains numbers: put the header {arg(header)} above it.")
 
     # ---- rows --------------------------------------------------------------------------------
@@ -325,7 +327,7 @@ class TableReader:
             return float(text if text.isascii() and "_" not in text else message("no number"))
         except ValueError:
             what = message(f"holds {arg(text[:40])!r}, which is not a number: correct or remove the row.")
-            raise self.error(f"column {self.columns[place]} {what}", line) from None
+            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), line) from None
 
     def _text_cell(self, cell: str, line: int) -> bytes:
         text = cell.encode()
@@ -333,7 +335,7 @@ class TableReader:
             what = message(
                 f"has {arg(len(text))} bytes, more than {arg(_LONGEST_TEXT)}: it should hold {arg(self._wording.text)}."
             )
-            raise self.error(f"column {self.names[self._text or 0]} {what}", line)
+            raise self.error(message(f"column {arg(self.names[self._text or 0])} {arg(what)}"), line)
         if any(mark in cell for mark in ',"\r'):
             return b'"' + text.replace(b'"', b'""') + b'"'
         return text
@@ -344,5 +346,5 @@ class TableReader:
         bad = np.argwhere(~np.isfinite(rows.numbers) & self._finite)
         if len(bad):
             row, place = bad[0].tolist()
-            what = f"holds {rows.numbers[row, place]}: {self._wording.not_finite}"
-            raise self.error(f"column {self.columns[place]} {what}", int(rows.lines[row]))
+            what = message(f"holds {arg(rows.numbers[row, place])}: {arg(self._wording.not_finite)}")
+            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), int(rows.lines[row]))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause, ErrorDiagnosis, Refined, Share
 from contactbench.pipeline.verification.statistics import vector
@@ -84,13 +84,15 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
     remedy = message("No action needed.")
     if not within:
         remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
-    return ErrorDiagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
+    return ErrorDiagnosis(
+        found.first, message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}"), shares, found.scale
+    )
 
 
 def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str:
     first = shares[0]
-    named = " or ".join((first.cause, *found.rivals))
-    part = "most" if first.share > 0.5 else message("the largest part")
+    named = join(message(" or "), (first.cause, *found.rivals))
+    part = message("most") if first.share > 0.5 else message("the largest part")
     start = (
         message(
             f"The errors are within the limits; {arg(part)} of the remaining error comes from {arg(named)}"
@@ -98,12 +100,20 @@ def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str
         if within
         else message(f"Fix first: {arg(named)}. It explains {arg(part)} of the squared error")
     )
-    others = [f"{each.cause} {100 * each.share:.0f} %" for each in shares[1:] if each.share >= CONFIRMED]
+    others = [
+        message(f"{arg(each.cause)} {arg(100 * each.share):.0f} %")
+        for each in shares[1:]
+        if each.share >= CONFIRMED
+    ]
     also = (
-        f"; then {', '.join(others)}" if others else "" if found.rivals else message("; no other cause shows")
+        message(f"; then {arg(join(', ', others))}")
+        if others
+        else ""
+        if found.rivals
+        else message("; no other cause shows")
     )
     left = message(f" The unexplained scatter is {arg(found.scale):.1f} times the expected noise.")
-    return f"{start} ({100 * first.share:.0f} %{also}).{left}"
+    return message(f"{arg(start)} ({arg(100 * first.share):.0f} %{arg(also)}).{arg(left)}")
 
 
 def _undecided(found: Explained) -> str:
@@ -125,11 +135,12 @@ def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> 
     least = max(_MISPLACED * float(np.median(moved)), 0.1 * float(moved.max()))
     out = [int(each) for each in markers[moved > least]]
     called = [names[each] if names else str(each + 1) for each in out]
-    which = f" {', '.join(called)}" if called else ""
+    which = message(f" {arg(', '.join(called))}") if called else ""
+    several = message("markers") if out else message("the markers")
+    them = message("the marker") if len(out) == 1 else several
     return message(
         "The error is the same at each touch of a marker but differs between markers: check the"
-        " positions of"
-        f" {arg('the marker' if len(out) == 1 else 'the markers' if not out else 'markers')}{arg(which)}."
+        f" positions of {arg(them)}{arg(which)}."
     )
 
 

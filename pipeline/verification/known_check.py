@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -112,7 +112,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
         content = json.loads(file.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(
-            f"{arg(file)}: the file cannot be read ({arg(error)!s:.100}): {arg(remedy)}"
+            f"{arg(file)}: the file cannot be read ({arg(str(error)[:100])}): {arg(remedy)}"
         ) from error
     known = isinstance(content, dict) and (content.get("schema"), content.get("version")) == (
         SCHEMAS[kind],
@@ -138,11 +138,12 @@ def or_none(value: float) -> float | None:
 def likely(causes: list[str]) -> str:
     """Return sentences that name causes, the likeliest first."""
     first, *others = causes
-    return " ".join(
+    return join(
+        " ",
         [
             message(f"Likely cause: {arg(first)}."),
             *(message(f"Also possible: {arg(each)}.") for each in others),
-        ]
+        ],
     )
 
 
@@ -153,4 +154,4 @@ def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:
         CheckOutcome.FAILED: message("The check failed."),
         CheckOutcome.UNDECIDED: message("The check is inconclusive."),
     }[outcome]
-    return " ".join([start, *reasons])
+    return join(" ", [start, *reasons])

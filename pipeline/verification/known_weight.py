@@ -426,7 +426,7 @@ def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
         far = message(
             f"By the torques, the weight hangs {arg(lever):.3g} m from the sensor, beyond {arg(1e3 * reach):g} mm."
         )
-        return [f"{far} {cause}"]
+        return [message(f"{arg(far)} {arg(cause)}")]
     if twist > _TWIST + 0.05 * lever:
         return [
             message(

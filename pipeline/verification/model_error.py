@@ -108,7 +108,7 @@ def model_error_words(found: ModelError | None) -> str:
             " sensor (cable, hose, cover), warm up the sensor and tighten the mount, then"
             " recalibrate and verify again."
         )
-    return f"{size} {meaning} {remedy}"
+    return message(f"{arg(size)} {arg(meaning)} {arg(remedy)}")
 
 
 def _size(force: float, torque: float) -> str:

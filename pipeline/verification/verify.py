@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
@@ -255,7 +255,7 @@ def judge(
         limits=settings.limits,
         settings=_plain(settings, placing, rate),
         sources=dict(sorted((sources or {}).items())),
-        warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
+        warnings=(*warnings, message(f"{arg(capitalised(said))}.")) if said else warnings,
         unresolved=case.unresolved,
         model_error=left,
         budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation)

@@ -167,7 +167,7 @@ def _checked(config: RuntimeConfig, place: Path) -> str:
     count = len(config.encoded())
     if config.model.verified:
         words = message(f"{arg(place)}: bundle verified, {arg(count)} files. Ready for a robot's runtime.")
-        return f"{words} {unchecked(config.model.checks)}".strip()
+        return message(f"{arg(words)} {arg(unchecked(config.model.checks))}").strip()
     return message(
         f"{arg(place)}: {arg(count)} files intact, but the bundle is NOT verified. A robot's runtime refuses"
         " it unless told otherwise; for trials only."
@@ -266,7 +266,7 @@ def told(found: Differences) -> tuple[str, ...]:
         return (message("Identical, byte for byte."),)
     fields = [each for each in found.fields if not each.field.startswith(_ALWAYS)]
     said = [
-        f"{each.field}: {_short(each.one)} → {_short(each.other)}"
+        message(f"{arg(each.field)}: {arg(_short(each.one))} → {arg(_short(each.other))}")
         + (f" ({each.meaning})." if each.meaning else ".")
         for each in fields[:_MOST_DIFFERENCES]
     ]

@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration import Level, PoseSample
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
 from contactbench.pipeline.calibration.verify import StillVerification, verify_still
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.workbench.gravity_fit import PLANNED, Solved, plan, solve
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState, earlier_rows, live_rows, middle
 
@@ -90,7 +90,8 @@ class GravityWork:
         self.settings, self.automatic = settings, automatic
         self._R_SE_live = (settings.R_ES if live_R_ES is None else live_R_ES).T
         self._earlier = tuple(
-            replace(pose, time=None, name=f"pose {number}") for number, pose in enumerate(earlier, 1)
+            replace(pose, time=None, name=message(f"pose {arg(number)}"))
+            for number, pose in enumerate(earlier, 1)
         )
         self._lock = threading.Lock()
         self._detector = StillnessDetector()
@@ -235,7 +236,7 @@ class GravityWork:
             count = sum(row.state is PoseState.TAKEN for row in self._rows)
             expected = count if solved.enough else max(count + 1, PLANNED)
             return GravityView(
-                state, " ".join((self._problem, sentence)).strip(), stillness.seconds_until_still, share, done,
+                state, join(" ", (self._problem, sentence)).strip(), stillness.seconds_until_still, share, done,
                 self._wanted, R_WS, self._rows, count, expected, solved, self._errors, self._revision,
                 self._done != self._revision,
             )  # fmt: skip
@@ -297,7 +298,7 @@ class GravityWork:
         """Return the poses that count, R_WS of the flange, each with the name that its row has."""
         first = len(self._earlier) + 1
         new = [
-            capture.to_pose(name=f"pose {number}")
+            capture.to_pose(name=message(f"pose {arg(number)}"))
             for number, capture in enumerate(self._detector.captures, first)
             if self._counts(capture)
         ]

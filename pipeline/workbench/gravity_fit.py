@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.session.make_calibration import CalibrationParameters
 
 if TYPE_CHECKING:
@@ -179,7 +179,7 @@ def solve(
         proposal = None
     else:
         words = suggestion.sentence.removeprefix("Next: ")
-        proposal = Proposal(suggestion.R_WS, _capital(words))
+        proposal = Proposal(suggestion.R_WS, capitalised(words))
     return Solved(calibration, proposal, findings(poses, calibration, settings))
 
 
@@ -208,7 +208,7 @@ def _planned(
     for R_WS in planned.R_WS:
         if all(float(down @ R_WS @ there) < np.cos(np.radians(20.0)) for there in taken):
             # No forecast: before there are residuals nobody knows the noise, and a figure would be wrong tenfold.
-            return Proposal(R_WS, f"{_capital(describe(R_WS, settings.down_W))}.")
+            return Proposal(R_WS, message(f"{arg(capitalised(describe(R_WS, settings.down_W)))}."))
     return None
 
 
@@ -223,7 +223,7 @@ def findings(
         GravityFinding(
             f"rejected {rejection.name}",
             message(
-                f"{arg(_capital(rejection.name))}: {arg(rejection.reason)} It does not count. Retake it, or"
+                f"{arg(capitalised(rejection.name))}: {arg(rejection.reason)} It does not count. Retake it, or"
                 f" continue with {arg(int(calibration.kept.sum()))} poses."
             ),
             leave_out=(rejection.index,),
@@ -317,7 +317,3 @@ def _mounted(
         " the sensor is bolted on."
     )
     return _turned("mount", " ".join(sentence.split()), mounted.R_SE.T)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]

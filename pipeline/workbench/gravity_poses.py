@@ -77,7 +77,7 @@ def calibrated_rows(
     """
     rows = [
         _row(
-            f"pose {index + 1}",
+            message(f"pose {arg(index + 1)}"),
             float("nan") if index < earlier or pose.time is None else pose.time,
             pose.R_WS,
             calibration,
@@ -141,7 +141,13 @@ def live_rows(
     for number, (capture, counts) in enumerate(captures, first):
         if capture.R_WS is None:
             continue
-        row = _live_row(f"pose {number}", middle(capture), capture.R_WS, settings, fitted if counts else None)
+        row = _live_row(
+            message(f"pose {arg(number)}"),
+            middle(capture),
+            capture.R_WS,
+            settings,
+            fitted if counts else None,
+        )
         if not counts:
             reason = message("It does not count. Restore it if it was good.")
             row = replace(row, state=PoseState.LEFT_OUT, reason=reason)

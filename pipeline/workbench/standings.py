@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.session.state import minute_of
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
@@ -428,7 +428,7 @@ def _line(judge: Judge, name: str, kind: str, step: Step, remedy: str) -> CheckI
     elif kind == "verification":
         if state is CheckState.FAILED:
             words = message(
-                f"Not passed: {arg('; '.join(judged.reasons) or 'see its report')}. Verify again."
+                f"Not passed: {arg(join('; ', judged.reasons) or message('see its report'))}. Verify again."
             )
         else:
             words = message(f"Passed: {arg(judge.figures)}.") if judge.figures else "Passed."

@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
 from contactbench.pipeline.verification.markers import with_normals
@@ -132,7 +132,7 @@ def why_locked(state: State, *kinds: str) -> str:
         "calibration": message("calibrate in step 2, Gravity"),
         "probe": message("prepare the probe in step 3, Probe"),
     }
-    todo = ", and ".join(steps[kind] for kind in missing)
+    todo = join(message(", and "), (steps[kind] for kind in missing))
     return message(f"A contact cannot be located without {arg(' and '.join(missing))}: {arg(todo)}.")
 
 

@@ -34,7 +34,7 @@ from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientatio
 from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
@@ -325,7 +325,7 @@ def _untold(
         ]
         return (
             message(
-                f"But {arg(' or '.join(units))} would fit equally well. Press one known point and compare."
+                f"But {arg(join(message(' or '), units))} would fit equally well. Press one known point and compare."
             )
             if units
             else ""
@@ -339,10 +339,10 @@ def _untold(
         )
     scales = [case for case in cases if case.hypothesis.scales and case.value > declared.value + _UNTOLD]
     if scales and context.prior.mass is None:
-        masses = [f"{case.hypothesis.title} ({case.mass:.2g} kg)" for case in scales[:3]]
+        masses = [message(f"{arg(case.hypothesis.title)} ({arg(case.mass):.2g} kg)") for case in scales[:3]]
         return message(
             f"But the units cannot be determined without the tool's mass: {arg(declared.mass):.2g} kg"
-            f" as declared, or {arg(' or '.join(masses))}. Weigh the tool and give its mass."
+            f" as declared, or {arg(join(message(' or '), masses))}. Weigh the tool and give its mass."
         )
     return ""
 

@@ -23,7 +23,7 @@ from contactbench.pipeline.calibration.diagnosis.prior import (
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, capitalised, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -114,7 +114,7 @@ def decided_by(best: HypothesisCase, rivals: Sequence[HypothesisCase]) -> str:
     """Return what sets `best` apart from rivals that are not as good: priors where residuals would not do."""
     reasons = {decisive(best, rival) for rival in rivals}
     priors = [part for part in best.priors if part in reasons]
-    return f"prior: {', '.join(priors)}" if priors else RESIDUALS
+    return message(f"prior: {arg(join(', ', priors))}") if priors else RESIDUALS
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +177,7 @@ class Words:
         untold : str
             What keeps data that fit as they are from being called consistent.
         """
-        return " ".join([*self._finding(none_known, untold), *self._left_out(self._best)])
+        return join(" ", [*self._finding(none_known, untold), *self._left_out(self._best)])
 
     def _finding(self, none_known: bool, untold: str) -> Iterator[str]:
         best = self._best
@@ -196,7 +196,7 @@ class Words:
             yield from self._second()
             yield from [untold] if untold else self._also()
         else:
-            yield f"{self._said()}: {self._because(best)}. {best.hypothesis.remedy}"
+            yield message(f"{arg(self._said())}: {arg(self._because(best))}. {arg(best.hypothesis.remedy)}")
             yield from self._second()
             yield from self._also()
             yield from self._rests_on_noise()
@@ -227,7 +227,7 @@ class Words:
             return message(f"As declared, the residuals are {arg(residual)}.")
         margin = case.score - self._declared.score
         return message(
-            f"{arg(_capital(case.hypothesis.title))}: residuals {arg(residual)}, log odds"
+            f"{arg(capitalised(case.hypothesis.title))}: residuals {arg(residual)}, log odds"
             f" {arg(margin):+,.1f} against as declared."
         )
 
@@ -304,7 +304,7 @@ class Words:
         masses = [f" ({case.mass:.2g} kg)" if units else "" for case in self._tied]
         rivals = [case.hypothesis.title + mass for case, mass in zip(self._tied, masses, strict=True)]
         yield message(
-            f"Cannot be distinguished from: {arg('; '.join(rivals[:_LISTED]))}. {arg(self._telling(units))}"
+            f"Cannot be distinguished from: {arg(join('; ', rivals[:_LISTED]))}. {arg(self._telling(units))}"
         )
 
     def _telling(self, units: bool) -> str:
@@ -418,14 +418,18 @@ class Words:
             return
         names = [named(self._context.poses, index) for index in out]
         if len(out) > 1:
-            yield message(f"{arg(_capital(_list(names, len(names))))} look bumped and were left out.")
+            yield message(f"{arg(capitalised(_list(names, len(names))))} look bumped and were left out.")
             return
         if case.key.startswith(SHIFTED):
-            yield message(f"{arg(_capital(names[0]))} then has no orientation of its own and was left out.")
+            yield message(
+                f"{arg(capitalised(names[0]))} then has no orientation of its own and was left out."
+            )
             return
         ends = {0: message(" (or the sensor was re-zeroed after it)")}
         ends[len(self._context.poses) - 1] = message(" (or the sensor was re-zeroed before it)")
-        yield message(f"{arg(_capital(names[0]))} looks bumped{arg(ends.get(out[0], ''))} and was left out.")
+        yield message(
+            f"{arg(capitalised(names[0]))} looks bumped{arg(ends.get(out[0], ''))} and was left out."
+        )
 
     def _noise(self, case: HypothesisCase) -> str:
         force, torque = case.evidence.noise * self._context.sigmas[[0, 3]]
@@ -474,7 +478,7 @@ def _short(number: float) -> str:
 
 def _side(height: float) -> str:
     side = message("the other side") if height < 0 else message("the tool's side")
-    return f"{_length(abs(height))} on {side}"
+    return message(f"{arg(_length(abs(height)))} on {arg(side)}")
 
 
 def _length(metres: float) -> str:
@@ -486,12 +490,8 @@ def _length(metres: float) -> str:
 def _list(words: Sequence[str], most: int = _LISTED) -> str:
     shown = list(words[:most])
     if len(words) > most:
-        shown.append(f"{len(words) - most} more")
-    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
+        shown.append(message(f"{arg(len(words) - most)} more"))
+    return shown[0] if len(shown) == 1 else message(f"{arg(join(', ', shown[:-1]))} and {arg(shown[-1])}")
 
 
 NONE = "none"
@@ -539,4 +539,4 @@ def in_words(probability: float) -> str:
     if ratio > 1000:
         return message("over 1000 to 1")
     whole = round(max(ratio, 1 / ratio)) if ratio > 0 else 1000
-    return f"{whole} to 1" if ratio >= 1 else f"1 to {whole}"
+    return message(f"{arg(whole)} to 1") if ratio >= 1 else message(f"1 to {arg(whole)}")

@@ -255,7 +255,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
         g = evidence.gravity_W
         down = g / max(float(np.linalg.norm(g)), 1e-12)
         words = ", ".join(f"{value:.2f}" for value in down + 0.0)
-        title, fact, reading, remedy = _gravity(down, f"({words})")
+        title, fact, reading, remedy = _gravity(down, message(f"({arg(words)})"))
         found = replace(prior, down_W=tuple(down)) if g.any() else prior
         return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, prior=found)
     turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
@@ -309,7 +309,7 @@ _SWAPS = 3  # pairs that are worth a fit
 
 def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
     """Yield poses whose orientations belong to the next or previous row, or to each other's."""
-    for step, whose in ((1, "next"), (-1, "previous")):
+    for step, whose in ((1, message("next")), (-1, message("previous"))):
         yield Hypothesis(
             f"{SHIFTED}{step}",
             message(f"orientations shifted by one row to the {arg(whose)}"),

@@ -149,10 +149,9 @@ class Rereadings:
         remedy = message(f"Pass {arg(option)}.")
         if convention.degrees != given.degrees:
             unit = "degrees" if convention.degrees else "radians"
-            key, what = f"{key}_{unit}", f"{what} in {unit}"
-            remedy = message(
-                f"Pass {arg(option)}, and {arg('leave out' if convention.degrees else 'pass')} --radians."
-            )
+            radians = message("leave out") if convention.degrees else message("pass")
+            key, what = f"{key}_{unit}", message(f"{arg(what)} in {arg(unit)}")
+            remedy = message(f"Pass {arg(option)}, and {arg(radians)} --radians.")
         return Hypothesis(
             key,
             what,
@@ -187,16 +186,14 @@ class Rereadings:
                 message(f"Euler angles in the order {arg(read)}"),
             )
             again = columns_mistaken(R, read, meant)
-            yield self._mended(f"columns_{meant}_read_as_{read}", (*long, *long), again, inverse)
+            yield self._mended(f"columns_{meant}_read_as_{read}", (*long, long[0], read), again, inverse)
 
     def _mended(self, key: str, names: tuple[str, ...], R: NDArray[np.float64], inverse: bool) -> Hypothesis:
         """Return the hypothesis of a wrong conversion; `names` of what was meant and read, long and short."""
         meant, read, short_meant, short_read = names
         return Hypothesis(
             key,
-            message(
-                f"{arg(short_meant)} converted as {arg(short_read.removeprefix('Euler angles in the order '))}"
-            ),
+            message(f"{arg(short_meant)} converted as {arg(short_read)}"),
             message(f"The orientations were made from {arg(meant)} as if they were {arg(read)}"),
             message("that conversion corrected"),
             message(f"Convert again as {arg(meant)}, or give contactbench the original angles."),

@@ -32,7 +32,7 @@ from contactbench.pipeline.calibration.outliers import Rejection
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.verdict import Verdict
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -571,7 +571,7 @@ def _check_residuals(
     if len(wrong):
         raise CalibrationFileError(
             f"{arg(name)}: poses[{arg(wrong[0])}]: the residual is not the reading minus the prediction: a"
-            f" number was changed. {arg(REMEDY.capitalize())}"
+            f" number was changed. {arg(capitalised(REMEDY))}"
         )
 
 
@@ -621,7 +621,7 @@ def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
         found = (
-            message(f"the schema is {arg(schema[:60])!a}")
+            message(f"the schema is {arg(ascii(schema[:60]))}")
             if isinstance(schema, str)
             else message("the schema is missing")
         )

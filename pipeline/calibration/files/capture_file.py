@@ -25,7 +25,7 @@ from contactbench.pipeline.calibration.stillness import (
 )
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.delay import estimate_delay
@@ -165,7 +165,7 @@ def _of_two(
         said.append(message(f"{arg(lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s."))
     if not kept:
         raise RecordingError(
-            f"{arg(source)}: no reading has a pose close enough in time. {arg(' '.join(said))}"
+            f"{arg(source)}: no reading has a pose close enough in time. {arg(join(' ', said))}"
         )
     return work.finish(tuple(said), None if delay is None else seconds)
 
@@ -202,8 +202,8 @@ def read_any_poses(
         raise RecordingError(
             message(
                 f"{arg(source)}: the recording contains no still pose: hold each pose for a few seconds"
-                f" without touching anything. {arg(' '.join(warnings))}"
-            ).rstrip()
+                f" without touching anything. {arg(join(' ', warnings))}"
+            ).strip()
         )
     quaternions = _quaternions(np.array([pose.R_WS for pose in found.poses]))
     note = message(

@@ -26,7 +26,7 @@ from contactbench.pipeline.contact.stream import (
     refuse_overwriting,
     whole_output,
 )
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
 from contactbench.pipeline.tables.shortest import csv_rows
@@ -166,7 +166,7 @@ class _Compensation:
         self._refused = ""
         if isinstance(calibration, Calibration):
             if calibration.verdict.level is Level.REFUSE:
-                self._refused = " ".join(calibration.verdict.reasons)
+                self._refused = join(" ", calibration.verdict.reasons)
             calibration = calibration.model
         self._model = calibration
         self._convention = convention

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import ROBOTS
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
@@ -249,9 +249,11 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     remedies = {
         Kind.EULER: "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
         " ZYX: about the rotating axes), --rotation-vector if they are axis times angle",
-        Kind.JOINTS: f"--robot NAME for the joints j1 to j6 (known: {', '.join(sorted(ROBOTS))})",
+        Kind.JOINTS: message(
+            f"--robot NAME for the joints j1 to j6 (known: {arg(', '.join(sorted(ROBOTS)))})"
+        ),
     }
-    ways = " or ".join(remedies[kind] for kind in there if kind in remedies)
+    ways = join(message(" or "), (remedies[kind] for kind in there if kind in remedies))
     if len(there) == 1:
         columns = ", ".join(Convention(there[0]).columns)
         raise reader.error(
@@ -259,7 +261,10 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
         )
     if Kind.QUATERNION in there:
         ways += message(", or rename these columns to use qw, qx, qy, qz")
-    kinds = " and as ".join({Kind.QUATERNION: "quaternions", Kind.EULER: "angles"}.get(k, k) for k in there)
+    kinds = join(
+        message(" and as "),
+        ({Kind.QUATERNION: message("quaternions"), Kind.EULER: message("angles")}.get(k, k) for k in there),
+    )
     raise reader.error(
         message(f"the orientations are given as {arg(kinds)}: choose one. Pass {arg(ways)}."), 1
     )
@@ -548,5 +553,5 @@ def _one_line(file: str, poses: Sequence[PoseSample], index: int) -> str:
         fits = False
     if not fits:
         what = message(f"its name must be one line of text of at most {arg(_LONGEST_NAME)} bytes: change it.")
-        raise InputError(f"{arg(file)}: {arg(named(poses, index)[:40])!a}: {arg(what)}")
+        raise InputError(f"{arg(file)}: {arg(ascii(named(poses, index)[:40]))}: {arg(what)}")
     return name

@@ -439,7 +439,10 @@ def _probe_of(folder: Path, result: Any) -> ProbeFile:
 
 
 def _doubts(session: SessionLike, result: Any) -> list[str]:
-    reasons = [f"{result.title}: {reason}"[:1000] for reason in session.stale().get(result.slot, ())]
+    reasons = [
+        message(f"{arg(result.title)}: {arg(reason)}")[:1000]
+        for reason in session.stale().get(result.slot, ())
+    ]
     if result.mark is not None and result.mark.mark == "rejected":
         reasons.append(message(f"{arg(result.title)} was rejected. {arg(result.mark.reason)}")[:1000])
     return reasons

@@ -83,7 +83,7 @@ def fault_of(error: ValidationError) -> str:
     shown = (
         "" if isinstance(value, dict | list) or fault["type"] == "missing" else f" is {value!a:.{_LONGEST}}"
     )
-    return f"{where}{shown}: {fault['msg']}"
+    return message(f"{arg(where)}{arg(shown)}: {arg(fault['msg'])}")
 
 
 def _parse(data: bytes, name: str) -> dict[str, Any]:
@@ -91,7 +91,7 @@ def _parse(data: bytes, name: str) -> dict[str, Any]:
         content = json.loads(data.decode())
         spelled = _spelled(content)
     except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(error)!s:.200}): {arg(_REMEDY)}") from None
+        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(str(error)[:200])}): {arg(_REMEDY)}") from None
     if not isinstance(content, dict):
         raise ConfigError(f"{arg(name)}: not a JSON object: {arg(_REMEDY)}")
     # Readers differ in what they make of a key that occurs twice, of 1e999 or of a byte after the end.
@@ -113,11 +113,12 @@ def _checked_kind(content: dict[str, Any], name: str) -> dict[str, Any]:
     schema, version = content.get("schema"), content.get("version")
     if schema != SCHEMA:
         raise ConfigError(
-            f"{arg(name)}: schema is {arg(schema)!a:.{_LONGEST}}, expected {arg(SCHEMA)!r}: choose a runtime config."
+            f"{arg(name)}: schema is {arg(ascii(schema)[:_LONGEST])}, expected {arg(SCHEMA)!r}: choose a runtime"
+            " config."
         )
     if isinstance(version, bool) or not isinstance(version, int):
         raise ConfigError(
-            f"{arg(name)}: version is {arg(version)!a:.{_LONGEST}}, not a whole number: {arg(_REMEDY)}"
+            f"{arg(name)}: version is {arg(ascii(version)[:_LONGEST])}, not a whole number: {arg(_REMEDY)}"
         )
     if version > VERSION:
         raise ConfigError(

@@ -24,7 +24,7 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -76,7 +76,7 @@ def read_check(
         raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: {arg(again)}.") from None
     except (KeyError, TypeError, ValueError) as error:
         raise ConfigError(
-            f"{arg(name)}: the {arg(words)} lacks a figure ({arg(error)!r:.100}): {arg(again)}."
+            f"{arg(name)}: the {arg(words)} lacks a figure ({arg(repr(error)[:100])}): {arg(again)}."
         ) from error
 
 
@@ -85,7 +85,7 @@ def _content(data: bytes, name: str, schema: str, words: str, again: str) -> dic
         content = from_json(data, allow_inf_nan=False)
     except ValueError as error:
         raise ConfigError(
-            f"{arg(name)}: not valid JSON ({arg(error)!s:.100}): choose a {arg(words)}."
+            f"{arg(name)}: not valid JSON ({arg(str(error)[:100])}): choose a {arg(words)}."
         ) from None
     if not isinstance(content, dict) or (content.get("schema"), content.get("version")) != (schema, _VERSION):
         raise ConfigError(f"{arg(name)}: not a {arg(schema)} of version {arg(_VERSION)}: {arg(again)}.")
@@ -205,7 +205,7 @@ def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verifie
         raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: verify again.") from None
     except (KeyError, TypeError, ValueError) as error:
         raise ConfigError(
-            f"{arg(name)}: the verification lacks a figure ({arg(error)!r:.100}): verify again."
+            f"{arg(name)}: the verification lacks a figure ({arg(repr(error)[:100])}): verify again."
         ) from error
 
 
@@ -293,5 +293,5 @@ def _summary(content: Mapping[str, Any]) -> dict[str, Any]:
         "limit_mean_m": content["limits"]["mean_m"],
         "limit_max_m": content["limits"]["max_m"],
         "passed": verdict["passed"],
-        "diagnosis": " ".join(words)[:_LONGEST],
+        "diagnosis": join(" ", words)[:_LONGEST],
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contactbench.pipeline.errors import InputError, message
+from contactbench.pipeline.errors import InputError, join, message
 
 
 class ConfigError(InputError):
@@ -26,7 +26,7 @@ class UnverifiedError(ConfigError):
     def __init__(self, reasons: tuple[str, ...]) -> None:
         super().__init__(
             message("the config is not verified and was not written: ")
-            + " ".join(reasons)
+            + join(" ", reasons)
             + message(" Correct that, or export it as unverified, for trials without a person.")
         )
         self.reasons = reasons

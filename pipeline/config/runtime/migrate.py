@@ -120,7 +120,7 @@ def _from_3(content: dict[str, Any]) -> dict[str, Any]:
     """Version 3 took -z of W for down, and held neither the age of the zero nor checks."""
     frames, noise = content["frames"], content["noise"]
     if frames["world"] != "W, z up":
-        raise ValueError(message(f"frames.world is {arg(frames['world'])!r:.40}, not 'W, z up'"))
+        raise ValueError(message(f"frames.world is {arg(repr(frames['world'])[:40])}, not 'W, z up'"))
     if {"world", "zero", "checks"} & content.keys() or "orientation_rad" in noise:
         raise ValueError(message("world, zero, checks or noise.orientation_rad: fields of version 4"))
     return {
@@ -162,7 +162,7 @@ def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:
             content = {**step(content), "version": version + 1}
         except (KeyError, TypeError, ValueError) as error:
             raise ConfigError(
-                f"{arg(name)}: this config of version {arg(version)} cannot be migrated ({arg(error)!r:.100}):"
+                f"{arg(name)}: this config of version {arg(version)} cannot be migrated ({arg(repr(error)[:100])}):"
                 " export it again."
             ) from error
     return content

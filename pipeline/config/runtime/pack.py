@@ -84,13 +84,13 @@ def read_zip(stream: BinaryIO, name: str) -> dict[str, bytes]:
     # What the zipfile module lets through of damaged files.
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError) as error:
         raise ConfigError(
-            f"{arg(name)}: not an intact zip file ({arg(error)!s:.200}): {arg(_AGAIN)}"
+            f"{arg(name)}: not an intact zip file ({arg(str(error)[:200])}): {arg(_AGAIN)}"
         ) from error
     except ValueError as error:
         if isinstance(error, ConfigError):
             raise
         raise ConfigError(
-            f"{arg(name)}: not an intact zip file ({arg(error)!s:.200}): {arg(_AGAIN)}"
+            f"{arg(name)}: not an intact zip file ({arg(str(error)[:200])}): {arg(_AGAIN)}"
         ) from error
 
 
@@ -114,7 +114,7 @@ def check_names(names: list[str], where: str) -> None:
     for name in names:
         if name not in KNOWN:
             raise ConfigError(
-                f"{arg(where)}: the file {arg(name)!a:.120} does not belong in a bundle: remove it."
+                f"{arg(where)}: the file {arg(ascii(name)[:120])} does not belong in a bundle: remove it."
             )
         if names.count(name) > 1:
             raise ConfigError(f"{arg(where)}: the file {arg(name)} appears twice: {arg(_AGAIN)}")

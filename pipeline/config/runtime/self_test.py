@@ -200,7 +200,8 @@ def _row_of(cells: list[str], where: str, line: int) -> Row:
         )
     except ValueError as error:
         raise ConfigError(
-            f"{arg(where)}: line {arg(line)} holds something other than a number ({arg(error)!s:.60}). {arg(_AGAIN)}"
+            f"{arg(where)}: line {arg(line)} holds something other than a number ({arg(str(error)[:60])})."
+            f" {arg(_AGAIN)}"
         ) from None
 
 

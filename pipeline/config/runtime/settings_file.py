@@ -107,7 +107,7 @@ def _read(data: bytes, name: str) -> _Settings:
     except ValidationError as error:
         raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: correct it.") from None
     except ValueError as error:
-        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(error)!s:.100}): correct it.") from None
+        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(str(error)[:100])}): correct it.") from None
 
 
 def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:

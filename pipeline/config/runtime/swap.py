@@ -119,7 +119,7 @@ def _refuse_others(folder: Path, known: Collection[str]) -> None:
     strangers = sorted(file.name for file in folder.iterdir() if file.name not in known)
     if strangers:
         raise ConfigError(
-            f"{arg(folder)}: the folder contains {arg(strangers[0])!a:.120}, which belongs to no bundle:"
+            f"{arg(folder)}: the folder contains {arg(ascii(strangers[0])[:120])}, which belongs to no bundle:"
             " choose a new or empty folder."
         )
 

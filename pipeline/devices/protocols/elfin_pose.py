@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.elfin import ElfinError
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,12 +82,15 @@ def resolve_order(numbers: Sequence[float], robot: Robot) -> OrderFit:
         return good[0]
     if good:
         raise ElfinError("Elfin: joints and pose look the same here. Move the arm and try again.")
-    found = " and ".join(
-        message(
-            f"{arg(fit.rotation_deg):.1f}° and {arg(np.linalg.norm(fit.tool) * 1e3):.0f} mm"
-            f" ({arg(fit.order.name.lower())})"
-        )
-        for fit in fits
+    found = join(
+        message(" and "),
+        (
+            message(
+                f"{arg(fit.rotation_deg):.1f}° and {arg(np.linalg.norm(fit.tool) * 1e3):.0f} mm"
+                f" ({arg(fit.order.name.lower())})"
+            )
+            for fit in fits
+        ),
     )
     raise ElfinError(
         f"Elfin: joints and pose do not match: the tool frame is {arg(found)} from the flange of"

@@ -121,19 +121,19 @@ OPTIONS: Mapping[str, Option] = {
     ),
     "layout": Option("TOML or JSON file with these options.", name),
     "separator": Option("Between columns: auto, comma, semicolon, tab or space.", choice(*SEPARATORS)),
-    "force": Option("Unit of fx, fy, fz (N), or how many newtons one is.", _unit(FORCES, "newtons")),
+    "force": Option("Unit of fx, fy, fz (N), or how many newtons one is.", _unit(FORCES, message("newtons"))),
     "torque": Option(
-        "Unit of mx, my, mz (Nm), or how many newton metres one is.", _unit(TORQUES, "newton metres")
+        "Unit of mx, my, mz (Nm), or how many newton metres one is.", _unit(TORQUES, message("newton metres"))
     ),
     "flip": Option("Channels with the opposite sign, such as fx,fy,fz.", _flipped),
-    "time": Option("Unit of t (s), or how many seconds one is.", _unit(TIMES, "seconds")),
+    "time": Option("Unit of t (s), or how many seconds one is.", _unit(TIMES, message("seconds"))),
     "bits": Option(
         "Width of the count n: it runs round after so many bits (32).",
         whole(1, 53, "give a whole number from 1 to 53"),
     ),
     "ok": Option("What status is when all is well (0).", name),
-    "length": Option("Unit of x, y, z (m), or how many metres one is.", _unit(LENGTHS, "metres")),
-    "angle": Option("Unit of angles (rad), or how many radians one is.", _unit(ANGLES, "radians")),
+    "length": Option("Unit of x, y, z (m), or how many metres one is.", _unit(LENGTHS, message("metres"))),
+    "angle": Option("Unit of angles (rad), or how many radians one is.", _unit(ANGLES, message("radians"))),
     "rotation": Option(
         "What rx, ry, rz are: vector (axis times angle) or rpy (turns about the fixed x, then y, then z axis).",
         choice("vector", "rpy"),
@@ -190,7 +190,9 @@ def _read_file(where: str) -> dict[str, Any]:
         try:
             read[key] = OPTIONS[key].read(text)
         except ValueError as error:
-            raise ValueError(f"layout {where!r}: {key} {text[:80]!r}: {error}") from error
+            raise ValueError(
+                message(f"layout {arg(where)!r}: {arg(key)} {arg(text[:80])!r}: {arg(error)}")
+            ) from error
     return read
 
 

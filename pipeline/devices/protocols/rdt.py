@@ -300,8 +300,8 @@ class RdtDriver(Driver):
     ways = (Way(Carrier.UDP, port=PORT),)
     options: ClassVar[Mapping[str, Option]] = {
         "profile": Option("Maker of the box: ati or onrobot.", choice(*SCALES), "ati"),
-        "cpf": Option("Counts per N; an ATI box is asked for them.", number("counts per N")),
-        "cpt": Option("Counts per N·m; an ATI box is asked for them.", number("counts per N·m")),
+        "cpf": Option("Counts per N; an ATI box is asked for them.", number(message("counts per N"))),
+        "cpt": Option("Counts per N·m; an ATI box is asked for them.", number(message("counts per N·m"))),
     }
     emulated = RdtModel
 

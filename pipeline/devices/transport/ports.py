@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from contactbench.pipeline.devices.protocols.registry import drivers
-from contactbench.pipeline.errors import message
+from contactbench.pipeline.errors import arg, message
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ def list_ports() -> list[SerialPort]:
 
 def guess_device(description: str) -> str | None:
     """Guess from what USB says of a port the scheme of its device; None: it does not say."""
-    text = f"{description.lower()} "
+    text = message(f"{arg(description.lower())} ")
     return next(
         (name for name, known in drivers().items() if any(word in text for word in known.usb_words)), None
     )

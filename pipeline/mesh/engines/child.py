@@ -221,7 +221,7 @@ class Child:
         if answer.kind == "failed":
             raise EngineError(
                 f"{arg(self.library)} refused '{arg(request.kind)}':"
-                f" {arg(answer.fields.get('reason', 'no reason given'))}. Repair the mesh first, or use"
+                f" {arg(answer.fields.get('reason', message('no reason given')))}. Repair the mesh first, or use"
                 " another engine."
             )
         watch.report(_DONE)
@@ -269,7 +269,7 @@ class Child:
         except subprocess.TimeoutExpired:
             how = message("returned a nonsensical answer")
         else:
-            how = f"died ({_cause(code)})"
+            how = message(f"died ({arg(_cause(code))})")
         facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
         return EngineError(
             f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}' of {arg(facets)} facets; nothing else was"

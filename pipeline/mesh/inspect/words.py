@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.mesh.inspect.report import MeshFinding
 
 if TYPE_CHECKING:
@@ -34,13 +34,24 @@ _NAMED = 3
 
 # A wall thinner than this share of the size is a copy of the surface: 0.01 mm on a probe of 100 mm.
 _COPY = 1e-4
+# One and several of what is counted.
+_HANDLES = message("handle"), message("handles")
+_VERTICES = message("vertex"), message("vertices")
+_HOLES = message("hole"), message("holes")
+_EDGES = message("edge"), message("edges")
+_WHOLE_PARTS = message("whole part"), message("whole parts")
+_CLOSED_PARTS = message("closed part lies"), message("closed parts lie")
+_DUPLICATES = message("facet is a duplicate"), message("facets are duplicates")
+_STANDING = message("facet stands"), message("facets stand")
+_FACETS = message("facet"), message("facets")
+_FOLDED = message("thin facet folds"), message("thin facets fold")
 
 
 def facts(found: Inspection) -> tuple[str, ...]:
     """Say how large the mesh is and what it consists of."""
     x, y, z = (1e3 * extent for extent in found.extents_m)
     edges = found.edges
-    lengths = f"{_length(edges.shortest_m)} to {_length(edges.longest_m)}"
+    lengths = message(f"{arg(_length(edges.shortest_m))} to {arg(_length(edges.longest_m))}")
     said = [
         message(
             f"{arg(found.name)}: {arg(found.facets):,} facets, {arg(found.vertices):,} vertices,"
@@ -56,10 +67,10 @@ def facts(found: Inspection) -> tuple[str, ...]:
         ),
     ]
     if found.unit is not None and found.unit.certain:
-        said.append(f"Units: {found.unit.units}. {found.unit.reason}")
+        said.append(message(f"Units: {arg(found.unit.units)}. {arg(found.unit.reason)}"))
     if found.genus:
         said.append(
-            message(f"The surface has {arg(_count(found.genus, 'handle'))}: openings that go right through.")
+            message(f"The surface has {arg(_count(found.genus, _HANDLES))}: openings that go right through.")
         )
     return tuple(said)
 
@@ -89,7 +100,7 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "doubt",
             message(
-                f"Seams are not joined: {arg(_count(found.seam_vertices, 'vertex', 'vertices'))} of open"
+                f"Seams are not joined: {arg(_count(found.seam_vertices, _VERTICES))} of open"
                 " edges lie right beside another edge. The surface looks closed there but counts as"
                 " open. Export again with a finer tolerance, or make the outer shell."
             ),
@@ -101,7 +112,7 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"The surface has {arg(_count(found.hole_count, 'hole'))}. {arg(which)} {arg(widths)} wide."
+                f"The surface has {arg(_count(found.hole_count, _HOLES))}. {arg(which)} {arg(widths)} wide."
                 " A line of force can pass through a hole and end on an inner wall, far from the true"
                 f" contact. {arg(_SHELL)}"
             ),
@@ -110,7 +121,7 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"More than two facets meet at {arg(_count(found.joined_edges, 'edge'))}, so inside and"
+                f"More than two facets meet at {arg(_count(found.joined_edges, _EDGES))}, so inside and"
                 " outside cannot be told apart there: walls are joined, or bodies touch along an edge."
                 f" {arg(_SHELL)}"
             ),
@@ -133,7 +144,7 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
         )
     elif seen.turned_share > _SOME:
         turned = sum(1 for part in found.parts if (part.turned_share or 0) > 0.5)
-        whole = message(f", {arg(_count(turned, 'whole part'))} among them") if turned else ""
+        whole = message(f", {arg(_count(turned, _WHOLE_PARTS))} among them") if turned else ""
         yield MeshFinding(
             "fault",
             message(
@@ -241,7 +252,7 @@ def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"{arg(_count(nested, 'closed part lies', 'closed parts lie'))} inside the body. They"
+                f"{arg(_count(nested, _CLOSED_PARTS))} inside the body. They"
                 f" cannot be touched, but a line of force can hit them. {arg(_SHELL)}"
             ),
         )
@@ -266,7 +277,8 @@ def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
             )
         else:
             yield MeshFinding(
-                "fault" if seen.double_wall_share > _HOLLOW else "doubt", f"{_hollow(seen)} {_SHELL}"
+                "fault" if seen.double_wall_share > _HOLLOW else "doubt",
+                message(f"{arg(_hollow(seen))} {arg(_SHELL)}"),
             )
 
 
@@ -280,10 +292,10 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
     bottle = hollow and found.genus == 0
     yield MeshFinding(
         "fault" if bottle else "doubt",
-        (f"{_hollow(seen)} " if hollow else "")
-        + " ".join(_unseen(seen))
+        (message(f"{arg(_hollow(seen))} ") if hollow else "")
+        + join(" ", _unseen(seen))
         + ("" if hollow else message(" If these are inner walls, contacts can be placed on them."))
-        + f" {_SHELL if bottle else _IF_CAVITY}",
+        + message(f" {arg(_SHELL if bottle else _IF_CAVITY)}"),
     )
 
 
@@ -311,7 +323,7 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"{arg(_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates'))}"
+                f"{arg(_count(health.duplicate_facets, _DUPLICATES))}"
                 " of another, with the same corners and the same side. They give double answers and"
                 " slow the search. Remove duplicates in the CAD program, or make the outer shell."
             ),
@@ -320,7 +332,7 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"{arg(_count(found.back_to_back, 'facet stands', 'facets stand'))} back to back with"
+                f"{arg(_count(found.back_to_back, _STANDING))} back to back with"
                 " another that has the same corners: a doubled surface or sheet that shows its front on"
                 f" both sides, or parts that touch. A force meets two surfaces at once. {arg(_SHELL)}"
             ),
@@ -330,7 +342,7 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "doubt" if share > 0.1 and not found.shell_made else "note",
             message(
-                f"{arg(_count(slivers.count, 'facet'))} ({arg(_percent(share))}) are slivers with an angle under"
+                f"{arg(_count(slivers.count, _FACETS))} ({arg(_percent(share))}) are slivers with an angle under"
                 f" 1°; the worst is {arg(slivers.worst_aspect):,.0f} times longer than high. They are"
                 " common in CAD exports, make normals uncertain and simplification worse."
             )
@@ -344,7 +356,7 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "note",
             message(
-                f"{arg(_count(health.dropped_facets, 'facet'))} without area were left out. They cannot be"
+                f"{arg(_count(health.dropped_facets, _FACETS))} without area were left out. They cannot be"
                 " touched, but may have closed a seam."
             ),
         )
@@ -360,7 +372,7 @@ def _rest(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "fault",
             message(
-                f"{arg(_count(len(sound.folded_facets), 'thin facet folds', 'thin facets fold'))} back onto"
+                f"{arg(_count(len(sound.folded_facets), _FOLDED))} back onto"
                 " a neighbour. Contacts there are missed or found on the far side. "
             )
             + (message("Prepare the mesh again with more facets.") if found.shell_made else _SHELL),
@@ -384,7 +396,7 @@ def _vertices(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "note",
             message(
-                f"{arg(_count(file.surplus_vertices, 'vertex', 'vertices'))} in the file were double or"
+                f"{arg(_count(file.surplus_vertices, _VERTICES))} in the file were double or"
                 " unused and have been merged or left out."
             ),
         )
@@ -393,7 +405,7 @@ def _vertices(found: Inspection) -> Iterator[MeshFinding]:
         yield MeshFinding(
             "doubt",
             message(
-                f"{arg(_count(found.coincident_vertices, 'vertex', 'vertices'))} lie exactly on another but"
+                f"{arg(_count(found.coincident_vertices, _VERTICES))} lie exactly on another but"
                 " are not merged, so the surface falls apart there. Save the mesh to a file and read"
                 " it again to merge them."
             ),
@@ -408,20 +420,20 @@ def _size(part: MeshPart) -> str:
     return " x ".join(f"{1e3 * extent:.3g}" for extent in part.extents_m) + " mm"
 
 
-def _count(number: int, one: str, many: str | None = None) -> str:
-    return f"{number:,} {one if number == 1 else many or one + 's'}"
+def _count(number: int, things: tuple[str, str]) -> str:
+    one, many = things
+    return message(f"{arg(number):,} {arg(one if number == 1 else many)}")
 
 
 def _percent(share: float) -> str:
     if share >= 0.995:
-        return message("nearly all") if share < 1 else "all"
+        return message("nearly all") if share < 1 else message("all")
     return f"{100 * share:.0f} %" if share >= 0.095 else f"{100 * share:.1f} %"
 
 
 def _share(share: float) -> str:
     """Give the same at the beginning of a sentence."""
-    said = _percent(share)
-    return said[0].upper() + said[1:]
+    return capitalised(_percent(share))
 
 
 def _length(metres: float) -> str:

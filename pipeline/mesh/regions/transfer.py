@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.errors import MeshWarning
 from contactbench.pipeline.mesh.regions.closest import carry_labels
 from contactbench.pipeline.mesh.regions.errors import RegionError
@@ -183,7 +183,7 @@ def transfer(
     forth = labels
     result = Transferred(carried, _report(regions, back, forth, old, new), unmatched)
     if result.warnings:
-        warnings.warn(" ".join(result.warnings), MeshWarning, stacklevel=2)
+        warnings.warn(join(" ", result.warnings), MeshWarning, stacklevel=2)
     return result
 
 

@@ -42,7 +42,7 @@ class ClosedOpening:
             Closing.HULL: message("closed by the hull of its rim"),
             Closing.OPEN: message("left open"),
         }[self.closing]
-        return f"{self.opening.sentence}: {how}."
+        return message(f"{arg(self.opening.sentence)}: {arg(how)}.")
 
     def to_json(self) -> dict[str, Any]:
         """Give the opening as plain values, millimetres."""
@@ -124,19 +124,35 @@ class Shell:
         return () if self.soundness is None else self.soundness.faults
 
     @property
-    def _done(self) -> tuple[int, ...]:
-        return (self.turned, self.cut, self.dropped, self.sheets, self.small_holes, self.parted)
+    def _done(self) -> tuple[tuple[int, str], ...]:
+        return (
+            (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
+            (self.cut, message(f"Facets cut where others crossed or touched them: {arg(self.cut):,}.")),
+            (
+                self.dropped,
+                message(f"Unreachable facets left out (inner walls and repeats): {arg(self.dropped):,}."),
+            ),
+            (
+                self.sheets,
+                message(f"Facets left out because they were sheets without thickness: {arg(self.sheets):,}."),
+            ),
+            (self.small_holes, message(f"Small holes and open seams closed: {arg(self.small_holes):,}.")),
+            (
+                self.parted,
+                message(f"Vertices separated where bodies only met in a point: {arg(self.parted):,}."),
+            ),
+        )
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
         out = [_HOW[self.how], *([self.why] if self.why else [])]
         if self.how == HULL:
-            out += [text.format(number) for text, number in zip(_DONE, self._done, strict=True) if number]
+            out += [text for count, text in self._done if count]
         if self.how == WRAPPED and self.dropped:
             out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
-        out += [f"Found {opening.sentence}" for opening in self.openings]
+        out += [message(f"Found {arg(opening.sentence)}") for opening in self.openings]
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
@@ -188,13 +204,4 @@ LEAKS = message(
 )
 UNSOUND = message(
     "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
-)
-
-_DONE = (
-    "Facets turned to face outwards: {:,}.",
-    "Facets cut where others crossed or touched them: {:,}.",
-    "Unreachable facets left out (inner walls and repeats): {:,}.",
-    "Facets left out because they were sheets without thickness: {:,}.",
-    "Small holes and open seams closed: {:,}.",
-    "Vertices separated where bodies only met in a point: {:,}.",
 )

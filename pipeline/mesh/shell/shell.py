@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
@@ -36,7 +36,8 @@ from contactbench.pipeline.mesh.shell.rim import find_lip
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, join, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -237,7 +238,7 @@ class _Exact:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
         if self._sewn is None:
             return None
-        vertices, faces = join([(outside.vertices, outside.faces), *patches])
+        vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
         plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
         tried = find_outside(self._sewn, [*patches, plug], cancelled=stop)
         return tried if tried is not None and _has_grown(tried, outside) else None
@@ -306,7 +307,7 @@ def _wrapped(
         make_patch(each.opening, each.closing, alpha) for each in openings if each.closing is not Closing.OPEN
     ]
     steps.upto(0.2)
-    vertices, faces = join([(probe.vertices, probe.faces), *patches])
+    vertices, faces = join_meshes([(probe.vertices, probe.faces), *patches])
     stop = steps.cancelled
     # What the result is measured against is looked at while the engine wraps.
     with begun(partial(look_at, probe, patches), partial(steps.tick, 0.0)) as original:
@@ -334,9 +335,8 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     shell = Probe.from_arrays(wrapped.vertices, wrapped.faces, invented=invented, name=name, check_size=False)
     if shell.health.sentences:
         raise MeshError(
-            message("the wrap is not valid (")
-            + " ".join(shell.health.sentences)
-            + message(") Try another alpha, or close the mesh in the CAD program.")
+            f"the wrap is not valid ({arg(join(' ', shell.health.sentences))}) Try another alpha, or close the"
+            " mesh in the CAD program."
         )
     if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
         raise MeshError(
@@ -437,7 +437,7 @@ def _some_facets(probe: Probe, kept: NDArray[np.int64], faces: NDArray[np.int32]
 
 def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> Shell:
     """Look at a shell as if it came from a stranger, and compare it with what it was made of."""
-    original = None if shell.how == UNCHANGED else join([(base.vertices, base.faces), *patches])
+    original = None if shell.how == UNCHANGED else join_meshes([(base.vertices, base.faces), *patches])
     made = shell.probe
     found = check_soundness(made.vertices, made.faces, original, invented=made.invented)
     return replace(shell, soundness=found)

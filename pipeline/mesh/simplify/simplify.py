@@ -71,10 +71,13 @@ class Simplified:
     def sentences(self) -> tuple[str, ...]:
         """What was reached, and what had to be tried for it, in words."""
         short = f", {self.short}" if self.short else ""
-        out = [f"{self.count:,} facets{short}: {self.deviation.sentence}.", *self.warnings]
+        out = [
+            message(f"{arg(self.count):,} facets{arg(short)}: {arg(self.deviation.sentence)}."),
+            *self.warnings,
+        ]
         for priority, part in self.regions.items():
             where = message(f"In region {arg(priority)}") if priority else message("Outside every region")
-            out.append(f"{where}: {part.sentence}.")
+            out.append(message(f"{arg(where)}: {arg(part.sentence)}."))
         if len(self.steps) > 1:
             out.append(message(f"That took {arg(len(self.steps))} attempts; the history lists them."))
         return tuple(out)

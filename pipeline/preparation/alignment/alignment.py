@@ -220,7 +220,7 @@ def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
         found = (
-            message(f"the schema is {arg(schema[:60])!a}")
+            message(f"the schema is {arg(ascii(schema[:60]))}")
             if isinstance(schema, str)
             else message("the schema is missing")
         )

@@ -92,6 +92,9 @@ def align_axes(
     determined = _determined(spreads)
     warnings += _words(spreads, determined)
     chosen = [_transform(np.diag(signs) @ R, centroid, probe_P, offset) for signs in _SIGNS]
+    tip = message("further from the mesh origin")
+    if tip_P is not None:
+        tip = message("nearer to the point picked")
     how = (
         message(
             f"Principal axes of the {arg(weight)}: the longest (rms {arg(1e3 * spreads[2]):.1f} mm) along z,"
@@ -99,10 +102,8 @@ def align_axes(
             f" along y; the lowest point at z = {arg(1e3 * offset):g} mm, the centroid on the axis."
         ),
         message(
-            "The tip is the end"
-            f" {arg('nearer to the point picked' if tip_P is not None else 'further from the mesh origin')};"
-            " x points towards +x of the mesh's frame, or +y or +z where that is across. Three"
-            " other rotations fit equally well."
+            f"The tip is the end {arg(tip)}; x points towards +x of the mesh's frame, or +y or +z where that is"
+            " across. Three other rotations fit equally well."
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Goal:
             raise LadderError(f"the largest added error is {arg(self.limit_m):g} m: give a length above 0.")
         if self.statistic not in _WORDS:
             raise LadderError(
-                f"there is no statistic {arg(self.statistic)!r}: choose one of {arg(', '.join(_WORDS))}."
+                f"there is no statistic {arg(self.statistic)!r}: choose one of {arg(join(', ', _WORDS))}."
             )
         if not 0 < self.growth < math.inf:
             raise LadderError(
@@ -122,7 +122,7 @@ def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:
         )
     sentences += [_elsewhere(errors, goal) for errors in rung.errors[1:]]
     sentences += _speed(rung, full)
-    return Recommendation(rung.facets, limit, " ".join(sentences))
+    return Recommendation(rung.facets, limit, join(" ", sentences))
 
 
 def _none_keeps(simplified: Sequence[Rung], full: Rung, goal: Goal, limit: float) -> str:
@@ -151,7 +151,7 @@ def _errors(rung: Rung, goal: Goal, limit: float) -> str:
         told += message(f", and the total error changes by {arg(100 * errors.growth):+.1f} %")
     if goal.limit_m is not None:
         return message(f"{arg(told)} (allowed: {arg(_mm(limit))} mm)")
-    return f"{told} (allowed: {100 * goal.growth:+.2g} %)"
+    return message(f"{arg(told)} (allowed: {arg(100 * goal.growth):+.2g} %)")
 
 
 def _shortfall(errors: PartErrors, goal: Goal, limit: float) -> str:

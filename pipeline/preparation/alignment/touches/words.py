@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -222,8 +222,8 @@ def _mixture(z: Floats, belief: MountBelief) -> str:
                 f"a turn of {arg(np.degrees(float(np.linalg.norm(turn)))):.2g}° about {arg(axis_name(turn))}"
             )
         )
-    return " together with ".join(parts)
+    return join(message(" together with "), parts)
 
 
 def _listed(things: Sequence[str]) -> str:
-    return things[0] if len(things) == 1 else ", ".join(things[:-1]) + " or " + things[-1]
+    return things[0] if len(things) == 1 else join(message(" or "), (join(", ", things[:-1]), things[-1]))

@@ -54,6 +54,13 @@ def test_a_capital_is_put_first_in_every_language():
     assert said == "The force is small"
     assert said.translated(german) == "Die Kraft ist klein"
     assert message(f"{arg(said)}: {arg('forces')}").translated(german) == "Die Kraft ist klein: Kräfte"
+    assert join(" ", [said, "forces"]).translated(german) == "Die Kraft ist klein Kräfte"
+
+
+def test_blanks_at_the_ends_go_in_every_language():
+    said = message(f"{arg('forces')} {arg('')}").strip()
+    assert said == "forces"
+    assert (said + " ").translated(german) == "Kräfte "
 
 
 def test_an_error_says_what_it_was_made_of_also_within_another():

@@ -15,7 +15,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.contact import Gates
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
 from contactbench.pipeline.heatmap.selection import in_order
@@ -143,7 +143,7 @@ def _kind(path: Path) -> str:
         with path.open("rb") as stream:
             head = stream.read(_HEAD)
     except (OSError, ValueError) as error:
-        raise HeatmapError(f"{path}: the file cannot be read ({error}): check the path.") from error
+        raise HeatmapError(f"{arg(path)}: the file cannot be read ({arg(error)}): check the path.") from error
     if is_recording(path):
         return "recording"
     if suffix == ".json" or head.lstrip().startswith(b"{"):
@@ -156,7 +156,7 @@ def _kind(path: Path) -> str:
     if {"fx", "fy", "fz"} <= names:
         return "wrenches"
     raise HeatmapError(
-        f"{path.name}: this is nothing that can be shown: give a recording (.mcap) with its calibration and probe,"
+        f"{arg(path.name)}: this is nothing that can be shown: give a recording (.mcap) with its calibration and probe,"
         " contacts (.csv), a verification (.json), or the folder of a session."
     )
 
@@ -165,7 +165,9 @@ def _kind_of_json(path: Path) -> str:
     try:
         content = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
-        raise HeatmapError(f"{path.name}: this is not JSON ({error}): choose another file.") from error
+        raise HeatmapError(
+            f"{arg(path.name)}: this is not JSON ({arg(error)}): choose another file."
+        ) from error
     verified = isinstance(content, dict) and content.get("schema") == VERIFICATION
     return "verification" if verified else "calibration"
 
@@ -246,12 +248,14 @@ def _of_file(
     path: Path, files: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], name: str = ""
 ) -> HeatmapSource:
     if files.probe is None:
-        raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
+        raise HeatmapError(
+            f"{arg(path.name)}: give the probe that was touched, too: the .ply that was prepared."
+        )
     probe = load_probe_file(files.probe)
     if probe.history and probe.frame != "S":
         raise HeatmapError(
-            f"{files.probe.name}: the probe is not aligned with the sensor, contacts would be drawn at wrong places:"
-            " align it first."
+            f"{arg(files.probe.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
+            " wrong places: align it first."
         )
     if path in files.recordings:
         contacts = _of_recording(path, files, probe, how, told)
@@ -263,7 +267,7 @@ def _of_file(
         check_sources(verification.sources, {"probe": sha256_of(files.probe)}, used)
         contacts = touches_of(verification)
     if not len(contacts.points):
-        raise HeatmapError(f"{path.name}: nothing touched the probe in it: touch it while recording.")
+        raise HeatmapError(f"{arg(path.name)}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
         contacts = _with_errors(contacts, files.markers)
     return HeatmapSource(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
@@ -274,7 +278,7 @@ def _of_recording(
 ) -> Contacts:
     if files.calibration is None:
         raise HeatmapError(
-            f"{path.name}: give its calibration.json, too: the weight of the probe is in its readings."
+            f"{arg(path.name)}: give its calibration.json, too: the weight of the probe is in its readings."
         )
     model = load_calibration(files.calibration).model
     return locate_recording(
@@ -327,5 +331,5 @@ def _of_session(
                 except InputError as error:
                     problems.append(f"{folder.name}: {error}")
     if not found and len(reasons) == len(_OF_SESSION):
-        raise HeatmapError(f"{folder.name}: {reasons[0]}")
+        raise HeatmapError(f"{arg(folder.name)}: {arg(reasons[0])}")
     return found

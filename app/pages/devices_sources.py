@@ -20,8 +20,8 @@ from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -103,7 +103,7 @@ class DeviceChoice(QGroupBox):
 
     def say(self, problem: str) -> None:
         """Show what is wrong; empty: nothing."""
-        self._problem.setText(said(problem))
+        self._problem.setText(translated(problem))
         self._problem.setVisible(bool(problem))
 
     @property

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, join
 from contactbench.pipeline.workbench import gravity_results as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import (
@@ -27,6 +27,7 @@ from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -254,7 +255,9 @@ class GravityRun(QObject):
             push_done(self.bench, deed)
             verdict = outcome.calibration.verdict
             weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
-            self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
+            self.bench.tell(
+                weight[verdict.level], self.tr("Gravity: {why}").format(why=translated(verdict.reasons[0]))
+            )
             if differs:
                 self.bench.tell(Weight.INFO, differs)
             self.reopen()
@@ -378,7 +381,7 @@ class GravityRun(QObject):
                 Level.REFUSE: self.tr("The calibration failed the check with a new pose. Do not use it."),
             }[level]
             weight = Weight.GOOD if found.passed else Weight.ERROR
-            self.bench.tell(weight, " ".join((said, *found.verdict.reasons)))
+            self.bench.tell(weight, join(" ", (said, *found.verdict.reasons)))
             self.changed.emit()
 
         self.bench.jobs.start(self.tr("Saving check"), keep, done, self.idle_again)

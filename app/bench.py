@@ -16,10 +16,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.why import SessionTrouble
+    from contactbench.pipeline.steps import Step
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
-    from contactbench.pipeline.workbench.steps import Step
-    from contactbench.pipeline.workbench.trouble import SessionTrouble
     from contactbench.widgets.scene import Scene
 
 
@@ -94,7 +94,7 @@ class Bench(QObject):
 
     @staticmethod
     def _no_trouble() -> SessionTrouble:
-        from contactbench.pipeline.workbench.trouble import NO_TROUBLE  # not before there is a session
+        from contactbench.pipeline.session.why import NO_TROUBLE  # not before there is a session
 
         return NO_TROUBLE
 

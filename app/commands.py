@@ -6,7 +6,6 @@ import os
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -19,20 +18,25 @@ gui_app = Noun()
 
 @gui_app.command(example=("gui --virtual", "gui bench-1.contactbench"), as_json=False)
 def gui(
-    file: Annotated[
-        Path | None,
-        typer.Argument(metavar="[SESSION]", help="Session to open, or a session archive to unpack and open."),
-    ] = None,
-    session: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Session to open; with --virtual, made if it is missing."),
-    ] = None,
-    virtual: Annotated[bool, typer.Option("--virtual", help="Begin with a virtual bench.")] = False,
-    language: Annotated[
-        str, typer.Option(metavar="CODE", help="Language, such as de or en [the computer's].")
-    ] = "",
+    file: Path | None = None,
+    /,
+    session: Path | None = None,
+    virtual: bool = False,
+    language: str = "",
 ) -> None:
-    """Open the window: calibrate, prepare, verify and export at the bench. contactbench alone does the same."""
+    """Open the window: calibrate, prepare, verify and export at the bench. contactbench alone does the same.
+
+    Parameters
+    ----------
+    file : [SESSION]
+        Session to open, or a session archive to unpack and open.
+    session : DIR
+        Session to open; with --virtual, made if it is missing.
+    virtual
+        Begin with a virtual bench.
+    language : CODE
+        Language, such as de or en [the computer's].
+    """
     if file is not None and session is not None:
         raise typer.BadParameter("SESSION and --session contradict each other: give one.")
     check_screen()

@@ -76,7 +76,7 @@ class Departure(QObject):
         bench = self._window.bench
         if bench is None or bench.ending:
             return ()
-        from contactbench.pipeline.workbench.standings import GOING_ON  # it is there, for a session is open
+        from contactbench.pipeline.session.why import GOING_ON  # it is there, for a session is open
 
         return tuple(translated(words) for step, words in GOING_ON.items() if step in bench.running)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 import typer
 
@@ -15,11 +14,16 @@ __all__ = ["heatmap_app"]
 
 @heatmap_app.command(example="heatmap view my-session", as_json=False)
 def view(
-    files: Annotated[
-        list[Path] | None, typer.Argument(metavar="[FILES]...", help="Recordings, contacts or sessions.")
-    ] = None,
+    files: list[Path] | None = None,
+    /,
 ) -> None:
-    """Look at heatmaps in a window: play back, compare, read values, save pictures and films."""
+    """Look at heatmaps in a window: play back, compare, read values, save pictures and films.
+
+    Parameters
+    ----------
+    files : [FILES]...
+        Recordings, contacts or sessions.
+    """
     check_screen()
     from contactbench.app.application import prepared
 

@@ -10,7 +10,7 @@ from contactbench.widgets.action_bar import ActionBar
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.steps import Step, StepStatus
+    from contactbench.pipeline.steps import Step, StepStatus
 
 
 class Page(QWidget):

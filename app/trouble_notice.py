@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout
 
-from contactbench.pipeline.workbench.steps import StepState
+from contactbench.pipeline.steps import StepState
 from contactbench.widgets.controls import sentence_label
 from contactbench.widgets.icons import Sign, state_icon
 from contactbench.widgets.messages import translated
@@ -15,7 +15,7 @@ from contactbench.widgets.messages import translated
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
 
-    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.pipeline.steps import StepStatus
 
 _ICON_PX = 22
 

@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, QTimer
 from contactbench.app.bench import Weight
 from contactbench.app.errors import in_words
 from contactbench.pipeline.session.check import other_problems
+from contactbench.pipeline.session.why import DISK, FileWatch, SessionTrouble
 from contactbench.pipeline.workbench.live_trial import gone
-from contactbench.pipeline.workbench.trouble import DISK, FileWatch, SessionTrouble
 
 if TYPE_CHECKING:
     from concurrent.futures import Future

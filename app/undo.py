@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QUndoCommand
 
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, write_history
 
 if TYPE_CHECKING:

@@ -28,7 +28,7 @@ from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
 from contactbench.app.window_probe import SessionProbe
 from contactbench.app.window_sessions import Sessions
-from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.message_list import NewestMessage
 from contactbench.widgets.progress_strip import ProgressStrip

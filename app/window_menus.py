@@ -18,7 +18,7 @@ from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
 from contactbench.app.window_docks import first_size
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import dress

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 
 from contactbench.app.page import Page
 from contactbench.app.trouble_notice import show_trouble
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.standings import Facts
+    from contactbench.pipeline.session.why import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
 
@@ -150,7 +150,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from contactbench.pipeline.workbench.standings import read_facts
+        from contactbench.pipeline.session.why import read_facts
 
         folder, state = bench.desk.folder, bench.desk.state
         if state.count == self._read:
@@ -169,7 +169,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from contactbench.pipeline.workbench.standings import statuses
+        from contactbench.pipeline.session.why import statuses
 
         desk = bench.desk
         self.statuses = statuses(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
@@ -32,15 +30,14 @@ class SessionProbe(QObject):
 
         def read(_progress: object, _cancelled: object) -> tuple[Probe, Sequence[Region]] | None:
             from contactbench.pipeline.mesh.sidecar import load_probe_file
-            from contactbench.pipeline.session.recompute import lay_out
+            from contactbench.pipeline.session.recompute import inputs_of
             from contactbench.pipeline.verification.result import load_surface
 
             try:
-                with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-                    files = lay_out(folder, state, {"probe": found.content}, Path(scratch))
-                    probe = load_surface(files["probe"])
-                    named = probe.region.any()
-                    return probe, load_probe_file(files["probe"]).regions.regions if named else ()
+                files = inputs_of(folder, state, {"probe": found.content})
+                probe = load_surface(files["probe"])
+                named = probe.region.any()
+                return probe, load_probe_file(files["probe"]).regions.regions if named else ()
             except (InputError, OSError, LookupError):
                 return None  # the page that needs it says why
 

@@ -27,7 +27,7 @@ from contactbench.app.opening import (
 from contactbench.app.qt_classes import QtClasses
 from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
     from contactbench.app.window import MainWindow
-    from contactbench.pipeline.session.ways_in import WaysIn
+    from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory
 
 _NEEDED = (
@@ -48,7 +48,7 @@ _NEEDED = (
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.workbench.live_outputs",
-    "contactbench.pipeline.workbench.standings",
+    "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
     "contactbench.app.undo",
     *(f"contactbench.app.pages.{step}" for step in Step),
@@ -338,7 +338,7 @@ class Sessions(QObject):
 
         def look(_progress: object, _cancelled: object) -> WaysIn | None:
             from contactbench.pipeline.session import SessionError
-            from contactbench.pipeline.session.ways_in import ways_in
+            from contactbench.pipeline.session.remains import ways_in
 
             try:
                 return ways_in(folder)

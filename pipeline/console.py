@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import inspect
 import json
-import math
 import signal
 import sys
 import threading
 import time
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import dataclass, is_dataclass
 from functools import wraps
-from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -23,6 +22,8 @@ if TYPE_CHECKING:
     from types import FrameType, TracebackType
 
     from rich.table import Table
+
+    from contactbench.pipeline.parameter_options import Notes
 
 _JSON = "contactbench.json"
 _PATIENCE_S = 0.5
@@ -94,7 +95,9 @@ class Noun(typer.Typer):
     """
     Commands about one thing: their help is their docstring, and each has ``--json``, ``--quiet`` and an example.
 
-    A parameter of a command that is a dataclass, or settings, becomes the options that its fields declare.
+    A parameter becomes an argument if it is positional only, else an option; one that is a dataclass, or settings,
+    becomes the options that its fields declare, and one with ``**`` those that it is annotated with, a list of
+    `inspect.Parameter`.
 
     Parameters
     ----------
@@ -128,24 +131,46 @@ def _nothing() -> None:
 
 
 def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[..., None]:
-    """Return a command whose options are its own, those of its settings and dataclasses, and the common ones."""
+    """
+    Return a command whose options are its own, those of its settings and dataclasses, and the common ones.
+
+    What an option is for stands in the docstring of the function or the dataclass, under Parameters.
+    """
+    from contactbench.pipeline.parameter_options import declared, documented  # not for a list of commands
+
     parameters: list[inspect.Parameter] = []
+    parsers: dict[str, Callable[[Any], Any]] = {}
     models: dict[str, tuple[Callable[..., Any], list[str]]] = {}
+    places: list[str] = []
+
+    def take(parameter: inspect.Parameter, notes: Notes) -> str:
+        option, parse = declared(parameter, notes)
+        parameters.append(option)
+        if parse is not None:
+            parsers[option.name] = parse
+        return option.name
+
+    text, about = documented(function)
     for parameter in inspect.signature(function, eval_str=True).parameters.values():
         told = parameter.annotation
         bare, *notes = get_args(told) if get_origin(told) is Annotated else (told,)
-        model: Callable[..., Any]
+        if parameter.kind is parameter.VAR_KEYWORD:
+            parameters += notes[0]
+            continue
         if is_dataclass(bare):
-            model, options = cast("Any", bare), _dataclass_options(bare)
+            model, (_, told_of) = cast("Any", bare), documented(cast("Any", bare))
+            fields = inspect.signature(model, eval_str=True).parameters.values()
+            models[parameter.name] = model, [take(each, told_of) for each in fields]
         elif hasattr(bare, "model_fields"):
             from contactbench.pipeline.setting_options import options_of  # not for those who need none
 
             model, options = options_of(bare, *notes)
+            models[parameter.name] = model, [each.name for each in options]
+            parameters += options
         else:
-            parameters.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
-            continue
-        models[parameter.name] = model, [each.name for each in options]
-        parameters += options
+            take(parameter, about)
+            if parameter.kind is parameter.POSITIONAL_ONLY:
+                places.append(parameter.name)
     common = {"as_json": JsonOption, "quiet": QuietOption} if as_json else {"quiet": QuietOption}
     own = {parameter.name for parameter in parameters}
     parameters += [
@@ -159,45 +184,18 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
         for name in common:
             if name not in own:
                 given.pop(name)
+        given |= {name: parse(given[name]) for name, parse in parsers.items()}
         made = {
             name: model(**{each: given.pop(each) for each in names})
             for name, (model, names) in models.items()
         }
-        function(**given, **made)
+        arguments = [given.pop(name) for name in places]
+        function(*arguments, **given, **made)
 
+    command.__doc__ = text
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return command
-
-
-def _dataclass_options(model: Any) -> list[inspect.Parameter]:
-    hints = get_type_hints(model, include_extras=True)
-    return [
-        inspect.Parameter(
-            each.name,
-            inspect.Parameter.KEYWORD_ONLY,
-            default=inspect.Parameter.empty if each.default is MISSING else each.default,
-            annotation=hints[each.name],
-        )
-        for each in fields(model)
-    ]
-
-
-def numbers(text: str, count: int, option: str) -> list[float]:
-    """Return `count` finite numbers from an option's comma separated text.
-
-    Raises
-    ------
-    typer.BadParameter
-        There are others.
-    """
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != count or not all(math.isfinite(value) for value in values):
-        raise typer.BadParameter(f"{option} needs {count} finite numbers separated by commas, not {text!r}.")
-    return values
 
 
 def wants_json(ctx: Any) -> bool:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import inspect
 from enum import StrEnum
 from functools import partial
-from types import NoneType, UnionType
+from types import GenericAlias, NoneType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
 
 import typer
 from pydantic import ValidationError
 
-from contactbench.pipeline.console import numbers
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import first_fault
 
 if TYPE_CHECKING:
@@ -71,7 +71,8 @@ def _kind_of(field: FieldInfo) -> Any:
     extra: Any = field.json_schema_extra
     kind = _bare(field)
     if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis:
-        return list[_choice(get_args(kind)[0])]  # type: ignore[misc]
+        item = get_args(kind)[0]
+        return GenericAlias(list, (item if item is str else _choice(item),))
     return _choice(kind) if get_origin(kind) is Literal else str if extra["metavar"] else kind
 
 
@@ -92,7 +93,9 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
         if isinstance(value, str) and get_origin(_bare(field)) is tuple:
             values[name] = numbers(value, len(get_args(_bare(field))), _option_name(name, field))
         elif value is not None:
-            values[name] = [each.value for each in value] if isinstance(value, list) else value
+            values[name] = (
+                [getattr(each, "value", each) for each in value] if isinstance(value, list) else value
+            )
     try:
         return model.model_validate({n: v.value if isinstance(v, StrEnum) else v for n, v in values.items()})
     except ValidationError as error:

@@ -19,8 +19,8 @@ _OFTEN = (
 )  # fmt: skip
 
 
-def serve(place: str) -> None:
-    """Run what is asked for, until somebody ends this process."""
+def warm() -> None:
+    """Import what commands import."""
     from importlib import import_module
 
     from contactbench.pipeline.cli import ENTRIES
@@ -30,6 +30,11 @@ def serve(place: str) -> None:
         import_module(entry.place.partition(":")[0])
     for module in _OFTEN:
         import_module(f"contactbench.pipeline.{module}")
+
+
+def serve(place: str) -> None:
+    """Run what is asked for, until somebody ends this process."""
+    warm()
     server = socket.socket(socket.AF_UNIX)
     server.bind(place)
     server.listen()

@@ -142,6 +142,14 @@ def test_every_command_has_an_example_of_itself(words):
     assert "--quiet" in text
 
 
+@pytest.mark.parametrize("words", list(leaves(typer.main.get_command(cli.app))), ids=" ".join)
+def test_every_option_says_what_it_is_for(words):
+    command = typer.main.get_command(cli.app)
+    for word in words:
+        command = command.get_command(None, word)
+    assert not [each.name for each in command.params if not each.help]
+
+
 @pytest.mark.parametrize("words", [[], ["probe"], ["probe", "regions"], ["session"], ["study"]])
 def test_lists_of_commands_are_whole(words):
     result = run(*words, "-h", env={"COLUMNS": "80"})

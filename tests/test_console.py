@@ -1,12 +1,111 @@
-"""Lines on standard error, and signals."""
+"""How a command is declared, lines on standard error, and signals."""
 
 import os
 import signal
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
 import pytest
+from typer.testing import CliRunner
 
-from contactbench.pipeline.console import ended_by_signals, printable, say
+from contactbench.pipeline.console import Noun, ended_by_signals, flat, printable, say
+
+
+@dataclass
+class Light:
+    """A lamp.
+
+    Parameters
+    ----------
+    colour_ : #RRGGBB
+        Its colour.
+    """
+
+    colour_: str = "#ffffff"
+
+
+def _look(
+    places: list[str],
+    /,
+    light: Light,
+    at: list[tuple[float, float]],
+    toward: tuple[float, float, float] = (0, 0, 1.5),
+    up: tuple[float, float, float] | None = None,
+    near_by: bool = False,
+    far: bool = True,
+) -> None:
+    """Look at places.
+
+    Parameters
+    ----------
+    places : PLACE...
+        Where to look,
+        one after the other.
+    at : X,Y
+        Where to stand.
+    toward : X,Y,Z
+        Where to.
+    up : X,Y,Z
+        What is up.
+    near_by
+        Also near by.
+    far
+        Also far away.
+    """
+    print(places, light, at, toward, up, near_by, far)  # noqa: T201
+
+
+def _run(*words: str) -> str:
+    noun = Noun()
+    noun.command(example="look")(_look)
+    return CliRunner().invoke(noun, words, env={"COLUMNS": "300"}).output
+
+
+def test_a_command_is_declared_by_its_signature_and_docstring() -> None:
+    assert _run("a", "b", "--at", "1,2", "--at", "3,-4") == (
+        "['a', 'b'] Light(colour_='#ffffff') [(1.0, 2.0), (3.0, -4.0)] (0.0, 0.0, 1.5) None False True\n"
+    )
+    options = (
+        "--at",
+        "1,2",
+        "--toward",
+        "1,0,0",
+        "--up",
+        "0,1,0",
+        "--near-by",
+        "--no-far",
+        "--colour",
+        "red",
+    )
+    assert _run("a", *options) == (
+        "['a'] Light(colour_='red') [(1.0, 2.0)] (1.0, 0.0, 0.0) (0.0, 1.0, 0.0) True False\n"
+    )
+    assert "--up needs 3 finite numbers separated by commas, not '0,1'" in _run("a", "--at=1,2", "--up=0,1")
+
+
+def test_the_help_of_a_command_is_its_docstring() -> None:
+    lines = [" ".join(line.split()) for line in _run("--help").splitlines()]
+    assert "Look at places." in lines
+    assert "Parameters" not in lines
+    assert "PLACE... <list[str]> Where to look, one after the other. [required]" in lines
+    assert "--toward X,Y,Z Where to. [default: 0,0,1.5]" in lines
+    assert "--colour #RRGGBB Its colour. [default: #ffffff]" in lines
+    assert "--near-by Also near by." in lines
+    assert "--far / --no-far Also far away. [default: far]" in lines
+
+
+def test_a_docstring_describes_no_parameter_that_is_not_there() -> None:
+    def gone() -> None:
+        """Go.
+
+        Parameters
+        ----------
+        where
+            Where to.
+        """
+
+    with pytest.raises(ValueError, match="gone documents where"):
+        flat(gone)
 
 
 def test_control_characters_are_replaced_and_line_feeds_stay() -> None:

@@ -13,7 +13,7 @@ from contactbench.widgets.messages import translated
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.workbench.standings import CheckItem
+    from contactbench.pipeline.session.why import CheckItem
 
 _ICONS = {
     "done": ("done", "good"),

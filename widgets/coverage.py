@@ -10,7 +10,7 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Colours, colours, is_dark
 

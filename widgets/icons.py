@@ -10,7 +10,7 @@ from PySide6.QtGui import QIcon, QIconEngine, QPainter, QPaintEvent, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QLabel
 
-from contactbench.pipeline.workbench.steps import StepState
+from contactbench.pipeline.steps import StepState
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:

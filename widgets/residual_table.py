@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.controls import StretchedColumn
 from contactbench.widgets.icons import icon
 from contactbench.widgets.messages import translated

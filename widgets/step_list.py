@@ -8,7 +8,7 @@ from PySide6.QtCore import QRect, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
 
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.icons import state_colour, state_icon
 from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import colours, is_dark

@@ -16,7 +16,7 @@ from contactbench.widgets.theme import colours, is_dark
 if TYPE_CHECKING:
     from PySide6.QtGui import QKeyEvent
 
-    from contactbench.pipeline.workbench.probe_ladder import Trade, TradePoint
+    from contactbench.pipeline.workbench.probe import Trade, TradePoint
 
 # An error of nothing has no place on a logarithmic axis.
 _LEAST_MM, _LEAST_US = 1e-3, 1e-3

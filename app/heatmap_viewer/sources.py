@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tempfile
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,13 +23,14 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
+from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
 from contactbench.pipeline.settings import mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
@@ -71,6 +71,12 @@ class HeatmapInputs:
     def contacts(self) -> tuple[Path, ...]:
         """All that holds contacts."""
         return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
+
+    def kind(self, path: Path) -> str:
+        """Say what one of those that hold contacts is."""
+        if path in self.recordings:
+            return "recording"
+        return "table" if path in self.tables else "verification"
 
     def only(self, path: Path) -> HeatmapInputs:
         """Return one of those that hold contacts, with what it is shown with."""
@@ -210,7 +216,8 @@ def open_files(
             if path in files.sessions:
                 found = _of_session(path, files, how, told, problems)
             else:
-                found = [_of_file(path, files, how, told)]
+                read = _Read(path, files.kind(path), files.probe, files.calibration)
+                found = [_of_file(read, files, how, told)]
             sources += [replace(source, origin=files.only(path)) for source in found]
         except InputError as error:
             problems.append(str(error))
@@ -244,45 +251,54 @@ def read_again(
     return OpenedFiles(tuple(found), tuple(problems))
 
 
+@dataclass(frozen=True)
+class _Read:
+    """A file that holds contacts, and what it is read with."""
+
+    file: File
+    kind: str
+    probe: File | None
+    calibration: File | None
+
+
 def _of_file(
-    path: Path, files: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], name: str = ""
+    read: _Read, files: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], name: str = ""
 ) -> HeatmapSource:
-    if files.probe is None:
+    file = read.file
+    if read.probe is None:
         raise HeatmapError(
-            f"{arg(path.name)}: give the probe that was touched, too: the .ply that was prepared."
+            f"{arg(file.name)}: give the probe that was touched, too: the .ply that was prepared."
         )
-    probe = load_probe_file(files.probe)
+    probe = load_probe_file(read.probe)
     if probe.history and probe.frame != "S":
         raise HeatmapError(
-            f"{arg(files.probe.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
+            f"{arg(read.probe.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
             " wrong places: align it first."
         )
-    if path in files.recordings:
-        contacts = _of_recording(path, files, probe, how, told)
-    elif path in files.tables:
-        contacts = read_contacts(path, files.wrenches)
+    if read.kind == "recording":
+        contacts = _of_recording(read, probe, how, told)
+    elif read.kind == "table":
+        contacts = read_contacts(file, files.wrenches)
     else:
-        verification = read_verification(path)
-        used = {"verification": path, "probe": files.probe}
-        check_sources(verification.sources, {"probe": sha256_of(files.probe)}, used)
+        verification = read_verification(file)
+        used = {"verification": file, "probe": read.probe}
+        check_sources(verification.sources, {"probe": sha256_of(read.probe)}, used)
         contacts = touches_of(verification)
     if not len(contacts.points):
-        raise HeatmapError(f"{arg(path.name)}: nothing touched the probe in it: touch it while recording.")
+        raise HeatmapError(f"{arg(file.name)}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
         contacts = _with_errors(contacts, files.markers)
-    return HeatmapSource(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
+    return HeatmapSource(name or file.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
-def _of_recording(
-    path: Path, files: HeatmapInputs, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
-) -> Contacts:
-    if files.calibration is None:
+def _of_recording(read: _Read, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]) -> Contacts:
+    if read.calibration is None:
         raise HeatmapError(
-            f"{arg(path.name)}: give its calibration.json, too: the weight of the probe is in its readings."
+            f"{arg(read.file.name)}: give its calibration.json, too: the weight of the probe is in its readings."
         )
-    model = load_calibration(files.calibration).model
+    model = load_calibration(read.calibration).model
     return locate_recording(
-        path,
+        read.file,
         probe.probe,
         model,
         gates=Gates(min_force=how.min_force),
@@ -313,23 +329,12 @@ def _of_session(
             except InputError as error:
                 reasons.append(str(error))
                 continue
-            with tempfile.TemporaryDirectory(prefix="contactbench-heatmap-") as scratch:
-                laid = lay_out(session.folder, session.state, roles, Path(scratch))
-                own = (laid[main],)
-                files = replace(
-                    given,
-                    sessions=(),
-                    tables=(),
-                    recordings=own if main == "recording" else (),
-                    verifications=own if main == "verification" else (),
-                    probe=laid["probe"],
-                    calibration=laid.get("calibration"),
-                )
-                try:
-                    name = f"{folder.name}: {laid[main].name}"
-                    found.append(_of_file(laid[main], files, how, told, name))
-                except InputError as error:
-                    problems.append(f"{folder.name}: {error}")
+            laid = inputs_of(session.folder, session.state, roles)
+            given_with = _Read(laid[main], main, laid["probe"], laid.get("calibration"))
+            try:
+                found.append(_of_file(given_with, given, how, told, f"{folder.name}: {laid[main].name}"))
+            except InputError as error:
+                problems.append(f"{folder.name}: {error}")
     if not found and len(reasons) == len(_OF_SESSION):
         raise HeatmapError(f"{arg(folder.name)}: {arg(reasons[0])}")
     return found

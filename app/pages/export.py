@@ -25,8 +25,8 @@ from contactbench.app.pages.export_settings import ExportSettingsPanel
 from contactbench.app.undo import SetParameters
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, export, survey
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.controls import (
     PanelScroll,
@@ -44,8 +44,8 @@ from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.export import ExportPreview
-    from contactbench.pipeline.workbench.steps import StepStatus
 
 _ICON = 30
 

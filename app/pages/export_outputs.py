@@ -45,28 +45,23 @@ class LiveOutputsPanel(QWidget):
 
     def __init__(self, bench: Bench, unverified: Callable[[], bool], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        from contactbench.pipeline.workbench.live_outputs import USUAL, LiveOutputs
+        from contactbench.pipeline.runtime.outputs import OUTPUTS
+        from contactbench.pipeline.workbench.live_outputs import LiveOutputs
 
         self._bench, self._unverified = bench, unverified
         self.outputs = LiveOutputs(bench.live)
-        self._usual, self._busy, self._was_running, self._closed = USUAL, False, False, False
+        self._busy = self._was_running = self._closed = False
         self.chosen: dict[str, QCheckBox] = {}
         self.addresses: dict[str, QLineEdit] = {}
         self.states: dict[str, QLabel] = {}
-        names = {
-            "igtl": self.tr("OpenIGTLink (3D Slicer)"),
-            "foxglove": self.tr("Foxglove"),
-            "dds": self.tr("ROS 2, DDS domain"),
-            "mqtt": self.tr("MQTT broker and topic"),
-            "udp": self.tr("UDP"),
-        }
         parts: list[QWidget] = []
-        for option, usual in USUAL.items():
-            self.chosen[option] = check_box(names[option])
-            address = QLineEdit(usual, maxLength=300)
-            self.addresses[option] = named(
-                address, self.tr("Address of {output}").format(output=names[option])
-            )
+        for option, output in OUTPUTS.items():
+            if not output.title:
+                continue
+            title = translated(output.title)
+            self.chosen[option] = check_box(title)
+            address = QLineEdit(output.usual, maxLength=300)
+            self.addresses[option] = named(address, self.tr("Address of {output}").format(output=title))
             self.states[option] = sentence_label(role="muted")
             self.states[option].hide()
             parts += [self.chosen[option], address, self.states[option]]

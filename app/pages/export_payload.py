@@ -13,7 +13,7 @@ from contactbench.app.undo import SetParameters
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import PayloadSettings, RobotMaker
-from contactbench.pipeline.workbench.payload import KIND, payload_text, stored_payload
+from contactbench.pipeline.workbench.export import PAYLOAD, payload_text, stored_payload
 from contactbench.widgets.controls import (
     column,
     form,
@@ -132,7 +132,7 @@ class PayloadPanel(QWidget):
         self._set(name, [field.value() for field in fields], self.tr("Payload"))
 
     def _set(self, name: str, value: Any, words: str) -> None:
-        self._bench.undo.push(SetParameters(self._bench, {f"{KIND}.{name}": value}, words))
+        self._bench.undo.push(SetParameters(self._bench, {f"{PAYLOAD}.{name}": value}, words))
 
 
 def _length(axis: str, words: str) -> NumberBox:

@@ -17,9 +17,8 @@ from contactbench.app.pages.gravity_weight import WeightPanel
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.model import DOWN_W
 from contactbench.pipeline.calibration.stillness import StillState
-from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT
-from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.steps import Step, StepState
+from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT, PoseState
 from contactbench.widgets.controls import accent, show_quietly
 from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
@@ -30,10 +29,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.app.bench import Bench
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.gravity import GravityView
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding
-    from contactbench.pipeline.workbench.gravity_poses import PoseRow
-    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseRow
 
     Choice = tuple[str, Callable[[], None]]  # a button's text, and what it does
 

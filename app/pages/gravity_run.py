@@ -13,6 +13,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError, join
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench import gravity_results as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
 from contactbench.pipeline.workbench.gravity_fit import (
@@ -21,10 +22,9 @@ from contactbench.pipeline.workbench.gravity_fit import (
     MOUNT,
     ORIENTATION_NOISE,
     TILT,
+    PoseState,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.widgets.messages import translated
@@ -36,8 +36,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings
-    from contactbench.pipeline.workbench.gravity_poses import PoseRow
+    from contactbench.pipeline.workbench.gravity_fit import GravityFinding, GravitySettings, PoseRow
     from contactbench.pipeline.workbench.gravity_results import GravityOutcome
 
 
@@ -238,17 +237,15 @@ class GravityRun(QObject):
         self.set_phase(Phase.FINISHING)
         desk, deed = self.bench.desk, Deed(self.tr("calibrate gravity"))
 
-        def compute(_progress: object, _cancelled: object) -> tuple[GravityOutcome, str]:
+        def compute(_progress: object, _cancelled: object) -> GravityOutcome:
             tape.keep().result()
             work.finish()
-            work.wait()
             left = work.left_out
-            finish = deed.around(lambda session: results.finish(session, tape.name, left, earlier))
-            made = desk.do(finish).result()
-            return made, results.difference(work.view().solved.calibration, made)
+            return desk.do(
+                deed.around(lambda session: results.finish(session, tape.name, left, earlier))
+            ).result()
 
-        def done(made: tuple[GravityOutcome, str]) -> None:
-            outcome, differs = made
+        def done(outcome: GravityOutcome) -> None:
             self._end_work()
             self.set_phase(Phase.IDLE)
             self.set_outcome(outcome)
@@ -258,8 +255,6 @@ class GravityRun(QObject):
             self.bench.tell(
                 weight[verdict.level], self.tr("Gravity: {why}").format(why=translated(verdict.reasons[0]))
             )
-            if differs:
-                self.bench.tell(Weight.INFO, differs)
             self.reopen()
 
         self.bench.jobs.start(self.tr("Computing calibration"), compute, done, self.idle_again)

@@ -14,7 +14,7 @@ from contactbench.app.pages.probe_place import PlaceSection
 from contactbench.app.pages.probe_sections import FacetsSection, MeshSection, SurfaceSection
 from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll, accent, column, plain_label
 from contactbench.widgets.messages import translated
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
 
     from contactbench.app.bench import Bench
-    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.widgets.scene import Pick
 
 _MESHES = "(*.stl *.ply *.obj *.off *.3mf *.glb *.gltf)"

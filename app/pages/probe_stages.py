@@ -13,11 +13,10 @@ from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_hou
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork
+from contactbench.pipeline.steps import Step
+from contactbench.pipeline.workbench.probe import Mesh, ProbePlan, ProbePreview, ProbeWork, Trade, trade_of
 from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
-from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:

@@ -18,9 +18,10 @@ from contactbench.app.undo import SessionCommand, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
+from contactbench.pipeline.session.why import regions_state
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.regions import Clear
-from contactbench.pipeline.workbench.regions_session import apply, open_work, standing, surface_key
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.workbench.regions_session import apply, open_work, surface_key
 from contactbench.pipeline.workbench.undo_history import PaintedStep
 from contactbench.widgets.controls import add_key
 from contactbench.widgets.numbers import filled
@@ -35,8 +36,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.regions import FoundFacets, RegionsWork, Tool
-    from contactbench.pipeline.workbench.steps import StepStatus
     from contactbench.widgets.scene.scene import Pick
 
     Progress = Callable[[float], None]
@@ -163,7 +164,7 @@ class RegionsPage(Page):
                 regions=0 if work is None else len(work.model.regions),
                 chosen=work is not None and self.panel.regions.rank > 0,
                 painted=work is not None and bool(work.model.labels.any()),
-                standing=standing(state),
+                standing=regions_state(state),
                 dirty=self.keeper.dirty,
                 busy=self.job is not None,
                 unkept=self._unkept,

@@ -10,8 +10,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QWidget
 
 from contactbench.app.pages.region_tools import ShapePanel, ToolPanel
-from contactbench.pipeline.workbench.regions_session import Standing
-from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.session.why import RegionsState
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.widgets.controls import (
     PanelScroll,
     accent,
@@ -49,7 +49,7 @@ class RegionsView:
     regions: int = 0  # How many there are
     chosen: bool = False  # Whether one of them is
     painted: bool = False  # Whether a facet belongs to one
-    standing: Standing = Standing.NONE
+    standing: RegionsState = RegionsState.NONE
     dirty: bool = False  # There are changes that the session does not have yet
     busy: bool = False  # Something is being computed
     unkept: str = ""  # Why the regions could not be kept; empty if they could
@@ -116,9 +116,9 @@ class RegionsPanel(PanelScroll):
     def _offer(self, view: RegionsView) -> None:
         """Offer what is to be done next."""
         bar, free = self._bar, view.mode is Mode.READY and not view.busy
-        applied = view.standing is Standing.APPLIED and not view.dirty
+        applied = view.standing is RegionsState.APPLIED and not view.dirty
         bar.offer_second()
-        planned = view.mode is Mode.READY and view.painted and view.standing is Standing.PLANNED
+        planned = view.mode is Mode.READY and view.painted and view.standing is RegionsState.PLANNED
         if planned or view.mode in (Mode.LOCKED, Mode.FAILED):
             bar.offer(self.tr("Open Probe"), lambda: self.go_asked.emit(Step.PROBE))
         elif view.painted and not applied:
@@ -153,8 +153,8 @@ class RegionsPanel(PanelScroll):
     def _of_painted(self, view: RegionsView) -> tuple[StepState, str]:
         if view.dirty:
             return StepState.READY, self.tr("Saving…")
-        if view.standing is Standing.APPLIED:
+        if view.standing is RegionsState.APPLIED:
             return StepState.DONE, self.tr("The probe has these regions.")
-        if view.standing is Standing.PLANNED:
+        if view.standing is RegionsState.PLANNED:
             return StepState.READY, self.tr("Saved. The regions are applied when the probe is prepared.")
         return StepState.STALE, self.tr("Saved, but not yet applied to the probe.")

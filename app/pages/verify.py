@@ -19,8 +19,9 @@ from contactbench.app.pages.verify_virtual import Toucher
 from contactbench.app.undo import SetParameters, push_done
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.why import why_locked
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.markers import Markers, kept
-from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.pipeline.workbench.undo_history import Deed
 from contactbench.pipeline.workbench.verify import (
     TouchTool,
@@ -32,7 +33,6 @@ from contactbench.pipeline.workbench.verify import (
     plain_parameters,
     tool_key,
     tool_of,
-    why_locked,
 )
 from contactbench.widgets.controls import PanelScroll, column
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.widgets.scene.scene import Pick
 
 _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)

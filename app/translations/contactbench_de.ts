@@ -1889,26 +1889,6 @@ oder einen Sitzungsordner, der alles enthält.</translation>
 <context>
     <name>LiveOutputsPanel</name>
     <message>
-        <source>OpenIGTLink (3D Slicer)</source>
-        <translation>OpenIGTLink (3D Slicer)</translation>
-    </message>
-    <message>
-        <source>Foxglove</source>
-        <translation>Foxglove</translation>
-    </message>
-    <message>
-        <source>ROS 2, DDS domain</source>
-        <translation>ROS 2, DDS-Domäne</translation>
-    </message>
-    <message>
-        <source>MQTT broker and topic</source>
-        <translation>MQTT: Broker und Thema</translation>
-    </message>
-    <message>
-        <source>UDP</source>
-        <translation>UDP</translation>
-    </message>
-    <message>
         <source>Address of {output}</source>
         <translation>Adresse: {output}</translation>
     </message>
@@ -5523,6 +5503,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>1 zu {0}</translation>
     </message>
     <message>
+        <source>30° in plane</source>
+        <translation>30° in der Ebene</translation>
+    </message>
+    <message>
         <source>95th percentile</source>
         <translation>95. Perzentil</translation>
     </message>
@@ -6331,6 +6315,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>LowPass: {0} Kanäle nach {1}; für einen anderen Datenstrom reset() aufrufen</translation>
     </message>
     <message>
+        <source>MQTT broker and topic</source>
+        <translation>MQTT: Broker und Thema</translation>
+    </message>
+    <message>
         <source>Made by</source>
         <translation>Erstellt von</translation>
     </message>
@@ -6412,11 +6400,11 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>Name the columns {0}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Benennen Sie die Spalten {0}.</translation>
     </message>
     <message>
         <source>Name the columns {0}: {1}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Benennen Sie die Spalten {0}: {1}.</translation>
     </message>
     <message>
         <source>Negate all six channels: the file must contain the force of the tissue on the probe.</source>
@@ -6437,6 +6425,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Neither a known weight nor a known touch was checked: a wrong sign, unit or scale of the sensor would go unnoticed. Check one of them.</source>
         <translation>Weder ein bekanntes Gewicht noch ein bekannter Druckpunkt wurde geprüft: Ein falsches Vorzeichen, eine falsche Einheit oder Skala des Sensors bliebe unbemerkt. Eines von beiden prüfen.</translation>
+    </message>
+    <message>
+        <source>New MCAP file for the contacts.</source>
+        <translation>Neue MCAP-Datei für die Kontakte.</translation>
+    </message>
+    <message>
+        <source>New file for the lines; - is standard output.</source>
+        <translation>Neue Datei für die Zeilen; - ist die Standardausgabe.</translation>
     </message>
     <message>
         <source>Next: {0}. {1}</source>
@@ -6565,6 +6561,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Only {0} of {1} touches agree with one mount. Check the order of the markers, the sign of the wrenches and the mesh.</source>
         <translation>Nur {0} von {1} Berührungen passen zu derselben Montage. Prüfen Sie die Reihenfolge der Marker, das Vorzeichen der Kräfte und Momente und das Netz.</translation>
+    </message>
+    <message>
+        <source>OpenIGTLink (3D Slicer)</source>
+        <translation>OpenIGTLink (3D Slicer)</translation>
     </message>
     <message>
         <source>OpenIGTLink tracker</source>
@@ -6723,12 +6723,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Prior.{0}: {1} muss größer als {2} und höchstens {3} sein ({4}).</translation>
     </message>
     <message>
+        <source>Publish contacts to ROS 2 in this DDS domain.</source>
+        <translation>Kontakte in dieser DDS-Domäne an ROS 2 senden.</translation>
+    </message>
+    <message>
+        <source>Publish contacts to this MQTT broker.</source>
+        <translation>Kontakte an diesen MQTT-Broker senden.</translation>
+    </message>
+    <message>
         <source>Q and R follow time</source>
         <translation>Q und R folgen der Zeit</translation>
     </message>
     <message>
         <source>RDT: counts per unit must be finite and above 0, not {0}: read them from the sensor&apos;s configuration page.</source>
         <translation>RDT: Zählschritte pro Einheit müssen endlich und größer als 0 sein, nicht {0}: auf der Konfigurationsseite des Sensors ablesen.</translation>
+    </message>
+    <message>
+        <source>ROS 2, DDS domain</source>
+        <translation>ROS 2, DDS-Domäne</translation>
     </message>
     <message>
         <source>R_ES must be a (3, 3) rotation, the sensor&apos;s axes in the flange as columns, not {0}</source>
@@ -6761,14 +6773,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and the cable routed as in use.</source>
         <translation>Kalibrieren Sie Nullpunktfehler und Gewicht neu, mit um zwei Achsen geneigten Posen, warmem Sensor und dem Kabel wie im Gebrauch.</translation>
-    </message>
-    <message>
-        <source>Recomputed from the recording, the contact error is {0} mm instead of {1} mm. The recording counts.</source>
-        <translation>Aus der Aufzeichnung neu berechnet beträgt der Kontaktfehler {0} mm statt {1} mm. Die Aufzeichnung zählt.</translation>
-    </message>
-    <message>
-        <source>Recomputed from the recording, there are {0} poses instead of {1}: one pose was just at the limit of stillness. The recording counts.</source>
-        <translation>Aus der Aufzeichnung neu berechnet sind es {0} Posen statt {1}: Eine Pose lag genau an der Grenze des Stillstands. Die Aufzeichnung zählt.</translation>
     </message>
     <message>
         <source>Recording a calibration.</source>
@@ -6851,6 +6855,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nähte sind nicht verbunden; offene Kanten liegen direkt neben anderen: {0}. Die Oberfläche sieht dort geschlossen aus, gilt aber als offen. Exportieren Sie erneut mit feinerer Toleranz, oder machen Sie die Außenfläche.</translation>
     </message>
     <message>
+        <source>Send each contact there as a UDP datagram.</source>
+        <translation>Jeden Kontakt als UDP-Datagramm dorthin senden.</translation>
+    </message>
+    <message>
         <source>Separate parts are inside out (parts: {0}). Contacts on them are found on the far side. Flip their normals in the CAD program.</source>
         <translation>Einzelne Teile sind umgestülpt (Teile: {0}). Kontakte auf ihnen werden auf der Gegenseite gefunden. Drehen Sie im CAD-Programm ihre Normalen um.</translation>
     </message>
@@ -6865,6 +6873,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Serial number {0}.</source>
         <translation>Seriennummer {0}.</translation>
+    </message>
+    <message>
+        <source>Serve contacts and a picture there to Foxglove.</source>
+        <translation>Foxglove dort Kontakte und ein Bild anbieten.</translation>
+    </message>
+    <message>
+        <source>Serve contacts there to OpenIGTLink clients, such as 3D Slicer.</source>
+        <translation>OpenIGTLink-Programmen wie 3D Slicer dort Kontakte anbieten.</translation>
     </message>
     <message>
         <source>Set the mount to {0}° about x, y, z</source>
@@ -9444,7 +9460,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>holds {0}: {1}</source>
-        <translation type="unfinished"></translation>
+        <translation>enthält {0}: {1}</translation>
     </message>
     <message>
         <source>hole</source>
@@ -10776,7 +10792,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>row {0}: {1}</source>
-        <translation type="unfinished"></translation>
+        <translation>Zeile {0}: {1}</translation>
     </message>
     <message>
         <source>rows were moved</source>
@@ -10917,6 +10933,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>standard input</source>
         <translation>Standardeingabe</translation>
+    </message>
+    <message>
+        <source>standard output</source>
+        <translation>Standardausgabe</translation>
     </message>
     <message>
         <source>stay where you are</source>
@@ -11861,6 +11881,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the tip has no target: aim at a marker first.</source>
         <translation>die Spitze zielt auf nichts: Zielen Sie zuerst auf einen Marker.</translation>
+    </message>
+    <message>
+        <source>the tip slips at {0} mm: choose a marker with more face around it.</source>
+        <translation>Die Spitze rutscht bei {0} mm ab: Wählen Sie einen Marker mit mehr Fläche darum herum.</translation>
     </message>
     <message>
         <source>the tissue pushes with {0} N while the arm stands still.</source>
@@ -12827,6 +12851,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} hat nicht gemeldet, aus welchen Facetten seine Facetten stammen: ein anderes Netz nehmen.</translation>
     </message>
     <message>
+        <source>{0} documents {1}, but has no such parameter</source>
+        <translation>{0} dokumentiert {1}, hat aber keinen solchen Parameter</translation>
+    </message>
+    <message>
         <source>{0} facets are too few: no closed surface has fewer than {1}.</source>
         <translation>{0} Facetten sind zu wenige: Keine geschlossene Oberfläche hat weniger als {1}.</translation>
     </message>
@@ -13077,6 +13105,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} needs three numbers, {1}, not shape {2}</source>
         <translation>{0} braucht drei Zahlen, {1}, nicht die Form {2}</translation>
+    </message>
+    <message>
+        <source>{0} needs {1} finite numbers separated by commas, not {2}.</source>
+        <translation>{0} braucht {1} endliche Zahlen, durch Kommas getrennt, nicht {2}.</translation>
     </message>
     <message>
         <source>{0} negated</source>
@@ -13575,6 +13607,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Eine Eingabe kann nicht gelesen werden ({1}): Führen Sie `session verify` aus.</translation>
     </message>
     <message>
+        <source>{0}: an input changed while it was read: run `session verify`.</source>
+        <translation>{0}: Eine Eingabe hat sich beim Lesen geändert: Führen Sie `session verify` aus.</translation>
+    </message>
+    <message>
         <source>{0}: another process is writing to this session ({1}): close it there first. Reading is always possible.</source>
         <translation>{0}: Ein anderer Prozess schreibt in diese Sitzung ({1}): Schließen Sie sie zuerst dort. Lesen ist immer möglich.</translation>
     </message>
@@ -13876,7 +13912,7 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     </message>
     <message>
         <source>{0}: line {1}: {2}</source>
-        <translation type="unfinished"></translation>
+        <translation>{0}: Zeile {1}: {2}</translation>
     </message>
     <message>
         <source>{0}: line {1}: {2} is {3}, not a whole number from 0 to {4}.</source>

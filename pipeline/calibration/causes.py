@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -191,7 +191,7 @@ def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseCo
     }
     total = sum(moments.values())
     likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
-    names = " or ".join(named(poses, _at(compared.poses, moment)) for moment in sorted(likely))
+    names = join(" or ", (named(poses, _at(compared.poses, moment)) for moment in sorted(likely)))
     return message(
         f"The sensor's zero jumped by {arg(_sizes(candidate.noisy.fit.added[None]))} before {arg(names)}, as"
         " after a re-zero. The bias is that of the poses since then. Do not zero the sensor while"

@@ -9,7 +9,8 @@ from contactbench.pipeline.settings import Settings
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
-    from pathlib import Path
+
+    from contactbench.pipeline.files import File
 
 
 class Parameters(Settings):
@@ -30,7 +31,7 @@ class Parameters(Settings):
         return given
 
 
-def check_roles(inputs: Mapping[str, Path], needed: Collection[str], optional: Collection[str] = ()) -> None:
+def check_roles(inputs: Mapping[str, File], needed: Collection[str], optional: Collection[str] = ()) -> None:
     """InputError if an input that is needed is missing, or there are strangers."""
     if not set(needed) <= set(inputs) <= {*needed, *optional}:
         may = message(f", optionally also {arg(', '.join(optional))}") if optional else ""
@@ -39,7 +40,7 @@ def check_roles(inputs: Mapping[str, Path], needed: Collection[str], optional: C
         )
 
 
-def sha256_of(file: Path) -> str:
+def sha256_of(file: File) -> str:
     """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
     import hashlib
 

@@ -11,7 +11,7 @@ import numpy as np
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.outliers import limit
 from contactbench.pipeline.calibration.poses import named, stack
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration.calibrate import Findings
@@ -264,7 +264,7 @@ def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
             )
         )
     if rejected and len(findings.poses) < _NAMED_FROM:
-        names = ", ".join(named(findings.poses, each.index) for each in rejected)
+        names = join(", ", (named(findings.poses, each.index) for each in rejected))
         again = message("Retake it") if len(rejected) == 1 else message("Retake them")
         words.append(
             message(f"Left out: {arg(names)}. {arg(again)}, to have {arg(_NAMED_FROM)} poses or more.")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from contactbench.pipeline.commands.control import control_app
-from contactbench.pipeline.commands.options import RealityOption
 from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, print_json, say
 from contactbench.pipeline.errors import InputError
 
@@ -30,29 +30,61 @@ bench_app.add_typer(control_app, name="control")
 
 _LOOK_S = 0.1  # how long an end may go unnoticed
 
-ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="Bundled probe.")]
-MeshOption = Annotated[Path | None, typer.Option(help="Your own probe instead: a mesh file in S.")]
-SensorOption = Annotated[
-    str, typer.Option("--model", metavar="paper|ideal|noisy", help="What the sensor is, with its faults.")
-]
-SeedOption = Annotated[int, typer.Option(help="Seed of the sensor's noise.")]
-RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000.")]
+
+@dataclass(frozen=True)
+class ChosenBench:
+    """
+    A virtual bench.
+
+    Parameters
+    ----------
+    probe : t-shape|linear|convex
+        Bundled probe.
+    mesh
+        Your own probe instead: a mesh file in S.
+    model : paper|ideal|noisy
+        What the sensor is, with its faults.
+    seed
+        Seed of the sensor's noise.
+    rate
+        Wrenches per second, up to 1000.
+    reality : MIX|EFFECT=SIZE,...
+        Deviation from the ideal bench: ideal, typical, harsh or tissue, effects with their sizes, or both, such as
+        typical,cable=0.2. `contactbench bench reality` lists them.
+    """
+
+    probe: str = "t-shape"
+    mesh: Path | None = None
+    model: str = "paper"
+    seed: int = 0
+    rate: float = 200.0
+    reality: str = "ideal"
+
+    def address(self, script: Path | None) -> DeviceAddress:
+        """Return its address, which checks what was given."""
+        from urllib.parse import quote, urlencode
+
+        from contactbench.pipeline.devices.url import DeviceAddress
+
+        options = {
+            **({"probe": self.probe} if self.mesh is None else {"mesh": str(self.mesh)}),
+            "sensor": self.model,
+            "seed": self.seed,
+            "rate": self.rate,
+            "speed": "step",
+            **({} if script is None else {"script": str(script)}),
+            **({} if self.reality == "ideal" else {"reality": self.reality}),
+        }
+        return DeviceAddress.parse(f"virtual://bench?{urlencode(options, quote_via=quote)}")
 
 
 @bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
 def run(
-    script: Annotated[Path, typer.Argument(metavar="SCRIPT", help="Timed commands.")],
-    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; never overwrites a file.")],
-    truth: Annotated[
-        Path | None,
-        typer.Option(help="CSV to write: the truth beside every wrench; never overwrites a file."),
-    ] = None,
-    probe: ProbeOption = "t-shape",
-    mesh: MeshOption = None,
-    sensor: SensorOption = "paper",
-    seed: SeedOption = 0,
-    rate: RateOption = 200.0,
-    reality: RealityOption = "ideal",
+    script: Path,
+    /,
+    out: Path,
+    chosen: ChosenBench,
+    truth: Path | None = None,
 ) -> None:
     """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
@@ -60,11 +92,20 @@ def run(
     seconds of the bench; use after for seconds after the previous command ended. do is turn_to (rpy or
     R_WS, seconds), touch (marker from 1 or point_S, force, tilt, azimuth, torsion, seconds), release,
     bump (force, seconds, lever), warm (kelvin), rezero, end. The same seed gives the same bytes.
+
+    Parameters
+    ----------
+    script
+        Timed commands.
+    out
+        Recording to write, .mcap; never overwrites a file.
+    truth
+        CSV to write: the truth beside every wrench; never overwrites a file.
     """
     from contactbench.pipeline.simulation.virtual.run import run_script
     from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
-    where = _address(probe, mesh, sensor, seed, rate, script, reality)
+    where = chosen.address(script)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))
     say(
         f"{ran.seconds:.2f} s of the bench: {ran.wrenches:,} wrenches, {ran.flanges:,} poses,"
@@ -92,30 +133,34 @@ def run(
 
 @bench_app.command(example="bench serve --probe t-shape --model paper --pty")
 def serve(
-    probe: ProbeOption = "t-shape",
-    mesh: MeshOption = None,
-    sensor: SensorOption = "paper",
-    seed: SeedOption = 0,
-    rate: RateOption = 200.0,
-    reality: RealityOption = "ideal",
-    script: Annotated[Path | None, typer.Option(help="Timed commands to start with.")] = None,
-    pty: Annotated[bool, typer.Option("--pty", help="Put the sensor on a pseudo-terminal.")] = False,
-    sri_port: Annotated[
-        int | None, typer.Option(help="Port of the sensor on the loopback interface [a free one].")
-    ] = None,
-    elfin_port: Annotated[int, typer.Option(help="Port of the robot; 0 for any free one.")] = 0,
+    chosen: ChosenBench,
+    script: Path | None = None,
+    pty: bool = False,
+    sri_port: int | None = None,
+    elfin_port: int = 0,
 ) -> None:
     """Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
 
     The first line of standard output is a JSON object with the two addresses. Commands come on standard
     input, one JSON object per line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
     each is answered with one line: the bench time at which it took effect, or the error.
+
+    Parameters
+    ----------
+    script
+        Timed commands to start with.
+    pty
+        Put the sensor on a pseudo-terminal.
+    sri_port
+        Port of the sensor on the loopback interface [a free one].
+    elfin_port
+        Port of the robot; 0 for any free one.
     """
     if pty and sri_port is not None:
         raise typer.BadParameter("--pty and --sri-port contradict each other: give only one.")
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
-    bench = _bench(_address(probe, mesh, sensor, seed, rate, script, reality))
+    bench = _bench(chosen.address(script))
     with (
         ended_by_signals() as ended,
         ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served,
@@ -128,14 +173,15 @@ def serve(
 
 
 @bench_app.command("reality", example="bench reality typical,cable=0.2")
-def show_reality(
-    mix: Annotated[
-        str | None, typer.Argument(metavar="[MIX|EFFECT=SIZE,...]", help="Mix to show beside the others.")
-    ] = None,
-) -> None:
+def show_reality(mix: str | None = None, /) -> None:
     """List the effects of a real bench: unit, range, and size in each mix.
 
     Use the same text in an address, virtual://bench?reality=typical, and with --reality.
+
+    Parameters
+    ----------
+    mix : [MIX|EFFECT=SIZE,...]
+        Mix to show beside the others.
     """
     from contactbench.pipeline.reality import MIXES, Reality
 
@@ -161,26 +207,6 @@ def _show_mixes(mixes: Mapping[str, Reality]) -> None:
         sizes = (f"{getattr(each, name):g}" for each in mixes.values())
         table.add_row(name, f"{least:g} to {most:g}", *sizes, field.description)
     Console().print(table)
-
-
-def _address(
-    probe: str, mesh: Path | None, sensor: str, seed: int, rate: float, script: Path | None, reality: str
-) -> DeviceAddress:
-    """Return the address of the bench: its door checks what was given."""
-    from urllib.parse import quote, urlencode
-
-    from contactbench.pipeline.devices.url import DeviceAddress
-
-    options = {
-        **({"probe": probe} if mesh is None else {"mesh": str(mesh)}),
-        "sensor": sensor,
-        "seed": seed,
-        "rate": rate,
-        "speed": "step",
-        **({} if script is None else {"script": str(script)}),
-        **({} if reality == "ideal" else {"reality": reality}),
-    }
-    return DeviceAddress.parse(f"virtual://bench?{urlencode(options, quote_via=quote)}")
 
 
 def _without_paths(where: DeviceAddress) -> DeviceAddress:
@@ -236,25 +262,17 @@ def _obey(served: ServedBench) -> None:
 
 @bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
 def emulate(
-    device: Annotated[
-        str, typer.Argument(metavar="DEVICE", help="Device to emulate, such as sri or sri+tcp.")
-    ],
-    pty: Annotated[bool, typer.Option("--pty", help="Use a pseudo-terminal.")] = False,
-    port: Annotated[
-        int | None, typer.Option(help="Use this port of the loopback interface; 0 for any free one.")
-    ] = None,
-    rate: Annotated[float | None, typer.Option(help="Frames per second, until a command changes it.")] = None,
-    fault: Annotated[list[str] | None, typer.Option(metavar="FAULT", help="May be repeated.")] = None,
-    seconds: Annotated[float | None, typer.Option(help="How long to run.")] = None,
-    still: Annotated[
-        bool, typer.Option("--still", help="Send a constant signal instead of one that swings.")
-    ] = False,
-    quirk: Annotated[list[str] | None, typer.Option(metavar="QUIRK", help="May be repeated.")] = None,
-    option: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="Option as in an address: profile=onrobot. May be repeated."),
-    ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the randomness in the faults.")] = 0,
+    device: str,
+    /,
+    pty: bool = False,
+    port: int | None = None,
+    rate: float | None = None,
+    fault: list[str] | None = None,
+    seconds: float | None = None,
+    still: bool = False,
+    quirk: list[str] | None = None,
+    option: list[str] | None = None,
+    seed: int = 0,
 ) -> None:
     """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur, or that of a plug-in.
 
@@ -264,6 +282,29 @@ def emulate(
 
     Quirks are the habits of some devices of a kind: older (sri, elfin, ur), crc32-only, crc32-silently,
     answers-start (sri), forgiving (sri, robotiq: no pause is needed between commands).
+
+    Parameters
+    ----------
+    device
+        Device to emulate, such as sri or sri+tcp.
+    pty
+        Use a pseudo-terminal.
+    port
+        Use this port of the loopback interface; 0 for any free one.
+    rate
+        Frames per second, until a command changes it.
+    fault : FAULT
+        May be repeated.
+    seconds
+        How long to run.
+    still
+        Send a constant signal instead of one that swings.
+    quirk : QUIRK
+        May be repeated.
+    option : NAME=VALUE
+        Option as in an address: profile=onrobot. May be repeated.
+    seed
+        Seed of the randomness in the faults.
     """
     if pty and port is not None:
         raise typer.BadParameter("--pty and --port contradict each other: give only one.")

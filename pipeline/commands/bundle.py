@@ -13,7 +13,8 @@ from contactbench.pipeline.commands.options import (
     doubt_degrees,
     payload_told,
 )
-from contactbench.pipeline.console import Noun, answer, as_json, numbers, say, show_tables
+from contactbench.pipeline.console import Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
 if TYPE_CHECKING:

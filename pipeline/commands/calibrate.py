@@ -24,8 +24,9 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import (
     CalibrationSettings,
     CapturesSettings,
@@ -84,13 +85,12 @@ Delay = Annotated[CapturesSettings, Only("delay")]
 )
 def fit(
     poses: PosesArgument,
-    out: Annotated[Path, typer.Option(help="Calibration file to write, JSON.")],
+    /,
+    out: Path,
     given: CalibrationSettings,
     heard: Delay,
     said_of: ReportSettings,
-    report: Annotated[
-        Path | None, typer.Option(help="Also write a report for people: .html, or .pdf on A4.")
-    ] = None,
+    report: Path | None = None,
     serial: SerialOption = None,
     robot_poses: RobotPosesOption = None,
     sensor_at: SensorAtOption = None,
@@ -112,6 +112,13 @@ def fit(
 
     Exit code 1: the calibration must not be used; the reasons and remedies are printed. The file is written
     anyway, so that calibrate next can suggest a pose.
+
+    Parameters
+    ----------
+    out
+        Calibration file to write, JSON.
+    report
+        Also write a report for people: .html, or .pdf on A4.
     """
     for file in (out, report):
         refuse_overwriting(file, [each for each in (poses, robot_poses) if each is not None])
@@ -314,14 +321,13 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 )
 def diagnose(
     poses: PosesArgument,
+    /,
     given: CapturesSettings,
     known: NoiseSettings,
     world: DownSettings,
     robot_poses: RobotPosesOption = None,
-    mass: Annotated[float | None, typer.Option(help="Mass of the complete load on the sensor, kg.")] = None,
-    tool_length: Annotated[
-        float, typer.Option("--tool-length", help="Distance from the sensor to the tip, mm.")
-    ] = 300.0,
+    mass: float | None = None,
+    tool_length: float = 300.0,
 ) -> None:
     """Check whether poses follow the conventions set by the options, or which mistake explains them.
 
@@ -331,6 +337,13 @@ def diagnose(
     the load's weighed mass make it much more certain.
 
     Exit code 1: something differs from what the options declare.
+
+    Parameters
+    ----------
+    mass
+        Mass of the complete load on the sensor, kg.
+    tool_length
+        Distance from the sensor to the tip, mm.
     """
     from contactbench.pipeline.calibration.assumptions import pose_noise
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
@@ -401,14 +414,11 @@ def still(
 )
 def compensate(
     calibration: CalibrationArgument,
-    recording: Annotated[
-        Path, typer.Argument(metavar="RECORDING", help="CSV file, or - for standard input.")
-    ],
-    out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
+    recording: Path,
+    /,
+    out: Path,
     given: PosesSettings,
-    allow_nan: Annotated[
-        bool, typer.Option("--allow-nan", help="Pass NaN, infinity and empty cells through.")
-    ] = False,
+    allow_nan: bool = False,
 ) -> None:
     """Subtract bias and weight from every reading of a recording.
 
@@ -416,6 +426,15 @@ def compensate(
     orientation at the same time, written as for calibrate fit; - is standard input. The output has
     t,fx,fy,fz,mx,my,mz, the force and torque of the tissue on the probe, ready for contactbench locate. It
     is written completely or not at all.
+
+    Parameters
+    ----------
+    recording
+        CSV file, or - for standard input.
+    out
+        CSV file to write, or - for standard output.
+    allow_nan
+        Pass NaN, infinity and empty cells through.
     """
     dash = Path("-")
     if as_json() and out == dash:
@@ -507,10 +526,7 @@ class ReachSettings(MountSettings):
     "next",
     example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"),
 )
-def next_pose(
-    calibration: CalibrationArgument,
-    reach: ReachSettings,
-) -> None:
+def next_pose(calibration: CalibrationArgument, reach: ReachSettings) -> None:
     """Suggest the pose that would improve a calibration most, and predict by how much.
 
     Poses are judged by the error at the contact, not by the parameters. With --robot and --joints, only poses
@@ -538,19 +554,33 @@ def next_pose(
     example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"),
 )
 def plan_poses(
-    count: Annotated[int, typer.Argument(metavar="COUNT", help="Number of poses, at least 3.")],
-    out: Annotated[Path, typer.Option(help="CSV file to write.")],
+    count: int,
+    /,
+    out: Path,
     reach: ReachSettings,
     touched: TaskSettings,
     world: DownSettings,
-    mass: Annotated[float, typer.Option(help="Approximate mass of the load on the sensor, kg.")] = 0.5,
-    noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="The same for its torque, N·m.")] = 0.002,
+    mass: float = 0.5,
+    noise_force: float = 0.05,
+    noise_torque: float = 0.002,
 ) -> None:
     """Plan COUNT poses that together leave the least error at the contact.
 
     Writes a CSV file with the orientation of the sensor, the joints in degrees if there is a robot, and
     the predicted share of the calibration in the contact error after each pose.
+
+    Parameters
+    ----------
+    count
+        Number of poses, at least 3.
+    out
+        CSV file to write.
+    mass
+        Approximate mass of the load on the sensor, kg.
+    noise_force
+        Standard deviation of a pose's mean force, N.
+    noise_torque
+        The same for its torque, N·m.
     """
     import numpy as np
 
@@ -596,14 +626,11 @@ def plan_poses(
     ),
 )
 def captures(
-    recording: Annotated[
-        Path, typer.Argument(metavar="RECORDING", help="MCAP or CSV file, or - for standard input.")
-    ],
-    out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
+    recording: Path,
+    /,
+    out: Path,
     given: CapturesSettings,
-    calibration: Annotated[
-        Path | None, typer.Option(help="Preliminary calibration, to detect steady touches.")
-    ] = None,
+    calibration: Path | None = None,
     robot_poses: RobotPosesOption = None,
 ) -> None:
     """Find the still poses in a recording, and write them for calibrate fit.
@@ -618,6 +645,15 @@ def captures(
     fit, diagnose and check still accept all of these too and find the poses themselves.
 
     Exit code 1: fewer than three poses were found.
+
+    Parameters
+    ----------
+    recording
+        MCAP or CSV file, or - for standard input.
+    out
+        CSV file of poses to write.
+    calibration
+        Preliminary calibration, to detect steady touches.
     """
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     convention = written(given)

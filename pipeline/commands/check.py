@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
-from contactbench.pipeline.console import Noun, answer, numbers, say
+from contactbench.pipeline.console import Noun, answer, say
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 _NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
@@ -36,11 +36,7 @@ OutOption = Annotated[
     ),
 )
 def weight(
-    calibration: CalibrationOption,
-    unloaded: Annotated[Path, typer.Option(help="Readings without the weight: .csv or .mcap.")],
-    loaded: Annotated[Path, typer.Option(help="Readings with the weight: .csv or .mcap.")],
-    said: WeightSettings,
-    out: OutOption = None,
+    calibration: CalibrationOption, unloaded: Path, loaded: Path, said: WeightSettings, out: OutOption = None
 ) -> None:
     """Hang a known weight on the tool, and compare it with the sensor's readings.
 
@@ -49,6 +45,13 @@ def weight(
     forces in kgf, lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.
 
     Exit code 1: the weight is wrong, or the uncertainty is too large to decide.
+
+    Parameters
+    ----------
+    unloaded
+        Readings without the weight: .csv or .mcap.
+    loaded
+        Readings with the weight: .csv or .mcap.
     """
     inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
     refuse_overwriting(out, list(inputs.values()))
@@ -67,18 +70,14 @@ def weight(
     ),
 )
 def touch(
-    recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="The press: .mcap or .csv.")],
-    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
+    recording: Path,
+    /,
+    probe: Path,
     calibration: CalibrationOption,
     said: TouchSettings,
-    point: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y,Z", help="Pressed point, mm in the sensor frame, as the probe's mesh."),
-    ] = None,
-    markers: Annotated[
-        Path | None, typer.Option(help="Instead: table of markers; give --marker too.")
-    ] = None,
-    marker: Annotated[str | None, typer.Option(metavar="NAME", help="Name of the pressed marker.")] = None,
+    point: tuple[float, float, float] | None = None,
+    markers: Path | None = None,
+    marker: str | None = None,
     out: OutOption = None,
 ) -> None:
     """Press one known point of the probe, and compare it with the located contact.
@@ -89,6 +88,19 @@ def touch(
     wrong sign or unit, forces in kgf, and a probe that is turned on the sensor.
 
     Exit code 1: the contact is elsewhere, or the press is inconclusive.
+
+    Parameters
+    ----------
+    recording
+        The press: .mcap or .csv.
+    probe
+        The probe, aligned with the sensor.
+    point : X,Y,Z
+        Pressed point, mm in the sensor frame, as the probe's mesh.
+    markers
+        Instead: table of markers; give --marker too.
+    marker : NAME
+        Name of the pressed marker.
     """
     inputs = {"calibration": calibration, "probe": probe, "touch": recording}
     refuse_overwriting(out, list(inputs.values()))
@@ -102,13 +114,13 @@ def touch(
     _finish(touch_content(inputs, given, _now()), out)
 
 
-def _point(point: str | None, markers: Path | None, marker: str | None) -> list[float]:
+def _point(point: Sequence[float] | None, markers: Path | None, marker: str | None) -> list[float]:
     if (markers is None) != (marker is None) or (point is None) == (marker is None):
         raise typer.BadParameter(
             "give the pressed point: --point X,Y,Z, or --markers FILE with --marker NAME."
         )
     if point is not None:
-        return numbers(point, 3, "--point")
+        return list(point)
     from contactbench.pipeline.verification import load_markers
 
     assert markers is not None  # noqa: S101 - for the type checker; seen to above

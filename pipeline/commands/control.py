@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -105,21 +105,16 @@ def _variant_of(text: str) -> Variant:
 
 @control_app.command(example="bench control tune --probe convex --stiffness 2000 --out gains")
 def tune(
-    probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
-    stiffness: Annotated[
-        float | None,
-        typer.Option(help="Stiffness of the usual tissue at the wanted force, N/m [soft tissue]."),
-    ] = None,
-    scene: Annotated[str, typer.Option(metavar="platform|arm", help="Robot for the trials.")] = "platform",
-    variant: Annotated[
-        str, typer.Option(metavar="plain|aware", help="Variant that the gains are for.")
-    ] = "plain",
-    force: Annotated[float, typer.Option(help="Wanted force, N.")] = 7.0,
-    gain_margin: Annotated[float, typer.Option(help="Factor by which each loop gain may still grow.")] = 2.0,
-    phase_margin: Annotated[float, typer.Option(help="Degrees.")] = 30.0,
-    spread: Annotated[float, typer.Option(help="Factor by which tissue may be softer or stiffer.")] = 5.0,
-    seed: Annotated[int, typer.Option(help="Seed of load, calibration and noise in the trials.")] = 0,
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("control-gains"),
+    probe: str = "convex",
+    stiffness: float | None = None,
+    scene: str = "platform",
+    variant: str = "plain",
+    force: float = 7.0,
+    gain_margin: float = 2.0,
+    phase_margin: float = 30.0,
+    spread: float = 5.0,
+    seed: int = 0,
+    out: Path = Path("control-gains"),
 ) -> None:
     """Choose the highest gains for a probe that keep the wanted margins on softer and stiffer tissue.
 
@@ -127,6 +122,29 @@ def tune(
     controller; the gains are then tried in simulation. Writes gains.json for `bundle export
     --settings`, tables and a plot of the margins. Exit code 1: a simulated trial oscillated, or lost the
     tissue.
+
+    Parameters
+    ----------
+    probe
+        Bundled probe: linear, convex or t-shape.
+    stiffness
+        Stiffness of the usual tissue at the wanted force, N/m [soft tissue].
+    scene : platform|arm
+        Robot for the trials.
+    variant : plain|aware
+        Variant that the gains are for.
+    force
+        Wanted force, N.
+    gain_margin
+        Factor by which each loop gain may still grow.
+    phase_margin
+        Degrees.
+    spread
+        Factor by which tissue may be softer or stiffer.
+    seed
+        Seed of load, calibration and noise in the trials.
+    out : DIR
+        Folder to write.
     """
     import math
 
@@ -159,38 +177,23 @@ def tune(
     example=("bench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv"),
 )
 def run(
-    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    robot: Annotated[str, typer.Option(metavar="ADDRESS", help="virtual://arm or virtual://platform.")],
+    bundle: Path,
+    /,
+    robot: str,
     turned: MountSettings,
-    motion: Annotated[
-        str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Motion of the phantom.")
-    ] = "in-plane",
-    period: Annotated[float, typer.Option(help="Period of that motion, s.")] = 10.0,
-    size: Annotated[float, typer.Option(help="Size of that motion, mm or degrees.")] = 10.0,
-    seconds: Annotated[float, typer.Option(help="Time until it retracts, s.")] = 15.0,
-    variant: Annotated[
-        str | None,
-        typer.Option(
-            metavar="plain|aware", help="The paper's control, or with motion feed-forward [the bundle's]."
-        ),
-    ] = None,
-    method: Annotated[str, typer.Option(help="Method that locates contacts.")] = "contactbench",
-    stiffness: Annotated[
-        float | None, typer.Option(help="Stiffness of the phantom at the wanted force, N/m [soft tissue].")
-    ] = None,
-    friction: Annotated[float, typer.Option(help="Motion of the phantom.")] = 0.1,
-    seed: Annotated[int, typer.Option(help="Seed of noise and of the calibration error.")] = 0,
-    real_time: Annotated[bool, typer.Option("--real-time", help="Run no faster than real time.")] = False,
-    unverified: Annotated[
-        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
-    ] = False,
-    frames: Annotated[
-        bool,
-        typer.Option(
-            "--frames", help="Write each period as a line of JSON on standard output while running."
-        ),
-    ] = False,
-    out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the run to write.")] = None,
+    motion: str = "in-plane",
+    period: float = 10.0,
+    size: float = 10.0,
+    seconds: float = 15.0,
+    variant: str | None = None,
+    method: str = "contactbench",
+    stiffness: float | None = None,
+    friction: float = 0.1,
+    seed: int = 0,
+    real_time: bool = False,
+    unverified: bool = False,
+    frames: bool = False,
+    out: Path | None = None,
 ) -> None:
     """Run a bundle's controller on a virtual robot over a moving phantom.
 
@@ -199,6 +202,39 @@ def run(
     Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never
     sent to a real robot. Ctrl-C makes it retract and end. Exit code 1: the force exceeded the limit, the
     controller gave up, or it did not end in a safe state; 2: the bundle or the robot is refused.
+
+    Parameters
+    ----------
+    bundle
+        Folder or zip file of a runtime config.
+    robot : ADDRESS
+        virtual://arm or virtual://platform.
+    motion : none|vertical|in-plane|out-of-plane
+        Motion of the phantom.
+    period
+        Period of that motion, s.
+    size
+        Size of that motion, mm or degrees.
+    seconds
+        Time until it retracts, s.
+    variant : plain|aware
+        The paper's control, or with motion feed-forward [the bundle's].
+    method
+        Method that locates contacts.
+    stiffness
+        Stiffness of the phantom at the wanted force, N/m [soft tissue].
+    friction
+        Motion of the phantom.
+    seed
+        Seed of noise and of the calibration error.
+    real_time
+        Run no faster than real time.
+    unverified
+        Accept a bundle that is not verified.
+    frames
+        Write each period as a line of JSON on standard output while running.
+    out : FILE
+        CSV file of the run to write.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -21,21 +21,12 @@ _WIDE = 250  # a number that is cut short is wrong
 
 @demo_app.command(example="demo --out my-demo")
 def demo(
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-demo"),
-    probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Probe to use.")] = "all",
-    touches: Annotated[int, typer.Option(help="Random touches per probe, at least 10.")] = 1_000,
-    seed: Annotated[int, typer.Option(help="Seed: the same seed gives the same CSV files.")] = 0,
-    reality: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="MIX|EFFECT=SIZE,...",
-            help="Simulate a whole day on a bench with these effects instead, such as typical; may be"
-            " repeated. `contactbench bench reality` lists them.",
-        ),
-    ] = None,
-    seeds: Annotated[
-        int | None, typer.Option(help="Days on each such bench, with seeds counted from --seed [1].")
-    ] = None,
+    out: Path = Path("contactbench-demo"),
+    probe: str = "all",
+    touches: int = 1_000,
+    seed: int = 0,
+    reality: list[str] | None = None,
+    seeds: int | None = None,
 ) -> None:
     """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 
@@ -45,6 +36,22 @@ def demo(
 
     With --reality: calibrate, prepare, align, verify, export and run on a realistic bench, and
     compare with the truth. Exit code 1: on a typical bench a figure misses its target.
+
+    Parameters
+    ----------
+    out : DIR
+        Folder to write.
+    probe : linear|convex|t-shape|all
+        Probe to use.
+    touches
+        Random touches per probe, at least 10.
+    seed
+        Seed: the same seed gives the same CSV files.
+    reality : MIX|EFFECT=SIZE,...
+        Simulate a whole day on a bench with these effects instead, such as typical; may be repeated.
+        `contactbench bench reality` lists them.
+    seeds
+        Days on each such bench, with seeds counted from --seed [1].
     """
     from rich.console import Console
 
@@ -84,13 +91,17 @@ def _days(out: Path, reality: list[str], probes: Sequence[str], seeds: int, seed
 
 
 @tutorial_app.command(example="tutorial my-first-probe")
-def tutorial(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder to write, new or empty.")],
-    seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same bytes.")] = 0,
-) -> None:
+def tutorial(folder: Path, /, seed: int = 0) -> None:
     """Write sample data for the tutorials: poses, recordings, a housing, touches, markers, and the truth.
 
     Simulated on the virtual bench, in seconds; README.md in the folder says what each file is.
+
+    Parameters
+    ----------
+    folder : DIR
+        Folder to write, new or empty.
+    seed
+        Of chance: the same seed gives the same bytes.
     """
     from contactbench.pipeline.demo.tutorial import write_tutorial
 

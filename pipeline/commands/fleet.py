@@ -23,16 +23,10 @@ _SHOWN = 20  # lines of a kind in a terminal
 
 @fleet_app.command(example="fleet sessions --out fleet.parquet --report fleet.html")
 def fleet(
-    places: Annotated[
-        list[Path], typer.Argument(metavar="DIR...", help="Sessions, archives, or folders that hold them.")
-    ],
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="Parquet table to write; sessions that it already has are not read again."
-        ),
-    ] = None,
-    report: Annotated[Path | None, typer.Option(metavar="FILE", help="HTML or PDF page to write.")] = None,
+    places: list[Path],
+    /,
+    out: Path | None = None,
+    report: Path | None = None,
     max_age: Annotated[
         int, typer.Option(min=1, max=36_500, help="Age at which a calibration is due, days.")
     ] = 365,
@@ -46,6 +40,15 @@ def fleet(
     is due when the sensor's certificate runs out (report.due of the session), or at --max-age. What is damaged
     or no session is named and left out; a sensor whose serial number is missing is judged alone. Exit code 1: a
     calibration is overdue, a session stands out, or one is damaged.
+
+    Parameters
+    ----------
+    places : DIR...
+        Sessions, archives, or folders that hold them.
+    out : FILE
+        Parquet table to write; sessions that it already has are not read again.
+    report : FILE
+        HTML or PDF page to write.
     """
     _refuse_outputs(out, report)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time

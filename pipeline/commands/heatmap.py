@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.heatmap import Heatmap
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.heatmap.selection import Selection
@@ -34,9 +34,9 @@ _HEAD = 4096  # bytes that tell a verification from a table
 class HeatmapFiles:
     """What a heatmap is made from; `mount` as a session says, degrees about x, y, z."""
 
-    contacts: Path
-    probe: Path
-    calibration: Path | None
+    contacts: File
+    probe: File
+    calibration: File | None
     mount: tuple[float, float, float] | None = None
 
 
@@ -58,11 +58,11 @@ def chosen(
         yield HeatmapFiles(contacts, probe, calibration)
         return
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.recompute import lay_out, mount_of, newest_inputs
+    from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
 
-    with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
+    with Session.open(contacts, write=False) as session:
         roles = newest_inputs(session.state, "report" if judged else "heatmap")
-        found = lay_out(session.folder, session.state, roles, Path(scratch))
+        found = inputs_of(session.folder, session.state, roles)
         said = ", ".join(f"{role} {file.name}" for role, file in found.items())
         say(f"from the session: {said}")
         main = found["verification" if judged else "recording"]
@@ -70,7 +70,7 @@ def chosen(
         yield HeatmapFiles(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
-def probe_in_sensor_frame(file: Path) -> ProbeFile:
+def probe_in_sensor_frame(file: File) -> ProbeFile:
     """Return a probe; HeatmapError if it was never aligned with the sensor."""
     from contactbench.pipeline.heatmap import HeatmapError
     from contactbench.pipeline.mesh.sidecar import load_probe_file
@@ -146,7 +146,7 @@ def _located(
         )
 
 
-def _is_json(file: Path) -> bool:
+def _is_json(file: File) -> bool:
     """Tell whether a file is an object in JSON; what cannot be read is refused where it is read."""
     if file.suffix.lower() == ".json":
         return True
@@ -186,50 +186,22 @@ class NormalisationName(StrEnum):
     example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"),
 )
 def draw(
-    contacts: Annotated[
-        Path,
-        typer.Argument(
-            metavar="CONTACTS", help="Recording, CSV of contacts, verification, or folder of a session."
-        ),
-    ],
-    out: Annotated[
-        Path,
-        typer.Option(
-            help="File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film:"
-            " .mp4 or .gif."
-        ),
-    ],
+    contacts: Path,
+    /,
+    out: Path,
     turned: MountSettings,
-    probe: Annotated[
-        Path | None,
-        typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
-    ] = None,
-    calibration: Annotated[
-        Path | None, typer.Option(help="For a recording: what contactbench calibrate fit wrote.")
-    ] = None,
-    quantity: Annotated[QuantityName, typer.Option(help="Quantity to show.")] = QuantityName.density,
-    bandwidth: Annotated[
-        float | None,
-        typer.Option(
-            help="Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5]."
-        ),
-    ] = None,
+    probe: Path | None = None,
+    calibration: Path | None = None,
+    quantity: QuantityName = QuantityName.density,
+    bandwidth: float | None = None,
     normalisation: Annotated[
         NormalisationName, typer.Option("--per", help="Integral of a density over the surface.")
     ] = NormalisationName.contacts,
-    wrenches: Annotated[
-        Path | None,
-        typer.Option(help="For a CSV of contacts: the wrenches they were located from, for forces."),
-    ] = None,
-    markers: Annotated[
-        Path | None,
-        typer.Option(help="For the error: CSV with x_mm,y_mm,z_mm of the touched points."),
-    ] = None,
-    marker_distance: Annotated[
-        float, typer.Option(help="A contact farther than this from every marker touched none, mm.")
-    ] = 10.0,
-    delay: Annotated[float, typer.Option(help="Delay of a wrench after its pose, s.")] = 0.0,
-    min_force: Annotated[float, typer.Option(help="In a recording, a touch is above this force, N.")] = 0.5,
+    wrenches: Path | None = None,
+    markers: Path | None = None,
+    marker_distance: float = 10.0,
+    delay: float = 0.0,
+    min_force: float = 0.5,
     start: Annotated[
         float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
     ] = None,
@@ -242,17 +214,9 @@ def draw(
     most_force: Annotated[
         float | None, typer.Option("--force-to", help="Only contacts with this force or less, N.")
     ] = None,
-    by_confidence: Annotated[
-        bool,
-        typer.Option("--by-confidence", help="Weight each contact by the confidence of its place, 0 to 1."),
-    ] = False,
-    speed: Annotated[
-        float, typer.Option(help="Film: seconds of contacts per second of film, 0.1 to 50.")
-    ] = 1.0,
-    last: Annotated[
-        float | None,
-        typer.Option(help="Film: show only the last seconds [touched places stay], s."),
-    ] = None,
+    by_confidence: bool = False,
+    speed: float = 1.0,
+    last: float | None = None,
 ) -> None:
     """Show where the probe was touched: how often, how hard, how certain and how accurate.
 
@@ -263,6 +227,38 @@ def draw(
     The integral of a density over the surface is the number of contacts, their seconds, or contacts per
     second. The peak is the largest force within one bandwidth. A film, .mp4 or .gif, shows it over
     time.
+
+    Parameters
+    ----------
+    contacts
+        Recording, CSV of contacts, verification, or folder of a session.
+    out
+        File to write: .png; a page .html or .pdf; .ply or .glb with the value at each vertex; or a film: .mp4
+        or .gif.
+    probe
+        Probe that contactbench prepared, .ply [in a session: its newest].
+    calibration
+        For a recording: what contactbench calibrate fit wrote.
+    quantity
+        Quantity to show.
+    bandwidth
+        Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5].
+    wrenches
+        For a CSV of contacts: the wrenches they were located from, for forces.
+    markers
+        For the error: CSV with x_mm,y_mm,z_mm of the touched points.
+    marker_distance
+        A contact farther than this from every marker touched none, mm.
+    delay
+        Delay of a wrench after its pose, s.
+    min_force
+        In a recording, a touch is above this force, N.
+    by_confidence
+        Weight each contact by the confidence of its place, 0 to 1.
+    speed
+        Film: seconds of contacts per second of film, 0.1 to 50.
+    last
+        Film: show only the last seconds [touched places stay], s.
     """
     kind = out.suffix.lower()
     if kind not in (*_SUFFIXES, *_PAGES, *_FILMS):
@@ -301,7 +297,7 @@ def draw(
     answer({**facts, "noise": _noise(found)})
 
 
-def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
+def _check_weight(file: File, found: Contacts, selection: Selection) -> None:
     """Refuse, with the file's name, a weight that the contacts do not have."""
     from contactbench.pipeline.heatmap import HeatmapError
     from contactbench.pipeline.heatmap.selection import weights_of

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, numbers, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
+from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -12,21 +12,36 @@ from contactbench.pipeline.console import Noun, answer, say
 
 markers_app = Noun("Make markers for a probe, and move them onto its surface.")
 
-ProbeArgument = Annotated[Path, typer.Argument(metavar="PROBE", help="The probe, aligned with the sensor.")]
+
 MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
 
 
 @markers_app.command(example="probe markers generate probe.ply --all --count 17 --out markers.csv")
 def generate(
-    probe: ProbeArgument,
+    probe: Path,
+    /,
     out: MarkersOut,
-    region: Annotated[int | None, typer.Option(help="Only on the region with this rank.")] = None,
-    everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
-    count: Annotated[int, typer.Option(help="Number of markers, spread evenly.")] = 17,
-    grid: Annotated[float | None, typer.Option(help="Instead: markers on a grid of this pitch, mm.")] = None,
+    region: int | None = None,
+    all_: bool = False,
+    count: int = 17,
+    grid: float | None = None,
 ) -> None:
-    """Place markers on a probe, spread evenly or on a grid; every call gives the same ones."""
-    if (region is None) != everywhere:
+    """Place markers on a probe, spread evenly or on a grid; every call gives the same ones.
+
+    Parameters
+    ----------
+    probe
+        The probe, aligned with the sensor.
+    region
+        Only on the region with this rank.
+    all_
+        Anywhere on the probe.
+    count
+        Number of markers, spread evenly.
+    grid
+        Instead: markers on a grid of this pitch, mm.
+    """
+    if (region is None) != all_:
         raise typer.BadParameter("give either --region N or --all.")
     refuse_overwriting(out, [probe])
     from contactbench.pipeline.verification import grid_markers, spread_markers
@@ -42,13 +57,18 @@ def generate(
 
 
 @markers_app.command(example="probe markers snap measured.csv --probe probe.ply --out markers.csv")
-def snap(
-    markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
-    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
-    out: MarkersOut,
-    limit: Annotated[float, typer.Option(help="Refuse markers farther from the surface, mm.")] = 5.0,
-) -> None:
-    """Move markers to the nearest points of a probe's surface, and print how far each moved."""
+def snap(markers: Path, /, probe: Path, out: MarkersOut, limit: float = 5.0) -> None:
+    """Move markers to the nearest points of a probe's surface, and print how far each moved.
+
+    Parameters
+    ----------
+    markers
+        CSV file: name,x_mm,y_mm,z_mm.
+    probe
+        The probe, aligned with the sensor.
+    limit
+        Refuse markers farther from the surface, mm.
+    """
     refuse_overwriting(out, [markers, probe])
     from contactbench.pipeline.verification import load_markers
     from contactbench.pipeline.verification import snap as snapped

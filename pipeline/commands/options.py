@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import numbers, say
+from contactbench.pipeline.console import say
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,16 +34,6 @@ SerialOption = Annotated[
     list[str] | None,
     typer.Option(
         "--serial", metavar="DEVICE=NUMBER", help="A serial number, for the report; may be repeated."
-    ),
-]
-
-RealityOption = Annotated[
-    str,
-    typer.Option(
-        "--reality",
-        metavar="MIX|EFFECT=SIZE,...",
-        help="Deviation from the ideal bench: ideal, typical, harsh or tissue, effects with their"
-        " sizes, or both, such as typical,cable=0.2. `contactbench bench reality` lists them.",
     ),
 ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,12 +11,12 @@ import typer
 from contactbench.pipeline.commands.markers import markers_app
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.commands.regions import regions_app
-from contactbench.pipeline.console import Bar, Noun, answer, numbers, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.settings import Only, ProbeSettings, metres
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
@@ -85,111 +86,191 @@ def share(bar: Bar) -> Callable[[float], None]:
     return lambda share: bar(round(1000 * share), 1000)
 
 
+Three = tuple[float, float, float]
+Pose = tuple[float, float, float, float, float, float]
+
+# Options that only some ways to align have.
+_GOES_WITH = {
+    "toward": ("--flange-face",),
+    "clock": ("--flange-face",),
+    "tip": ("--axes",),
+    "offset": ("--flange-face", "--axes"),
+    "noise_force": ("--touches",),
+    "noise_torque": ("--touches",),
+    "placement": ("--touches",),
+}
+
+
+@dataclass(frozen=True)
+class WayToAlign:
+    """
+    How a mesh is aligned with the sensor.
+
+    Parameters
+    ----------
+    place : X,Y,Z,RX,RY,RZ
+        Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With --touches: the
+        probe's present pose.
+    alignment
+        Instead: the .json file written by --save.
+    points
+        CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more.
+    frame : OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ
+        Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.
+    flange_face
+        Facet on the plane face that sits on the sensor, counted from 0.
+    toward : X,Y,Z
+        With --flange-face: point of the mesh that lies towards +x, mm.
+    clock
+        With --toward: turn by this angle about z, degrees.
+    axes
+        Use the principal axes: longest along z, widest along x.
+    tip : X,Y,Z
+        With --axes: a point of the mesh near the tip, mm.
+    offset
+        With --flange-face or --axes: height of the mounting plane in S, mm [0].
+    touches
+        CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated).
+    noise_force
+        With --touches: standard deviation of a force, N [0.05].
+    noise_torque
+        The same for a torque, N·m [0.002].
+    placement
+        With --touches: accuracy of hitting a marker, mm, one standard deviation [0.3].
+    """
+
+    place: Pose | None = None
+    alignment: Path | None = None
+    points: Path | None = None
+    frame: tuple[float, float, float, float, float, float, float, float, float] | None = None
+    flange_face: int | None = None
+    toward: Three | None = None
+    clock: float | None = None
+    axes: bool = False
+    tip: Three | None = None
+    offset: float | None = None
+    touches: Path | None = None
+    noise_force: float | None = None
+    noise_torque: float | None = None
+    placement: float | None = None
+
+    @property
+    def option(self) -> str:
+        """The option that says how; typer.BadParameter unless there is one, and no others than go with it."""
+        given = {
+            "--points": self.points is not None,
+            "--frame": self.frame is not None,
+            "--flange-face": self.flange_face is not None,
+            "--axes": self.axes,
+            "--touches": self.touches is not None,
+        }
+        ways = [option for option, there in given.items() if there]
+        if self.touches is None and (self.place is not None or self.alignment is not None):
+            ways.append("--place")
+        if len(ways) != 1:
+            raise typer.BadParameter(
+                "give one way to align: --place, --alignment, --points, --frame, --flange-face, --axes, or --touches"
+                " with --place."
+            )
+        (way,) = ways
+        for name, belongs in _GOES_WITH.items():
+            if getattr(self, name) is not None and way not in belongs:
+                option = f"--{name.replace('_', '-')}"
+                raise typer.BadParameter(f"{option} goes with {' or '.join(belongs)}, not with {way}.")
+        return way
+
+    def placed(self) -> Alignment | None:
+        """Return the alignment that was given, if one was; typer.BadParameter if two were."""
+        from contactbench.pipeline.preparation.prepare import alignment_of
+
+        if self.place is not None and self.alignment is not None:
+            raise typer.BadParameter("--place and --alignment contradict each other: give only one.")
+        return alignment_of(ProbeSettings.checked({"mount": self.place}), self.alignment)
+
+    def by_touches(self, content: ProbeFile, touches: Path) -> TouchAlignment:
+        """Return the alignment that touches of markers show."""
+        from contactbench.pipeline.contact import WrenchNoise
+        from contactbench.pipeline.preparation.alignment import align_touches, read_touches
+
+        start = self.placed()
+        if start is None:
+            raise typer.BadParameter("--touches needs the probe's present pose: give --place or --alignment.")
+        force = 0.05 if self.noise_force is None else self.noise_force
+        torque = 0.002 if self.noise_torque is None else self.noise_torque
+        with Bar("cross-validating", counted=True) as bar:
+            return align_touches(
+                content.probe,
+                read_touches(touches),
+                start.T_SP,
+                WrenchNoise(force, torque),
+                placement=(0.3 if self.placement is None else self.placement) / 1000,
+                progress=share(bar),
+            )
+
+    def by_shape(self, content: ProbeFile) -> Alignment:
+        """Return the alignment that points or faces of the mesh give."""
+        import numpy as np
+
+        from contactbench.pipeline.preparation.alignment import (
+            align_axes,
+            align_flange,
+            align_frame,
+            align_points,
+            find_mounting_face,
+        )
+        from contactbench.pipeline.preparation.alignment.point_csv import read_points
+
+        offset = (self.offset or 0.0) / 1000
+        if self.points is not None:
+            return align_points(*read_points(self.points))
+        if self.frame is not None:
+            return align_frame(*(np.array(self.frame) / 1000).reshape(3, 3))
+        if self.flange_face is not None:
+            picked = None if self.toward is None else np.array(self.toward) / 1000
+            face = find_mounting_face(content.probe, self.flange_face)
+            return align_flange(face, offset=offset, toward_P=picked, clock_deg=self.clock or 0.0)
+        near = None if self.tip is None else np.array(self.tip) / 1000
+        return align_axes(content.probe, tip_P=near, offset=offset).alignment
+
+
 @probe_app.command(example="probe align shell.ply --place 0,0,45,0,0,90 --out aligned.ply")
 def align(
     file: MeshArgument,
+    /,
     out: OutOption,
     read: Units,
-    place: Annotated[
-        str | None,
-        typer.Option(
-            "--place",
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With"
-            " --touches: the probe's present pose.",
-        ),
-    ] = None,
-    alignment: Annotated[Path | None, typer.Option(help="Instead: the .json file written by --save.")] = None,
-    points: Annotated[
-        Path | None,
-        typer.Option(help="CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more."),
-    ] = None,
-    frame: Annotated[
-        str | None,
-        typer.Option(
-            metavar="OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ",
-            help="Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.",
-        ),
-    ] = None,
-    flange_face: Annotated[
-        int | None, typer.Option(help="Facet on the plane face that sits on the sensor, counted from 0.")
-    ] = None,
-    toward: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y,Z", help="With --flange-face: point of the mesh that lies towards +x, mm."),
-    ] = None,
-    clock: Annotated[
-        float | None, typer.Option(help="With --toward: turn by this angle about z, degrees.")
-    ] = None,
-    axes: Annotated[
-        bool, typer.Option("--axes", help="Use the principal axes: longest along z, widest along x.")
-    ] = False,
-    tip: Annotated[
-        str | None, typer.Option(metavar="X,Y,Z", help="With --axes: a point of the mesh near the tip, mm.")
-    ] = None,
-    offset: Annotated[
-        float | None,
-        typer.Option(help="With --flange-face or --axes: height of the mounting plane in S, mm [0]."),
-    ] = None,
-    touches: Annotated[
-        Path | None,
-        typer.Option(
-            help="CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated)."
-        ),
-    ] = None,
-    noise_force: Annotated[
-        float | None, typer.Option(help="With --touches: standard deviation of a force, N [0.05].")
-    ] = None,
-    noise_torque: Annotated[float | None, typer.Option(help="The same for a torque, N·m [0.002].")] = None,
-    placement: Annotated[
-        float | None,
-        typer.Option(help="With --touches: accuracy of hitting a marker, mm, one standard deviation [0.3]."),
-    ] = None,
-    again: Annotated[
-        bool, typer.Option("--again", help="The probe is already in S: correct it there.")
-    ] = False,
-    save: Annotated[Path | None, typer.Option(help="Also write the alignment itself, .json.")] = None,
+    chosen: WayToAlign,
+    again: bool = False,
+    save: Path | None = None,
 ) -> None:
     """Move a mesh from its own frame P into the sensor frame S.
 
     By one of: typed numbers, matching points, the face that sits on the sensor, the principal axes, or
     touches of marked points. Exit code 1: the touches do not prove a better mount than the present one,
     which is kept.
+
+    Parameters
+    ----------
+    again
+        The probe is already in S: correct it there.
+    save
+        Also write the alignment itself, .json.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.alignment import Advice
     from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
 
-    _check_files(file, out, save, (alignment, points, touches))
-    way = _one_way(place, alignment, points, frame, flange_face, axes, touches)
-    _refuse_strangers(
-        way,
-        {
-            "--toward": (toward, ("--flange-face",)),
-            "--clock": (clock, ("--flange-face",)),
-            "--tip": (tip, ("--axes",)),
-            "--offset": (offset, ("--flange-face", "--axes")),
-            "--noise-force": (noise_force, ("--touches",)),
-            "--noise-torque": (noise_torque, ("--touches",)),
-            "--placement": (placement, ("--touches",)),
-        },
-    )
+    _check_files(file, out, save, (chosen.alignment, chosen.points, chosen.touches))
+    way = chosen.option
     content = open_mesh(file, read, out)
     refuse_aligned(content, again=again)
     by_touch: TouchAlignment | None = None
     found: Alignment | None
-    if touches is not None:
-        noise = (
-            0.05 if noise_force is None else noise_force,
-            0.002 if noise_torque is None else noise_torque,
-        )
-        hit = 0.3 if placement is None else placement
-        by_touch = _by_touches(content, touches, place, alignment, noise, hit)
+    if chosen.touches is not None:
+        by_touch = chosen.by_touches(content, chosen.touches)
         found = by_touch.fitted
-    elif way == "--place":
-        found = chosen_place(place, alignment)
     else:
-        found = _by_shape(content, points, frame, flange_face, toward, clock or 0.0, tip, offset or 0.0)
+        found = chosen.placed() if way == "--place" else chosen.by_shape(content)
     assert found is not None  # noqa: S101  (one way was given)
     adopted = by_touch is None or by_touch.advice is Advice.ADOPT
     _tell(found, by_touch)
@@ -205,41 +286,6 @@ def align(
         raise typer.Exit(1)
 
 
-def _one_way(
-    place: str | None,
-    alignment: Path | None,
-    points: Path | None,
-    frame: str | None,
-    flange_face: int | None,
-    axes: bool,
-    touches: Path | None,
-) -> str:
-    """Return the option that says how to align; typer.BadParameter unless there is one."""
-    given = {
-        "--points": points is not None,
-        "--frame": frame is not None,
-        "--flange-face": flange_face is not None,
-        "--axes": axes,
-        "--touches": touches is not None,
-    }
-    ways = [option for option, there in given.items() if there]
-    if touches is None and (place is not None or alignment is not None):
-        ways.append("--place")
-    if len(ways) != 1:
-        raise typer.BadParameter(
-            "give one way to align: --place, --alignment, --points, --frame, --flange-face, --axes, or --touches"
-            " with --place."
-        )
-    return ways[0]
-
-
-def _refuse_strangers(way: str, options: Mapping[str, tuple[object, Sequence[str]]]) -> None:
-    """Refuse options of another way than the chosen one; typer.BadParameter."""
-    for option, (value, belongs) in options.items():
-        if value is not None and way not in belongs:
-            raise typer.BadParameter(f"{option} goes with {' or '.join(belongs)}, not with {way}.")
-
-
 def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path | None]) -> None:
     """Refuse to write over what is read or written; typer.BadParameter."""
     inputs = [path for path in (file, *read) if path is not None]
@@ -248,80 +294,6 @@ def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path |
         refuse_overwriting(save, inputs)
         if save.resolve() in (out.resolve(), out.with_suffix(".json").resolve()):
             raise typer.BadParameter(f"--save {save} is also the probe's file: choose another name.")
-
-
-def chosen_place(place: str | None, alignment: Path | None) -> Alignment | None:
-    """Return the alignment that ``--place`` or ``--alignment`` gives, if one was given.
-
-    Raises
-    ------
-    typer.BadParameter
-        Both were.
-    """
-    from contactbench.pipeline.preparation.prepare import alignment_of
-
-    if place is not None and alignment is not None:
-        raise typer.BadParameter("--place and --alignment contradict each other: give only one.")
-    mount = None if place is None else numbers(place, 6, "--place")
-    return alignment_of(ProbeSettings.checked({"mount": mount}), alignment)
-
-
-def _by_touches(
-    content: ProbeFile,
-    touches: Path,
-    place: str | None,
-    alignment: Path | None,
-    noise: tuple[float, float],
-    placement: float,
-) -> TouchAlignment:
-    from contactbench.pipeline.contact import WrenchNoise
-    from contactbench.pipeline.preparation.alignment import align_touches, read_touches
-
-    start = chosen_place(place, alignment)
-    if start is None:
-        raise typer.BadParameter("--touches needs the probe's present pose: give --place or --alignment.")
-    with Bar("cross-validating", counted=True) as bar:
-        return align_touches(
-            content.probe,
-            read_touches(touches),
-            start.T_SP,
-            WrenchNoise(*noise),
-            placement=placement / 1000,
-            progress=share(bar),
-        )
-
-
-def _by_shape(
-    content: ProbeFile,
-    points: Path | None,
-    frame: str | None,
-    flange_face: int | None,
-    toward: str | None,
-    clock: float,
-    tip: str | None,
-    offset: float,
-) -> Alignment:
-    import numpy as np
-
-    from contactbench.pipeline.preparation.alignment import (
-        align_axes,
-        align_flange,
-        align_frame,
-        align_points,
-        find_mounting_face,
-    )
-    from contactbench.pipeline.preparation.alignment.point_csv import read_points
-
-    if points is not None:
-        return align_points(*read_points(points))
-    if frame is not None:
-        return align_frame(*(np.array(numbers(frame, 9, "--frame")) / 1000).reshape(3, 3))
-    if flange_face is not None:
-        picked = None if toward is None else np.array(numbers(toward, 3, "--toward")) / 1000
-        face = find_mounting_face(content.probe, flange_face)
-        return align_flange(face, offset=offset / 1000, toward_P=picked, clock_deg=clock)
-    near = None if tip is None else np.array(numbers(tip, 3, "--tip")) / 1000
-    return align_axes(content.probe, tip_P=near, offset=offset / 1000).alignment
 
 
 def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
@@ -406,11 +378,7 @@ def shell(
 
 
 @probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
-def simplify(
-    file: MeshArgument,
-    out: OutOption,
-    given: Simplified,
-) -> None:
+def simplify(file: MeshArgument, out: OutOption, given: Simplified) -> None:
     """Reduce the facets of a probe, and report the resulting error.
 
     Distances and angles are measured against the input mesh, both ways.
@@ -442,20 +410,32 @@ def simplify(
 @probe_app.command(example="probe ladder aligned.ply --out ladder")
 def ladder(
     file: MeshArgument,
+    /,
     given: Annotated[ProbeSettings, Only("units", "max_contact_error", "forces", "engine", "region_ratio")],
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-ladder"),
-    facets: Annotated[
-        str | None, typer.Option(metavar="N,N,...", help="Facet counts to try [250 to 20,000].")
-    ] = None,
-    noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
-    touches: Annotated[int, typer.Option(help="Touches to locate.")] = 4_000,
+    out: Path = Path("contactbench-ladder"),
+    facets: str | None = None,
+    noise_force: float = 0.05,
+    noise_torque: float = 0.002,
+    touches: int = 4_000,
 ) -> None:
     """Compare accuracy and speed over a range of facet counts, and recommend one.
 
     The same touches, with the sensor's noise, are located on the full mesh and on each simplified one.
     Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh meets the
     goal.
+
+    Parameters
+    ----------
+    out : DIR
+        Folder to write.
+    facets : N,N,...
+        Facet counts to try [250 to 20,000].
+    noise_force
+        Standard deviation of a force, N.
+    noise_torque
+        Standard deviation of a torque, N·m.
+    touches
+        Touches to locate.
     """
     from contactbench.pipeline.contact import WrenchNoise
     from contactbench.pipeline.preparation.ladder import (
@@ -494,17 +474,17 @@ def ladder(
 
 @probe_app.command(example="probe prepare housing.stl --place 0,0,45,0,0,90 --out probe.ply")
 def prepare(
-    file: MeshArgument,
-    out: OutOption,
-    given: ProbeSettings,
-    alignment: Annotated[
-        Path | None, typer.Option(help="Instead: the .json file written by `probe align --save`.")
-    ] = None,
+    file: MeshArgument, /, out: OutOption, given: ProbeSettings, alignment: Path | None = None
 ) -> None:
     """Read, close, align and simplify a mesh, and write the probe with its history, all in one go.
 
     Regions in the file are kept. Exit code 1: the result is not valid (open, crossing, folded or inside
     out), and nothing is written.
+
+    Parameters
+    ----------
+    alignment
+        Instead: the .json file written by `probe align --save`.
     """
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepared

@@ -37,18 +37,7 @@ _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 @record_app.command(example="record start sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
 def start(
-    address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Address of the sensor.")],
-    out: Annotated[Path, typer.Option(help="Recording to write, .mcap; never overwrites a file.")],
-    pose: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Also record a robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
-            " poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).",
-        ),
-    ] = None,
-    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
-    note: Annotated[str, typer.Option(help="Note to keep with the recording.")] = "",
+    address: str, /, out: Path, pose: str | None = None, seconds: float | None = None, note: str = ""
 ) -> None:
     """Record a force/torque sensor until Ctrl-C, or for some seconds.
 
@@ -57,6 +46,20 @@ def start(
     keeps its times. Only the commands needed for streaming are sent: no sensor is zeroed. A lost connection
     is reopened; the gap remains. Exit code 1: one of them sent no sample, a stream failed, or a replay could
     not be read to its end; without samples no file is kept.
+
+    Parameters
+    ----------
+    address
+        Address of the sensor.
+    out
+        Recording to write, .mcap; never overwrites a file.
+    pose : ADDRESS
+        Also record a robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
+        poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).
+    seconds
+        Duration, s [until Ctrl-C].
+    note
+        Note to keep with the recording.
     """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
@@ -342,14 +345,7 @@ def info(file: FileArgument) -> None:
 
 
 @record_app.command(example="record convert touches.mcap --out touches.csv")
-def convert(
-    file: FileArgument,
-    out: Annotated[Path, typer.Option(help="File to write: .csv or .npz.")],
-    topic: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Only this topic [the only sensor, else the only robot]."),
-    ] = None,
-) -> None:
+def convert(file: FileArgument, /, out: Path, topic: str | None = None) -> None:
     """Write a recording as .csv or .npz.
 
     CSV: one topic, as locate and calibrate captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
@@ -357,6 +353,13 @@ def convert(
     the device, or without a pose, are left out. NPZ: everything, unchanged.
 
     Exit code 1: the recording is cut off or damaged; the readable part is written.
+
+    Parameters
+    ----------
+    out
+        File to write: .csv or .npz.
+    topic : NAME
+        Only this topic [the only sensor, else the only robot].
     """
     ending = out.suffix.lower()
     if ending not in (".csv", ".npz"):
@@ -407,20 +410,15 @@ def delay(file: FileArgument) -> None:
 
 @record_app.command("import-ros2", example="record import-ros2 bag_0.mcap --out touches.mcap")
 def import_bag(
-    bag: Annotated[Path, typer.Argument(metavar="BAG", help="ROS 2 bag, an MCAP file.")],
-    out: Annotated[Path, typer.Option(help="Recording to write; must not exist.")],
+    bag: Path,
+    /,
+    out: Path,
     joints: Annotated[PosesSettings, Only("robot")],
-    wrench_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the sensor.")] = None,
-    pose_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the robot.")] = None,
-    base: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of the robot's base.")] = None,
-    flange: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of its flange.")] = None,
-    header_stamps: Annotated[
-        bool,
-        typer.Option(
-            "--header-stamps",
-            help="Use the times in the headers instead of those when the bag received them.",
-        ),
-    ] = False,
+    wrench_topic: str | None = None,
+    pose_topic: str | None = None,
+    base: str | None = None,
+    flange: str | None = None,
+    header_stamps: bool = False,
 ) -> None:
     """Convert a ROS 2 bag in MCAP format to a recording; ROS is not needed.
 
@@ -429,6 +427,23 @@ def import_bag(
     its kind is used; otherwise the error lists them.
 
     Exit code 1: something in the bag is damaged or missing; the readable part is written.
+
+    Parameters
+    ----------
+    bag
+        ROS 2 bag, an MCAP file.
+    out
+        Recording to write; must not exist.
+    wrench_topic : NAME
+        Topic of the sensor.
+    pose_topic : NAME
+        Topic of the robot.
+    base : NAME
+        Frame of the robot's base.
+    flange : NAME
+        Frame of its flange.
+    header_stamps
+        Use the times in the headers instead of those when the bag received them.
     """
     from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
     from contactbench.pipeline.robot import Robot

@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import Noun, as_json, numbers, print_json, running_command, say
+from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
+from contactbench.pipeline.parameter_options import numbers
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
 
 
+Three = tuple[float, float, float]
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
 ]
@@ -209,11 +213,11 @@ def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
     Console(markup=False).print(table)
 
 
-def metres(text: str, option: str) -> NDArray[np.float64]:
-    """Return x,y,z (3,) in metres from millimetres on the command line; typer.BadParameter if it is not that."""
+def metres(millimetres: Sequence[float]) -> NDArray[np.float64]:
+    """Return a point (3,) in m."""
     import numpy as np
 
-    return np.array(numbers(text, 3, option)) / 1000
+    return np.array(millimetres) / 1000
 
 
 regions_app = Noun(
@@ -224,8 +228,6 @@ regions_app = Noun(
     " chosen, but none changed."
 )
 
-ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the next of a palette]")]
-
 
 @regions_app.command("list", example="probe regions list probe.ply")
 def list_regions(mesh: MeshArgument) -> None:
@@ -235,12 +237,16 @@ def list_regions(mesh: MeshArgument) -> None:
 
 
 @regions_app.command(example="probe regions add probe.ply Lens --colour '#e69f00'")
-def add(
-    mesh: MeshArgument,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
-    colour: ColourOption = None,
-) -> None:
-    """Add an empty region, with the last priority."""
+def add(mesh: MeshArgument, name: str, /, colour: str | None = None) -> None:
+    """Add an empty region, with the last priority.
+
+    Parameters
+    ----------
+    name
+        Name, at most 64 characters.
+    colour : #RRGGBB
+        Its colour [the next of a palette].
+    """
     session = ProbeRegions(mesh)
     session.model.add(name, colour)
     session.finish(None)
@@ -257,24 +263,28 @@ def remove(mesh: MeshArgument, region: RegionArgument) -> None:
 
 
 @regions_app.command(example="probe regions rename probe.ply Lens 'Acoustic window'")
-def rename(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
-) -> None:
-    """Give a region another name."""
+def rename(mesh: MeshArgument, region: RegionArgument, name: str, /) -> None:
+    """Give a region another name.
+
+    Parameters
+    ----------
+    name
+        New name, at most 64 characters.
+    """
     session = ProbeRegions(mesh)
     session.model.rename(session.rank(region), name)
     session.finish(None)
 
 
 @regions_app.command(example="probe regions colour probe.ply Lens '#0072b2'")
-def colour(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    value: Annotated[str, typer.Argument(metavar="#RRGGBB")],
-) -> None:
-    """Give a region another colour."""
+def colour(mesh: MeshArgument, region: RegionArgument, value: str, /) -> None:
+    """Give a region another colour.
+
+    Parameters
+    ----------
+    value : #RRGGBB
+        New colour.
+    """
     session = ProbeRegions(mesh)
     session.model.recolour(session.rank(region), value)
     session.finish(None)
@@ -298,11 +308,14 @@ def mark(
 
 
 @regions_app.command(example="probe regions reorder probe.ply Lens Neck Handle")
-def reorder(
-    mesh: MeshArgument,
-    order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Names of all regions, each once.")],
-) -> None:
-    """Change the priorities: name all regions, highest priority first."""
+def reorder(mesh: MeshArgument, order: list[str], /) -> None:
+    """Change the priorities: name all regions, highest priority first.
+
+    Parameters
+    ----------
+    order : REGION...
+        Names of all regions, each once.
+    """
     session = ProbeRegions(mesh)
     session.model.reorder([session.rank(region) for region in order])
     session.finish(None)
@@ -325,13 +338,15 @@ def redo(mesh: MeshArgument) -> None:
 
 
 @regions_app.command(example="probe regions export probe.ply --out regions.json")
-def export(
-    mesh: MeshArgument,
-    out: Annotated[Path, typer.Option(help="File to write, .json or .csv.")],
-) -> None:
+def export(mesh: MeshArgument, /, out: Path) -> None:
     """Export the regions to a .json or .csv file.
 
     JSON contains names, colours, marks and facets, and fits only this mesh; CSV contains face,region.
+
+    Parameters
+    ----------
+    out
+        File to write, .json or .csv.
     """
     from contactbench.pipeline.mesh.regions import RegionError, save_regions
     from contactbench.pipeline.mesh.sidecar import sidecar_of
@@ -345,14 +360,16 @@ def export(
 
 
 @regions_app.command("import", example="probe regions import probe.ply regions.json")
-def import_regions(
-    mesh: MeshArgument,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=".json or .csv.")],
-) -> None:
+def import_regions(mesh: MeshArgument, file: Path, /) -> None:
     """Replace all regions of a probe by those in a .json or .csv file.
 
     A .json file fits only the mesh it was made for; for another mesh use transfer. With .csv, existing
     names, colours and marks are kept.
+
+    Parameters
+    ----------
+    file
+        .json or .csv.
     """
     from contactbench.pipeline.mesh.regions import RegionSet, load_regions
 
@@ -366,19 +383,22 @@ def import_regions(
 
 
 @regions_app.command(example="probe regions transfer probe.ply probe-1000.ply")
-def transfer(
-    old: Annotated[Path, typer.Argument(metavar="OLD", help="Probe with regions, .ply.")],
-    new: Annotated[Path, typer.Argument(metavar="NEW", help="Probe that gets them, .ply; is overwritten.")],
-    reach: Annotated[
-        float | None, typer.Option(help="Facets farther than this from OLD get none, mm [2 % of the size].")
-    ] = None,
-) -> None:
+def transfer(old: Path, new: Path, /, reach: float | None = None) -> None:
     """Transfer the regions of one mesh to another mesh of the same surface.
 
     The other mesh may be simplified, a shell, or a new export.
 
     Both are in S. Each facet of NEW takes the region of the nearest facet of OLD that faces the same way.
     NEW's own regions are replaced. Exit code 1: a region vanished.
+
+    Parameters
+    ----------
+    old
+        Probe with regions, .ply.
+    new
+        Probe that gets them, .ply; is overwritten.
+    reach
+        Facets farther than this from OLD get none, mm [2 % of the size].
     """
     import warnings
 
@@ -434,31 +454,35 @@ NormalOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="Normal of the 
 def box(
     mesh: MeshArgument,
     region: RegionArgument,
-    low: Annotated[str, typer.Option(metavar="X,Y,Z", help="Lowest corner, mm.")],
-    high: Annotated[str, typer.Option(metavar="X,Y,Z", help="Highest corner, mm.")],
-    frame: Annotated[
-        str | None,
-        typer.Option(
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].",
-        ),
-    ] = None,
+    /,
+    low: Three,
+    high: Three,
+    frame: tuple[float, float, float, float, float, float] | None = None,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets whose centroid lies in a box."""
+    """Give REGION the facets whose centroid lies in a box.
+
+    Parameters
+    ----------
+    low : X,Y,Z
+        Lowest corner, mm.
+    high : X,Y,Z
+        Highest corner, mm.
+    frame : X,Y,Z,RX,RY,RZ
+        Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].
+    """
     from contactbench.pipeline.mesh.regions import in_box
 
-    corners = metres(low, "--low"), metres(high, "--high")
+    corners = metres(low), metres(high)
     session = ProbeRegions(mesh)
     if frame is None:
         chosen = in_box(session.graph, *corners)
     else:
         from scipy.spatial.transform import Rotation
 
-        values = numbers(frame, 6, "--frame")
-        R_SB = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()
-        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=[value / 1000 for value in values[:3]])
+        R_SB = Rotation.from_euler("xyz", frame[3:], degrees=True).as_matrix()
+        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=metres(frame[:3]))
     _assign(session, region, chosen, "box into", erase, protect)
 
 
@@ -474,7 +498,7 @@ def plane(
     """Give REGION the facets on the side of a plane to which its normal points."""
     from contactbench.pipeline.mesh.regions import half_space
 
-    where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
+    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
     session = ProbeRegions(mesh)
     chosen = half_space(session.graph, where, direction)
     _assign(session, region, chosen, "half into", erase, protect)
@@ -484,17 +508,24 @@ def plane(
 def flood(
     mesh: MeshArgument,
     region: RegionArgument,
-    at: Annotated[
-        str, typer.Option(metavar="X,Y,Z", help="Where to start: the facet nearest to this point, mm.")
-    ],
-    crease: Annotated[float, typer.Option(help="Sharpest edge to cross, degrees.")] = 30.0,
+    /,
+    at: Three,
+    crease: float = 30.0,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give REGION the facets around a point, up to edges sharper than --crease."""
+    """Give REGION the facets around a point, up to edges sharper than --crease.
+
+    Parameters
+    ----------
+    at : X,Y,Z
+        Where to start: the facet nearest to this point, mm.
+    crease
+        Sharpest edge to cross, degrees.
+    """
     from contactbench.pipeline.mesh.regions import flood as fill
 
-    where = metres(at, "--at")
+    where = metres(at)
     session = ProbeRegions(mesh)
     faces, _ = session.graph.pick(where)
     chosen = fill(session.graph, int(faces[0]), math.radians(crease))
@@ -505,12 +536,10 @@ def flood(
 def brush(
     mesh: MeshArgument,
     region: RegionArgument,
-    at: Annotated[list[str], typer.Option(metavar="X,Y,Z", help="A point of the stroke, mm.")],
-    radius: Annotated[float, typer.Option(help="Radius of the brush, mm.")],
-    straight: Annotated[
-        bool,
-        typer.Option("--straight", help="Measure through space, not along the surface."),
-    ] = False,
+    /,
+    at: list[Three],
+    radius: float,
+    straight: bool = False,
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
@@ -518,11 +547,20 @@ def brush(
 
     Give --at once for a dab, several times for a stroke. A point farther from the surface than the radius,
     or 2 % of the size if that is more, is refused.
+
+    Parameters
+    ----------
+    at : X,Y,Z
+        A point of the stroke, mm.
+    radius
+        Radius of the brush, mm.
+    straight
+        Measure through space, not along the surface.
     """
     from contactbench.pipeline.mesh.regions import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
-    where = [metres(text, "--at") for text in at]
+    where = [metres(each) for each in at]
     session = ProbeRegions(mesh)
     faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
     rank = session.rank(region)
@@ -535,10 +573,7 @@ def brush(
 
 @regions_app.command(example="probe regions grow probe.ply Lens --distance 2")
 def grow(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: RingsOption = None,
-    distance: DistanceOption = None,
+    mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Grow REGION at its border, by rings of facets or a distance. Other regions stay unchanged."""
     from contactbench.pipeline.mesh.regions import grow as extend
@@ -551,10 +586,7 @@ def grow(
 
 @regions_app.command(example="probe regions shrink probe.ply Lens --rings 2")
 def shrink(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: RingsOption = None,
-    distance: DistanceOption = None,
+    mesh: MeshArgument, region: RegionArgument, rings: RingsOption = None, distance: DistanceOption = None
 ) -> None:
     """Shrink REGION at its border, by rings of facets or a distance."""
     from contactbench.pipeline.mesh.regions import shrink as reduce
@@ -566,16 +598,15 @@ def shrink(
 
 
 @regions_app.command(example="probe regions smooth probe.ply Lens --rings 3")
-def smooth(
-    mesh: MeshArgument,
-    region: RegionArgument,
-    rings: Annotated[
-        int, typer.Option(help="Features narrower than about this many facets are removed.")
-    ] = 2,
-) -> None:
+def smooth(mesh: MeshArgument, region: RegionArgument, /, rings: int = 2) -> None:
     """Straighten the border of REGION, fill its holes and remove its specks.
 
     Its area and other regions stay unchanged.
+
+    Parameters
+    ----------
+    rings
+        Features narrower than about this many facets are removed.
     """
     from contactbench.pipeline.mesh.regions import smooth as straighten
 
@@ -589,20 +620,24 @@ def smooth(
 def mirror(
     mesh: MeshArgument,
     region: RegionArgument,
+    /,
     normal: NormalOption,
     point: PointOption = "0,0,0",
-    tolerance: Annotated[
-        float | None, typer.Option(help="Tolerance of a centroid, mm [the mean edge].")
-    ] = None,
+    tolerance: float | None = None,
     protect: ProtectOption = False,
 ) -> None:
     """Add the mirror images of its facets to REGION.
 
     Exit code 1: some facets have no counterpart, because the surface is not symmetric there.
+
+    Parameters
+    ----------
+    tolerance
+        Tolerance of a centroid, mm [the mean edge].
     """
     from contactbench.pipeline.mesh.regions import mirror as reflect
 
-    direction, where = numbers(normal, 3, "--normal"), metres(point, "--point")
+    direction, where = numbers(normal, 3, "--normal"), metres(numbers(point, 3, "--point"))
     session = ProbeRegions(mesh)
     rank = session.rank(region)
     reach = None if tolerance is None else tolerance / 1000
@@ -625,12 +660,7 @@ def clear(mesh: MeshArgument, region: RegionArgument) -> None:
 
 
 def _assign(
-    session: ProbeRegions,
-    region: str,
-    chosen: NDArray[np.bool_],
-    what: str,
-    erase: bool,
-    protect: bool,
+    session: ProbeRegions, region: str, chosen: NDArray[np.bool_], what: str, erase: bool, protect: bool
 ) -> None:
     rank = session.rank(region)
     text = f"{what} {session.name(rank)}"

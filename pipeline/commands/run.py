@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import queue
 import time
@@ -14,21 +15,30 @@ import typer
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.commands.record import Changes, broken
 from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, report_error, say
+from contactbench.pipeline.runtime.outputs import OUTPUTS, open_outputs
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import PatchReader
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.kernel import RuntimeContact
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime import Answer, Run
-    from contactbench.pipeline.runtime.outlet import OutletTarget
     from contactbench.pipeline.streams import Pair
 
 run_app = Noun()
+
+_OUTPUT_OPTIONS = [
+    inspect.Parameter(
+        each.name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=None,
+        annotation=Annotated[str | None, typer.Option(metavar=each.metavar, help=each.help)],
+    )
+    for each in OUTPUTS.values()
+]
 
 _LOOK_S = 0.05
 _STEPS = 500  # samples between looks at Ctrl-C
@@ -42,59 +52,16 @@ _PATCH_S = 1.0  # a line about the patch in so long
     ),
 )
 def run(
-    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    source: Annotated[
-        str, typer.Option(metavar="ADDRESS", help="Address of the force/torque sensor, or a replay.")
-    ],
-    pose: Annotated[
-        str,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,"
-            " poses:///file.csv, still://?rpy=0,90,0 (degrees).",
-        ),
-    ],
-    out: Annotated[
-        str | None, typer.Option(metavar="FILE|-", help="New file for the lines; - is standard output.")
-    ] = None,
-    mcap: Annotated[Path | None, typer.Option(help="New MCAP file for the contacts.")] = None,
-    udp: Annotated[
-        str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a UDP datagram.")
-    ] = None,
-    igtl: Annotated[
-        str | None,
-        typer.Option(
-            metavar="HOST:PORT", help="Serve contacts there to OpenIGTLink clients, such as 3D Slicer."
-        ),
-    ] = None,
-    foxglove: Annotated[
-        str | None,
-        typer.Option(
-            metavar="HOST:PORT", help="Serve contacts and a picture there to Foxglove (extra live)."
-        ),
-    ] = None,
-    dds: Annotated[
-        str | None,
-        typer.Option(metavar="DOMAIN", help="Publish contacts to ROS 2 in this DDS domain (extra live)."),
-    ] = None,
-    mqtt: Annotated[
-        str | None,
-        typer.Option(metavar="HOST:PORT/TOPIC", help="Publish contacts to this MQTT broker (extra live)."),
-    ] = None,
+    bundle: Path,
+    /,
+    source: str,
+    pose: str,
     patch: PatchOption = None,
-    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
-    unverified: Annotated[
-        bool, typer.Option("--unverified", help="Accept a bundle that is not verified.")
-    ] = False,
-    other_sensor: Annotated[
-        bool, typer.Option("--other-sensor", help="Also run with a sensor of another serial number.")
-    ] = False,
-    allow_remote: Annotated[
-        bool,
-        typer.Option(
-            "--allow-remote", help="Outputs may reach other machines, neither encrypted nor signed."
-        ),
-    ] = False,
+    seconds: float | None = None,
+    unverified: bool = False,
+    other_sensor: bool = False,
+    allow_remote: bool = False,
+    **addresses: Annotated[str | None, _OUTPUT_OPTIONS],
 ) -> None:
     """Run a bundle on live streams, and locate the contact at every sample.
 
@@ -113,20 +80,37 @@ def run(
     could not be used, a stream failed, or a replay could not be read to its end; 2: the
     bundle is refused, or an output failed or published nothing. --json reports the counts at the end; contacts
     then have to go elsewhere than to standard output.
+
+    Parameters
+    ----------
+    bundle
+        Folder or zip file of a runtime config.
+    source : ADDRESS
+        Address of the force/torque sensor, or a replay.
+    pose : ADDRESS
+        Address of the robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
+        poses:///file.csv, still://?rpy=0,90,0 (degrees).
+    seconds
+        Duration, s [until Ctrl-C].
+    unverified
+        Accept a bundle that is not verified.
+    other_sensor
+        Also run with a sensor of another serial number.
+    allow_remote
+        Outputs may reach other machines, neither encrypted nor signed.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.contact.patch import Bed, PatchReader
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime import Outlet, Run
+    from contactbench.pipeline.runtime.outlet import OutputContext
     from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
     from contactbench.pipeline.streams import open_pair
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
-    network = {"udp": udp, "igtl": igtl, "foxglove": foxglove, "dds": dds, "mqtt": mqtt}
-    if out is None and mcap is None and not any(address is not None for address in network.values()):
-        out = "-"
-    if as_json() and out == "-":
+    wanted = {name: address for name, address in addresses.items() if address is not None} or {"out": "-"}
+    if as_json() and wanted.get("out") == "-":
         raise typer.BadParameter(
             "--json and the contacts both use standard output: give --out a file name, or another output."
         )
@@ -149,8 +133,8 @@ def run(
     with ended_by_signals() as ended, ExitStack() as stack:
         stack.callback(pair.stop)  # a replay has its file open before it begins
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
-        targets = _targets(out, mcap, network, config, pair.about(), allow_remote=allow_remote)
-        outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
+        targets = open_outputs(wanted, OutputContext(pair.about(), config.probe, allow_remote))
+        outlets = [Outlet(target, patient=pair.player is not None) for target in targets.values()]
         live = pair.player is None
         keep = None if patches is None else patches.take
         runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None, on_answer=keep)
@@ -167,45 +151,6 @@ def run(
     answer(_facts(pair, runner, good=good) | ({"error": failed[0]} if failed else {}))
     if not good:
         raise typer.Exit(2 if failed else 1)
-
-
-def _targets(
-    out: str | None,
-    mcap: Path | None,
-    network: Mapping[str, str | None],
-    config: RuntimeConfig,
-    about: RecordingInfo,
-    *,
-    allow_remote: bool,
-) -> list[OutletTarget]:
-    from contactbench.pipeline.runtime.network_targets import network_target
-    from contactbench.pipeline.runtime.targets import LineTarget, McapTarget
-
-    targets: list[OutletTarget] = []
-    wanted = {option: address for option, address in network.items() if address is not None}
-    try:
-        for option, address in wanted.items():
-            targets.append(network_target(option, address, config, about, remote=allow_remote))
-        if out == "-":
-            targets.append(LineTarget("standard output", _standard_output()))
-        elif out is not None:
-            targets.append(LineTarget.new(Path(out)))
-        if mcap is not None:
-            targets.append(McapTarget(mcap, about))
-    except BaseException:
-        for target in targets:
-            target.close()
-        raise
-    return targets
-
-
-def _standard_output() -> int:
-    """Return a descriptor of its own: closing it leaves standard output open."""
-    import os
-    import sys
-
-    sys.stdout.flush()
-    return os.dup(sys.stdout.fileno())
 
 
 class PatchLines:

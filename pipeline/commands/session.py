@@ -31,21 +31,13 @@ _WRONG = 1
 @session_app.command(example="session record bench-1 --source sri+tcp://192.168.0.108:4008 --seconds 60")
 def record(
     folder: FolderArgument,
-    source: Annotated[
-        str, typer.Option(metavar="ADDRESS", help="Address of the sensor, as for record start.")
-    ],
-    pose: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Address of a robot: also record its flange.")
-    ] = None,
-    seconds: Annotated[float | None, typer.Option(help="Duration, s [until Ctrl-C].")] = None,
-    serial: Annotated[
-        str | None, typer.Option(metavar="SN", help="Serial number of the sensor, if known.")
-    ] = None,
-    name: Annotated[
-        str | None,
-        typer.Option(metavar="NAME.mcap", help="Name of the recording [with its start time]."),
-    ] = None,
-    note: Annotated[str, typer.Option(help="Note to keep with the recording.")] = "",
+    /,
+    source: str,
+    pose: str | None = None,
+    seconds: float | None = None,
+    serial: str | None = None,
+    name: str | None = None,
+    note: str = "",
 ) -> None:
     """Record a sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.
 
@@ -53,6 +45,21 @@ def record(
     recording, with the counters of its streams. After a crash or a power failure, recover the recording
     with `contactbench session repair`. Only the commands needed for streaming are sent: no sensor is
     zeroed. Exit code 1: one of them sent no sample.
+
+    Parameters
+    ----------
+    source : ADDRESS
+        Address of the sensor, as for record start.
+    pose : ADDRESS
+        Address of a robot: also record its flange.
+    seconds
+        Duration, s [until Ctrl-C].
+    serial : SN
+        Serial number of the sensor, if known.
+    name : NAME.mcap
+        Name of the recording [with its start time].
+    note
+        Note to keep with the recording.
     """
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
@@ -196,15 +203,15 @@ def repair(folder: FolderArgument) -> None:
 
 
 @session_app.command(example="session salvage bench-1 --out bench-1-new")
-def salvage(
-    folder: FolderArgument,
-    out: Annotated[
-        Path | None, typer.Option(metavar="NEW", help="Folder to create [DIR-salvaged, beside DIR].")
-    ] = None,
-) -> None:
+def salvage(folder: FolderArgument, /, out: Path | None = None) -> None:
     """Copy everything intact in a damaged session into a new one, and mark results that depend on lost data as stale.
 
     The damaged session is not changed. Exit code 1: a record or a file is lost.
+
+    Parameters
+    ----------
+    out : NEW
+        Folder to create [DIR-salvaged, beside DIR].
     """
     from contactbench.pipeline.session.salvage import salvage as run
 
@@ -230,11 +237,14 @@ def salvage(
 
 
 @session_app.command("export-archive", example="session export-archive bench-1 --out bench-1.zip")
-def export(
-    folder: FolderArgument,
-    out: Annotated[Path, typer.Option(help="Zip file to write.")],
-) -> None:
-    """Check a session and pack it into one zip file. Exit code 1: a recording in progress is not included."""
+def export(folder: FolderArgument, /, out: Path) -> None:
+    """Check a session and pack it into one zip file. Exit code 1: a recording in progress is not included.
+
+    Parameters
+    ----------
+    out
+        Zip file to write.
+    """
     from contactbench.pipeline.session.archive import export_archive
 
     done = export_archive(folder, out)
@@ -249,11 +259,16 @@ def export(
 
 
 @session_app.command("import-archive", example="session import-archive bench-1.zip --out bench-1")
-def unpack(
-    archive: Annotated[Path, typer.Argument(metavar="ZIP", help="Archive written by export-archive.")],
-    out: Annotated[Path, typer.Option(help="Folder to create.")],
-) -> None:
-    """Check every byte of an archive, and unpack it into a new folder."""
+def unpack(archive: Path, /, out: Path) -> None:
+    """Check every byte of an archive, and unpack it into a new folder.
+
+    Parameters
+    ----------
+    archive : ZIP
+        Archive written by export-archive.
+    out
+        Folder to create.
+    """
     from contactbench.pipeline.session.archive import import_archive
 
     import_archive(archive, out)
@@ -275,27 +290,28 @@ def new(folder: FolderArgument) -> None:
 @session_app.command(example="session add bench-1 poses.csv --kind poses --serial M8128-0042")
 def add(
     folder: FolderArgument,
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="File to copy into the session.")],
-    kind: Annotated[
-        str, typer.Option(help="Kind of file: mesh, poses, recording, ...; a mesh replaces the previous one.")
-    ],
-    serial: Annotated[
-        str | None, typer.Option(help="Serial number of the sensor it was recorded with.")
-    ] = None,
-    companion: Annotated[
-        list[Path] | None,
-        typer.Option(
-            metavar="FILE",
-            help=(
-                "File that belongs with it; may be repeated. The JSON file of a probe is found automatically."
-            ),
-        ),
-    ] = None,
-    name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Name in the session [the file's name].")
-    ] = None,
+    file: Path,
+    /,
+    kind: str,
+    serial: str | None = None,
+    companion: list[Path] | None = None,
+    name: str | None = None,
 ) -> None:
-    """Copy a raw input into a session; results computed from an input that it replaces become stale."""
+    """Copy a raw input into a session; results computed from an input that it replaces become stale.
+
+    Parameters
+    ----------
+    file
+        File to copy into the session.
+    kind
+        Kind of file: mesh, poses, recording, ...; a mesh replaces the previous one.
+    serial
+        Serial number of the sensor it was recorded with.
+    companion : FILE
+        File that belongs with it; may be repeated. The JSON file of a probe is found automatically.
+    name : NAME
+        Name in the session [the file's name].
+    """
     from contactbench.pipeline.session.actions import files_of
     from contactbench.pipeline.session.companions import about_of, companions_of
 
@@ -325,44 +341,37 @@ def add(
 @session_app.command(example="session compute bench-1 calibration calibration.json --set euler=xyz")
 def compute(
     folder: FolderArgument,
-    kind: Annotated[
-        str,
-        typer.Argument(
-            metavar="KIND",
-            help="captures, from a recording; calibration, from poses; probe, from the mesh and, where there are some,"
-            " an alignment and regions; known_weight, from a calibration and inputs unloaded and loaded; known_touch,"
-            " from a calibration, a probe and an input touch; verification, from a recording, a probe, a calibration"
-            " and markers; report, from a verification and its probe and, where there are some, its calibration and"
-            " both checks.",
-        ),
-    ],
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the result's file.")],
-    settings: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            metavar="NAME=VALUE",
-            help="Parameter, as JSON or text; may be repeated. Others keep the values set by `session"
-            " set` or the window for this kind.",
-        ),
-    ] = None,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--input",
-            metavar="ROLE=NAME",
-            help="Use this recording, poses or alignment instead of the newest; without a name: none.",
-        ),
-    ] = None,
+    kind: str,
+    name: str,
+    /,
+    set_: list[str] | None = None,
+    input_: list[str] | None = None,
 ) -> None:
-    """Compute a result from the newest inputs of its kind, raw or computed, and record it with its origin."""
+    """Compute a result from the newest inputs of its kind, raw or computed, and record it with its origin.
+
+    Parameters
+    ----------
+    kind
+        captures, from a recording; calibration, from poses; probe, from the mesh and, where there are some, an
+        alignment and regions; known_weight, from a calibration and inputs unloaded and loaded; known_touch,
+        from a calibration, a probe and an input touch; verification, from a recording, a probe, a calibration
+        and markers; report, from a verification and its probe and, where there are some, its calibration and
+        both checks.
+    name
+        Name of the result's file.
+    set_ : NAME=VALUE
+        Parameter, as JSON or text; may be repeated. Others keep the values set by `session set` or the window for
+        this kind.
+    input_ : ROLE=NAME
+        Use this recording, poses or alignment instead of the newest; without a name: none.
+    """
     from contactbench.pipeline.session.actions import files_of
     from contactbench.pipeline.session.recompute import compute as run
     from contactbench.pipeline.session.recompute import newest_inputs, settings_of
 
-    chosen = dict(_choice(text) for text in inputs or [])
+    chosen = dict(_choice(text) for text in input_ or [])
     with _writing(folder) as session:
-        given = settings_of(session.state, kind) | dict(_setting(text) for text in settings or [])
+        given = settings_of(session.state, kind) | dict(_setting(text) for text in set_ or [])
         record = run(
             session,
             kind,
@@ -469,11 +478,14 @@ def _result(result: Result, reasons: tuple[str, ...]) -> dict[str, Any]:
 
 
 @session_app.command(example="session note bench-1 'new cable'")
-def note(
-    folder: FolderArgument,
-    text: Annotated[str, typer.Argument(metavar="TEXT", help="Text of the note.")],
-) -> None:
-    """Write a note into a session's journal, with author and time."""
+def note(folder: FolderArgument, text: str, /) -> None:
+    """Write a note into a session's journal, with author and time.
+
+    Parameters
+    ----------
+    text
+        Text of the note.
+    """
     with _writing(folder) as session:
         record = session.note(text)
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}.")
@@ -484,18 +496,15 @@ def note(
     "set",
     example=("session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]"),
 )
-def set_parameters(
-    folder: FolderArgument,
-    settings: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="KIND.NAME=VALUE...", help="Parameters, as JSON or text; null restores the default."
-        ),
-    ],
-) -> None:
+def set_parameters(folder: FolderArgument, settings: list[str], /) -> None:
     """Set parameters for computing results, opening devices and exporting bundles.
 
     Results computed with another value become stale.
+
+    Parameters
+    ----------
+    settings : KIND.NAME=VALUE...
+        Parameters, as JSON or text; null restores the default.
     """
     given = _report_checked(dict(_setting(text) for text in settings), settings)
     with _writing(folder) as session:
@@ -526,14 +535,17 @@ def _report_checked(given: dict[str, Any], settings: list[str]) -> dict[str, Any
 
 
 @session_app.command(example="session rezero bench-1 --serial M8128-0042 --reason 'new cable'")
-def rezero(
-    folder: FolderArgument,
-    serial: Annotated[str, typer.Option(help="Serial number of the sensor.")],
-    reason: Annotated[str, typer.Option(help="Reason, in a few words.")],
-) -> None:
+def rezero(folder: FolderArgument, /, serial: str, reason: str) -> None:
     """Note that a sensor was re-zeroed, by hand or by its box; results of older recordings become stale.
 
     Nothing is sent to the sensor.
+
+    Parameters
+    ----------
+    serial
+        Serial number of the sensor.
+    reason
+        Reason, in a few words.
     """
     with _writing(folder) as session:
         before = _stale_titles(session)
@@ -549,8 +561,8 @@ def rezero(
 def replay(folder: FolderArgument) -> None:
     """Recompute every result from raw inputs and compare the bytes. Exit code 1: one differs or fails."""
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.replay import ReplayOutcome
-    from contactbench.pipeline.session.replay import replay as run
+    from contactbench.pipeline.session.recompute import ReplayOutcome
+    from contactbench.pipeline.session.recompute import replay as run
 
     with Session.open(folder, write=False) as session, Bar("replaying", counted=True) as bar:
         found = run(session, bar)

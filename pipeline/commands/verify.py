@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -14,7 +14,7 @@ from contactbench.pipeline.commands.options import (
     write_file,
     written,
 )
-from contactbench.pipeline.console import Noun, answer, numbers, say, show_tables
+from contactbench.pipeline.console import Noun, answer, say, show_tables
 from contactbench.pipeline.settings import ReportSettings, VerificationSettings
 
 if TYPE_CHECKING:
@@ -37,31 +37,18 @@ verify_app = Noun("Judge contact points by touches of markers, and write the res
     ),
 )
 def touches(
-    recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="Touches: .mcap or .csv.")],
-    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
-    calibration: Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")],
-    markers: Annotated[Path, typer.Option(help="CSV file: name,x_mm,y_mm,z_mm, sensor frame.")],
+    recording: Path,
+    /,
+    probe: Path,
+    calibration: Path,
+    markers: Path,
     said: VerificationSettings,
-    force: Annotated[
-        list[str] | None,
-        typer.Option(metavar="LOW,HIGH", help="Force window, N; several if repeated [8,10]."),
-    ] = None,
-    order: Annotated[
-        str | None,
-        typer.Option(metavar="NAME,...", help="Markers in the order in which they must be touched [any]."),
-    ] = None,
-    leave_out: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME=WHY",
-            help="A marker to skip, and the reason; may be repeated. The verdict mentions it.",
-        ),
-    ] = None,
-    limit_time: Annotated[float, typer.Option(help="Largest p99 of the time of a solve, ms.")] = 1.0,
-    reference: Annotated[
-        Path | None, typer.Option(help="CSV file t,force of a reference sensor (s, N).")
-    ] = None,
-    out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
+    force: list[tuple[float, float]] | None = None,
+    order: str | None = None,
+    leave_out: list[str] | None = None,
+    limit_time: float = 1.0,
+    reference: Path | None = None,
+    out: Path | None = None,
 ) -> None:
     """Find the touches of markers in a recording, and judge the errors of the contact points.
 
@@ -71,6 +58,29 @@ def touches(
     verdict about them.
 
     Exit code 1: a limit is exceeded, or markers are missing. Needs no hardware.
+
+    Parameters
+    ----------
+    recording
+        Touches: .mcap or .csv.
+    probe
+        The probe, aligned with the sensor.
+    calibration
+        File written by contactbench calibrate fit.
+    markers
+        CSV file: name,x_mm,y_mm,z_mm, sensor frame.
+    force : LOW,HIGH
+        Force window, N; several if repeated [8,10].
+    order : NAME,...
+        Markers in the order in which they must be touched [any].
+    leave_out : NAME=WHY
+        A marker to skip, and the reason; may be repeated. The verdict mentions it.
+    limit_time
+        Largest p99 of the time of a solve, ms.
+    reference
+        CSV file t,force of a reference sensor (s, N).
+    out
+        Also write everything to this file, JSON.
     """
     inputs = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
     if reference is not None:
@@ -80,12 +90,11 @@ def touches(
     from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
     left_out = dict(_left_out(text) for text in leave_out or ())
-    windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
     given = VerificationParameters.checked(
         {
             **said.model_dump(),
             "name": "verification.json" if out is None else out.name,
-            "windows": windows,
+            "windows": force or [(8.0, 10.0)],
             "order": () if order is None else _in_order(order, left_out),
             "left_out": left_out,
             "p99_limit_s": limit_time / 1e3,
@@ -180,19 +189,13 @@ def _size(value: float | None) -> str:
     example=("verify report --verification v.json --calibration c.json --probe p.ply --out report.html"),
 )
 def report(
-    verification: Annotated[Path, typer.Option(help="File written by contactbench verify touches --out.")],
-    probe: Annotated[Path, typer.Option(help="The verified probe, .ply.")],
-    out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
+    verification: Path,
+    probe: Path,
+    out: Path,
     said: ReportSettings,
-    calibration: Annotated[
-        Path | None, typer.Option(help="File written by contactbench calibrate fit.")
-    ] = None,
-    known_weight: Annotated[
-        Path | None, typer.Option(help="File written by contactbench calibrate check weight --out.")
-    ] = None,
-    known_touch: Annotated[
-        Path | None, typer.Option(help="File written by contactbench calibrate check touch --out.")
-    ] = None,
+    calibration: Path | None = None,
+    known_weight: Path | None = None,
+    known_touch: Path | None = None,
     serial: SerialOption = None,
 ) -> None:
     """Write the results of a verification as a report: HTML, or PDF on A4.
@@ -200,6 +203,21 @@ def report(
     Its first page says who, what, when and with which sensor, the verdict and the uncertainty budget, with room for a
     signature; the details follow. The HTML file is self-contained. A PDF needs WeasyPrint:
     pip install 'contactbench[pdf]'.
+
+    Parameters
+    ----------
+    verification
+        File written by contactbench verify touches --out.
+    probe
+        The verified probe, .ply.
+    out
+        File to write: .html or .pdf.
+    calibration
+        File written by contactbench calibrate fit.
+    known_weight
+        File written by contactbench calibrate check weight --out.
+    known_touch
+        File written by contactbench calibrate check touch --out.
     """
     if out.suffix.lower() not in (".html", ".pdf"):
         raise typer.BadParameter(f"--out {out}: give a name that ends in .html or .pdf.")

@@ -22,9 +22,9 @@ from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.scenes.physics import physics
 from contactbench.pipeline.simulation.virtual.bench import bundled
-from contactbench.pipeline.study.marker_touches import check_bundled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

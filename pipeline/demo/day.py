@@ -22,6 +22,7 @@ from contactbench.pipeline.config.runtime.bench import export_from_files
 from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.demo.gravity import calibrate_folder
 from contactbench.pipeline.demo.housing import prepare_probe
+from contactbench.pipeline.demo.real_causes import floor_ratio, told_floor, true_causes, true_floor
 from contactbench.pipeline.demo.tape import write_tape
 from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
 from contactbench.pipeline.demo.verification import (
@@ -38,20 +39,12 @@ from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, a
 from contactbench.pipeline.preparation.steps import align_step
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import orientations_in_use
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.reality.bench import RealBench
+from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
 from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.marker_touches import check_bundled
-from contactbench.pipeline.study.real_causes import (
-    VERIFIED_S,
-    MarkedPresses,
-    floor_ratio,
-    planned_poses,
-    told_floor,
-    true_causes,
-    true_floor,
-)
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification import Marker, MarkerSet
 from contactbench.pipeline.verification.result import VerificationParameters, verify_files
@@ -63,9 +56,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.demo.real_causes import TrueCauses
     from contactbench.pipeline.demo.tool import DemoTool
     from contactbench.pipeline.simulation.reality.bench import RealTape
-    from contactbench.pipeline.study.real_causes import TrueCauses
     from contactbench.pipeline.verification import Verification
 
     Array = NDArray[np.float64]

@@ -18,8 +18,8 @@ from contactbench.pipeline.demo.tape import STEP_S, DemoTape
 from contactbench.pipeline.demo.tool import OPERATOR, SENSOR_MODEL
 from contactbench.pipeline.page.details import ReportDetails
 from contactbench.pipeline.simulation.loads import bump, weigh
+from contactbench.pipeline.simulation.reality.presses import POSES, planned_poses
 from contactbench.pipeline.simulation.scenes import BenchScene
-from contactbench.pipeline.study.real_causes import POSES, planned_poses
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -19,11 +19,11 @@ from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
+from contactbench.pipeline.simulation.reality.presses import TILTS
 from contactbench.pipeline.simulation.scenes import TouchScene
 from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.real_causes import TILTS
 
 if TYPE_CHECKING:
     from pathlib import Path

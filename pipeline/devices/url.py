@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
@@ -77,26 +77,11 @@ def _pace(text: str) -> float:
     return STEPWISE if text == "step" else number(message("multiple of the recorded pace, or step"))(text)
 
 
-# Option -> the field that it is, and its reader; in the order in which they are written.
-_OPTIONS: dict[str, tuple[str, Callable[[str], Any]]] = {
-    "baud": ("baud", read_baud),
-    "rate": ("rate", read_rate),
-    "speed": ("speed", _pace),
-    "topic": ("topic", name),
-    "rpy": ("rpy_degrees", numbers(3, 3, _MOST_DEGREES)),
-    "quaternion": ("quaternion", numbers(4, 4, 1 + _UNIT)),
-    "joints": ("joints_degrees", numbers(1, 64, _MOST_DEGREES)),
-    "robot": ("robot", name),
-}
-_BENCH: dict[str, Callable[[str], Any]] = {
-    "probe": name,
-    "mesh": name,
-    "sensor": name,
-    "seed": whole(0, 10**15, message("give a whole number of 0 or more")),
-    "pose_rate": number("Hz"),
-    "script": name,
-    "reality": _reality,
-}
+def _option(read: Callable[[str], Any], default: Any = None, *, called: str = "") -> Any:
+    """Return a field that an address has as an option, by its own name unless it is called otherwise."""
+    return field(default=default, metadata={"read": read, "called": called})
+
+
 _SPEEDS: dict[str, Callable[[str], float]] = {
     Protocol.VIRTUAL: _step,
     Protocol.POSES: number(message("multiple of the pace of the file")),
@@ -120,28 +105,6 @@ class _Kind:
         return self.protocol if self.driver is None else f"{self.protocol}+{self.carrier}"
 
 
-_SOURCES = {
-    kind.protocol: kind
-    for kind in (
-        _Kind(Protocol.REPLAY, Carrier.FILE, {"speed": 1.0, "topic": None}, wrenches=True, poses=True),
-        _Kind(Protocol.POSES, Carrier.FILE, {"speed": 1.0, "robot": None}, poses=True),
-        _Kind(
-            Protocol.STILL,
-            Carrier.TYPED,
-            {"rate": 10.0, "rpy": None, "quaternion": None, "joints": None, "robot": None},
-            poses=True,
-        ),
-        _Kind(
-            Protocol.VIRTUAL,
-            Carrier.SIMULATED,
-            {"rate": 200.0, "speed": None, **dict.fromkeys(_BENCH)},
-            wrenches=True,
-            poses=True,
-        ),
-    )
-}
-
-
 def _kinds_of(driver: Driver) -> tuple[_Kind, ...]:
     own = {key: option.default for key, option in driver.options.items()}
     return tuple(
@@ -159,13 +122,14 @@ def _kinds_of(driver: Driver) -> tuple[_Kind, ...]:
 class BenchOptions:
     """What a virtual bench is made of; names are looked up by who opens it."""
 
-    probe: str = "t-shape"  # name of a bundled probe
-    mesh: str | None = None  # file of a probe to take instead, in metres and S
-    sensor: str = "paper"  # name of a preset
-    seed: int = 0  # of the noise
-    pose_rate: float = 50.0  # poses a second
-    script: str | None = None  # file of timed commands
-    reality: Reality | None = None  # what it adds to the ideal bench; None: nothing
+    probe: str = _option(name, "t-shape")  # name of a bundled probe
+    mesh: str | None = _option(name)  # file of a probe to take instead, in metres and S
+    sensor: str = _option(name, "paper")  # name of a preset
+    seed: int = _option(whole(0, 10**15, message("give a whole number of 0 or more")), 0)  # of the noise
+    pose_rate: float = _option(number("Hz"), 50.0)  # poses a second
+    script: str | None = _option(name)  # file of timed commands
+    # what it adds to the ideal bench; None: nothing
+    reality: Reality | None = _option(_reality)  # noqa: RUF009 - a field
 
 
 @dataclass(frozen=True)
@@ -177,20 +141,24 @@ class DeviceAddress:
     host: str = ""  # name or IP address; empty where there is no socket
     port: int | None = None  # TCP or UDP port; None where there is no socket
     path: str = ""  # serial device, recording or file of poses; empty for sockets and typed poses
-    baud: int | None = None  # of a serial line, bit/s
-    rate: float | None = None  # samples per second to ask the device for; None: what the device is set to
+    baud: int | None = _option(read_baud)  # of a serial line, bit/s
+    rate: float | None = _option(
+        read_rate
+    )  # samples per second to ask the device for; None: what the device is set to
     # of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one.
     # Of a file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for
     # real time.
-    speed: float | None = None
-    topic: str | None = None  # of a replay that holds several devices of a kind: which one
+    speed: float | None = _option(_pace)
+    topic: str | None = _option(name)  # of a replay that holds several devices of a kind: which one
     # of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that
     # follows: an address reads back to the last digit.
-    rpy_degrees: tuple[float, ...] | None = None
-    quaternion: tuple[float, ...] | None = None  # of a typed pose: scalar first, of unit length within 2 %
-    joints_degrees: tuple[float, ...] | None = None  # of a typed pose: joint angles of `robot`
+    rpy_degrees: tuple[float, ...] | None = _option(numbers(3, 3, _MOST_DEGREES), called="rpy")
+    # of a typed pose: scalar first, of unit length within 2 %
+    quaternion: tuple[float, ...] | None = _option(numbers(4, 4, 1 + _UNIT))
+    # of a typed pose: joint angles of `robot`
+    joints_degrees: tuple[float, ...] | None = _option(numbers(1, 64, _MOST_DEGREES), called="joints")
     # whose joints an address or a file of poses gives, as in contactbench.pipeline.robot
-    robot: str | None = None
+    robot: str | None = _option(name)
     options: Mapping[str, Any] = field(default_factory=dict, hash=False)  # of its driver, all of them
     bench: BenchOptions | None = None  # what a virtual bench is made of
 
@@ -277,6 +245,35 @@ class DeviceAddress:
     @property
     def _driver(self) -> Driver | None:
         return None if self.protocol in _SOURCES else driver_of(self.protocol)
+
+
+# Option -> the field that it is, and its reader; in the order in which they are written.
+_OPTIONS: dict[str, tuple[str, Callable[[str], Any]]] = {
+    each.metadata["called"] or each.name: (each.name, each.metadata["read"])
+    for each in fields(DeviceAddress)
+    if "read" in each.metadata
+}
+_BENCH: dict[str, Callable[[str], Any]] = {each.name: each.metadata["read"] for each in fields(BenchOptions)}
+_SOURCES = {
+    kind.protocol: kind
+    for kind in (
+        _Kind(Protocol.REPLAY, Carrier.FILE, {"speed": 1.0, "topic": None}, wrenches=True, poses=True),
+        _Kind(Protocol.POSES, Carrier.FILE, {"speed": 1.0, "robot": None}, poses=True),
+        _Kind(
+            Protocol.STILL,
+            Carrier.TYPED,
+            {"rate": 10.0, "rpy": None, "quaternion": None, "joints": None, "robot": None},
+            poses=True,
+        ),
+        _Kind(
+            Protocol.VIRTUAL,
+            Carrier.SIMULATED,
+            {"rate": 200.0, "speed": None, **dict.fromkeys(_BENCH)},
+            wrenches=True,
+            poses=True,
+        ),
+    )
+}
 
 
 def read_options(driver: Driver, key: str, text: str) -> Any:

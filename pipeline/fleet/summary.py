@@ -17,8 +17,8 @@ from contactbench.pipeline.fleet.row import FleetRow, vector
 from contactbench.pipeline.report.verification_file import parse_verification
 from contactbench.pipeline.session.content import content_of
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.stale import stale_results
 from contactbench.pipeline.session.state import Result, State, fold
+from contactbench.pipeline.session.why import stale_results
 from contactbench.pipeline.settings import ReportSettings
 
 if TYPE_CHECKING:

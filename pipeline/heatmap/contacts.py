@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
     from contactbench.pipeline.verification.figures import TouchFigure, Verification
@@ -87,7 +88,7 @@ class Contacts:
         return np.asarray(distance), np.asarray(distance <= most)
 
 
-def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
+def read_contacts(file: File, wrenches: Path | None = None) -> Contacts:
     """
     Read a file of contacts.
 
@@ -130,7 +131,7 @@ def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
     return _contacts(numbers[:, 0], numbers[:, 1:4], reasons, 1e-3 * numbers[:, 4], forces, confidences, ())
 
 
-def _check_confidences(file: Path, confidences: NDArray[np.float64], used: NDArray[np.bool_]) -> None:
+def _check_confidences(file: File, confidences: NDArray[np.float64], used: NDArray[np.bool_]) -> None:
     bad = used & ~((confidences >= 0) & (confidences <= 1))
     if bad.any():
         row = int(np.argmax(bad))
@@ -185,7 +186,7 @@ def _confidences(touches: list[TouchFigure]) -> NDArray[np.float64] | None:
 
 
 def locate_recording(
-    file: Path,
+    file: File,
     probe: Probe,
     model: GravityModel,
     *,
@@ -310,7 +311,7 @@ def _used(reasons: NDArray[np.bytes_], points: NDArray[np.float64]) -> NDArray[n
     return np.isin(reasons, np.array(USED, dtype=np.bytes_)) & np.isfinite(points).all(axis=1)
 
 
-def _forces(file: Path, count: int, contacts: Path) -> NDArray[np.float64]:
+def _forces(file: Path, count: int, contacts: File) -> NDArray[np.float64]:
     try:
         with file.open("rb") as stream:
             parts = [
@@ -328,7 +329,7 @@ def _forces(file: Path, count: int, contacts: Path) -> NDArray[np.float64]:
     return forces
 
 
-def _unread(file: Path, error: Exception) -> Exception:
+def _unread(file: File, error: Exception) -> Exception:
     if isinstance(error, HeatmapError) or not isinstance(error, OSError):
         return error
     return HeatmapError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.")

@@ -6,12 +6,12 @@ import re
 import stat
 import warnings
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.clean import flip_flat_facets, merge_vertices
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.gltf import read_gltf
@@ -143,7 +143,7 @@ def load_probe(
     or with more than four million facets are refused.
     """
     T_SP = None if mount is None else _rigid(mount)
-    file = Path(path)
+    file = as_file(path)
     read = read_mesh(file, units)
     probe = probe_of(file, read, T_SP, name)
     sentences = (*read.notes, *probe.health.sentences)
@@ -175,7 +175,7 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
     """
     if units not in (*get_args(Units), "auto"):
         raise MeshError(f"units={arg(units)!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
-    file = Path(path)
+    file = as_file(path)
     try:
         raw, notes = _read(file)
         check_faces(raw.faces, len(raw.vertices))
@@ -238,7 +238,7 @@ def _without_stray(raw: RawMesh) -> RawMesh:
     return replace(raw, vertices=vertices, notes=(*raw.notes, note))
 
 
-def _read(file: Path) -> tuple[RawMesh, bytes]:
+def _read(file: File) -> tuple[RawMesh, bytes]:
     try:
         status = file.stat()
     except FileNotFoundError:
@@ -319,7 +319,7 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def probe_of(
-    file: Path, read: MeshFile, T_SP: npt.NDArray[np.float64] | None = None, name: str | None = None
+    file: File, read: MeshFile, T_SP: npt.NDArray[np.float64] | None = None, name: str | None = None
 ) -> Probe:
     """Settle what `read_mesh` gave of a file, under the file's name unless told otherwise; an error names the file."""
     try:

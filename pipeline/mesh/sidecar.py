@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from contactbench import __version__
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import AnyFile, File, as_file
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.load import load_probe
 from contactbench.pipeline.mesh.regions.errors import RegionError
@@ -118,7 +119,7 @@ class ProbeFile:
         )
 
 
-def sidecar_of(mesh: Path) -> Path:
+def sidecar_of(mesh: AnyFile) -> AnyFile:
     """Return the JSON file that belongs to a probe's PLY file."""
     return mesh.with_suffix(".json")
 
@@ -137,7 +138,7 @@ def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
     RegionError
         The JSON file is not one, or parts of it are not what they should be.
     """
-    mesh = Path(path)
+    mesh = as_file(path)
     if mesh.suffix.lower() != ".ply":
         raise RegionError(
             f"{arg(mesh)}: regions are stored in a probe's PLY file: load the mesh and save it as .ply."
@@ -242,7 +243,7 @@ def read_list(document: Mapping[str, Any]) -> tuple[Region, ...]:
     return regions
 
 
-def read_document(file: Path) -> dict[str, Any]:
+def read_document(file: File) -> dict[str, Any]:
     """Return the JSON object in a file, an empty one without a file; RegionError for anything else."""
     data = read_limited(file) if file.exists() else b"{}"
     if not data:
@@ -285,7 +286,7 @@ def _history(document: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
     return tuple(history)
 
 
-def _notes(document: Mapping[str, Any], mesh: Path) -> tuple[str, ...]:
+def _notes(document: Mapping[str, Any], mesh: File) -> tuple[str, ...]:
     known = document.get("mesh", {}).get("sha256")
     if known is None or known == hashlib.sha256(mesh.read_bytes()).hexdigest():
         return ()

@@ -241,7 +241,9 @@ def _question(span: float, ranked: list[Units]) -> str:
     first, *others = (
         message(f"{arg(_millimetres(span, unit))} if they are {arg(NAMES[unit])}") for unit in ranked[:3]
     )
-    choices = join("", (f", {other}" for other in others)) if others else message(", an unusual size")
+    choices = (
+        join("", (message(f", {arg(other)}") for other in others)) if others else message(", an unusual size")
+    )
     options = ", ".join(ranked[:3])
     options = " or ".join(options.rsplit(", ", 1))
     return message(

@@ -11,7 +11,7 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionReport
 from contactbench.pipeline.mesh.shell import Closing, Shell
-from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.mesh.sidecar import ProbeFile, sidecar_of
 from contactbench.pipeline.mesh.simplify import Simplified
 from contactbench.pipeline.mesh.soundness import check_soundness
 from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
@@ -30,8 +30,8 @@ from contactbench.pipeline.settings import metres
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
-    from pathlib import Path
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.settings import ProbeSettings
@@ -107,7 +107,7 @@ class Preparation:
 
 
 def prepared(
-    inputs: Mapping[str, Path],
+    inputs: Mapping[str, File],
     given: ProbeSettings,
     *,
     progress: Progress = None,
@@ -176,7 +176,7 @@ def prepared(
     return Preparation(content, dense.shell, simplified, soundness, carried)
 
 
-def alignment_of(given: ProbeSettings, file: Path | None) -> Alignment | None:
+def alignment_of(given: ProbeSettings, file: File | None) -> Alignment | None:
     """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
     if file is not None:
         try:
@@ -205,7 +205,7 @@ def part_of(progress: Progress, low: float, high: float) -> Progress:
 
 
 def dense_of(
-    mesh: Path,
+    mesh: File,
     given: ProbeSettings,
     *,
     aligned_later: bool = False,
@@ -241,7 +241,7 @@ def dense_of(
 
 
 def _closed(
-    mesh: Path, given: ProbeSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
+    mesh: File, given: ProbeSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
 ) -> tuple[ProbeFile, Shell]:
     """Read a mesh file and make its outer surface."""
     content = import_mesh(mesh, given.units)
@@ -268,9 +268,9 @@ def closings_of(given: ProbeSettings) -> Closing | Sequence[Closing]:
     return ways[0] if len(ways) == 1 else ways or Closing.AUTO
 
 
-def _key(mesh: Path, given: ProbeSettings) -> tuple[object, ...]:
+def _key(mesh: File, given: ProbeSettings) -> tuple[object, ...]:
     # Only a regular file has a hash; of others the reader says what is wrong.
-    files = (each for each in (mesh, mesh.with_suffix(".json")) if each.is_file())
+    files = (each for each in (mesh, sidecar_of(mesh)) if each.is_file())
     hashes = tuple(hashlib.sha256(each.read_bytes()).hexdigest() for each in files)
     return ("dense", mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg
+from contactbench.pipeline.files import File, files_beside
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.regions import RegionError, RegionSet, transfer
 from contactbench.pipeline.mesh.regions.exchange import (
@@ -27,7 +28,6 @@ from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-    from pathlib import Path
     from typing import Any
 
     from numpy.typing import NDArray
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 _SAME_M = 1e-9
 
 
-def put_on(content: ProbeFile, file: Path) -> ProbeFile:
+def put_on(content: ProbeFile, file: File) -> ProbeFile:
     """
     Give an aligned shell the regions of a file.
 
@@ -71,7 +71,7 @@ def put_on(content: ProbeFile, file: Path) -> ProbeFile:
     return content.after("region", content.probe, parameters, result, regions=regions)
 
 
-def painted_regions(content: ProbeFile, file: Path) -> tuple[RegionSet, tuple[RegionReport, ...]]:
+def painted_regions(content: ProbeFile, file: File) -> tuple[RegionSet, tuple[RegionReport, ...]]:
     """Return the regions of a file on a shell, and what carrying them over did to each; see `put_on`."""
     if file.suffix.lower() == ".csv":
         return load_regions(file, content.probe), ()
@@ -86,11 +86,11 @@ def painted_regions(content: ProbeFile, file: Path) -> tuple[RegionSet, tuple[Re
     return _carried(decode_json(read_limited(file), surface.probe), surface, content, file)
 
 
-def _surface_beside(file: Path) -> ProbeFile | None:
+def _surface_beside(file: File) -> ProbeFile | None:
     """Return the surface that the regions of a file are for, if a PLY file beside it holds it."""
     mesh = parse_json(read_limited(file)).get("mesh")
     wanted = mesh.get("sha256") if isinstance(mesh, dict) else None
-    for other in sorted(file.parent.glob("*.ply")):
+    for other in files_beside(file, ".ply"):
         found = load_probe_file(other)
         if mesh_hash(found.probe) == wanted:
             return found
@@ -98,7 +98,7 @@ def _surface_beside(file: Path) -> ProbeFile | None:
 
 
 def _carried(
-    regions: RegionSet, old: ProbeFile, new: ProbeFile, file: Path
+    regions: RegionSet, old: ProbeFile, new: ProbeFile, file: File
 ) -> tuple[RegionSet, tuple[RegionReport, ...]]:
     before, after = old.probe, new.probe
     if _origin(old.history) == _origin(new.history):

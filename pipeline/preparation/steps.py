@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import warnings
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.load import probe_of, read_mesh
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
@@ -52,7 +52,7 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
     MeshError
         See `load_probe`.
     """
-    file = Path(path)
+    file = as_file(path)
     read = read_mesh(file, units)
     if read.raw.settled:
         known = load_probe_file(file)
@@ -208,7 +208,7 @@ def _target(target: Target) -> dict[str, Any]:
     return {"max_error": target.limit}
 
 
-def _origin(file: Path, content: ProbeFile, units: str, reason: str) -> dict[str, Any]:
+def _origin(file: File, content: ProbeFile, units: str, reason: str) -> dict[str, Any]:
     """Write down where the history begins: the file, by its content."""
     size = np.ptp(content.probe.bounds, axis=0)
     step = content.after(

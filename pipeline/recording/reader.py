@@ -39,9 +39,9 @@ from contactbench.pipeline.recording.tracks import FlangeTrack, Whole, WrenchTra
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
     from types import TracebackType
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.recording.messages import WrenchCells
 
 _DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] = {
@@ -109,7 +109,7 @@ class RecordingReader:
         The file cannot be read, or is no recording of contactbench.
     """
 
-    def __init__(self, path: Path, progress: Callable[[int, int], None] | None = None) -> None:
+    def __init__(self, path: File, progress: Callable[[int, int], None] | None = None) -> None:
         self._stream = McapStream(path, progress)
         self._records = iter(self._stream)
         self._first: McapMessage | None = None
@@ -210,7 +210,7 @@ class RecordingReader:
         """Leave out the events for which `room` bytes of memory are too few: for those who keep them all."""
         self._event_room = room
 
-    def _about(self, path: Path) -> RecordingInfo:
+    def _about(self, path: File) -> RecordingInfo:
         about: RecordingInfo | None = None
         devices = []
         for record in self._records:
@@ -267,7 +267,7 @@ class RecordingReader:
         return True
 
 
-def read_recording(path: Path, progress: Callable[[int, int], None] | None = None) -> Recording:
+def read_recording(path: File, progress: Callable[[int, int], None] | None = None) -> Recording:
     """
     Read a whole recording.
 
@@ -334,7 +334,7 @@ def _is_timed(address: str) -> bool:
     return known is not None and known.stamped
 
 
-def _format(path: Path, record: Metadata) -> int:
+def _format(path: File, record: Metadata) -> int:
     number = int(record.values["format"])
     if number > FORMAT:
         raise RecordingError(

@@ -16,7 +16,8 @@ from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cu
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
+
+    from contactbench.pipeline.files import File
 
 # Bags with pictures have chunks of many MiB; our own are under 2.
 LARGEST_CHUNK = 256 * 2**20
@@ -80,7 +81,7 @@ class McapStream:
         The file cannot be opened or read, or is no MCAP file.
     """
 
-    def __init__(self, path: Path, progress: Callable[[int, int], None] | None = None) -> None:
+    def __init__(self, path: File, progress: Callable[[int, int], None] | None = None) -> None:
         self._path = path
         self._progress = progress
         self._file = _open(path)
@@ -284,7 +285,7 @@ def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
     raise ValueError(message(f"it is packed as {arg(compression[:20])!r}, which is unknown"))
 
 
-def _open(path: Path) -> BinaryIO:
+def _open(path: File) -> BinaryIO:
     try:
         # A pipe would be waited for until somebody writes to it.
         mode = path.stat().st_mode

@@ -16,7 +16,8 @@ from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, read_c
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from pathlib import Path
+
+    from contactbench.pipeline.files import File
 
 _ROLES = ("verification", "probe", "calibration", WEIGHT, TOUCH)
 
@@ -32,7 +33,7 @@ class ReportParameters(ReportSettings, Parameters):
 
 
 def report(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
+    inputs: Mapping[str, File], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """
     Make the report of ``verification`` on ``probe``; ``calibration`` and the two checks may be left out.
@@ -66,7 +67,7 @@ def report(
     return {given.name: print_pdf(page) if given.name.endswith(".pdf") else page.encode()}
 
 
-def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: Mapping[str, Path]) -> None:
+def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: Mapping[str, File]) -> None:
     """
     Refuse files that are not those of a verification.
 
@@ -76,7 +77,7 @@ def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: 
         SHA-256 of what was verified, by role.
     hashes : mapping of str to str
         SHA-256 of the files, by role.
-    files : mapping of str to Path
+    files : mapping of str to File
         For the message.
 
     Raises

@@ -11,13 +11,13 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.figures import SCHEMA, VERSION, Verification
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from contactbench.pipeline.files import File
 
 _LARGEST = 64 * 2**20
 _REMEDY = "choose a file that `contactbench verify touches --out` wrote."
 
 
-def read_verification(file: Path) -> Verification:
+def read_verification(file: File) -> Verification:
     """
     Read what ``contactbench verify touches --out`` wrote.
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import OutputContext
 
 WRENCH, CONTACT = "rt/contactbench/wrench", "rt/contactbench/contact"
 """Topics; ROS calls them /contactbench/wrench and /contactbench/contact."""
@@ -53,10 +53,8 @@ class DdsTarget:
     ----------
     domain : str
         A whole number, ROS_DOMAIN_ID.
-    about : RecordingInfo
-        Ties the samples' clock to the calendar.
-    remote : bool
-        Whether other machines may subscribe: all interfaces, as CYCLONEDDS_URI says. Else the loopback interface.
+    context : OutputContext
+        With `remote`, DDS uses all interfaces, as CYCLONEDDS_URI says; else the loopback interface.
 
     Raises
     ------
@@ -66,12 +64,12 @@ class DdsTarget:
 
     pace, trouble = 0.0, ""
 
-    def __init__(self, domain: str, about: RecordingInfo, *, remote: bool = False) -> None:
+    def __init__(self, domain: str, context: OutputContext) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
             raise RunError(
                 f"--dds {arg(domain)}: give the ROS domain, a whole number from 0 to {arg(_MOST_DOMAIN)}."
             )
-        self.name, self._about = message(f"DDS domain {arg(domain)}"), about
+        self.name, self._about = message(f"DDS domain {arg(domain)}"), context.about
         qos = Qos(
             Policy.Reliability.Reliable(max_blocking_time=duration(milliseconds=1)),
             Policy.Durability.Volatile,
@@ -79,7 +77,7 @@ class DdsTarget:
             Policy.DataRepresentation(use_cdrv0_representation=True),
         )
         try:
-            self._domain = None if remote else Domain(int(domain), _LOOPBACK)
+            self._domain = None if context.remote else Domain(int(domain), _LOOPBACK)
             self._participant: Any = DomainParticipant(int(domain))
             self._writers: Any = [
                 DataWriter(self._participant, Topic(self._participant, name, kind, qos=qos), qos=qos)

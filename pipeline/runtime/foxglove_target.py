@@ -45,8 +45,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline import kernel
     from contactbench.pipeline.mesh.probe import Probe
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import OutputContext
 
 CONTACT, WRENCH, SCENE, HEALTH = "/contact", "/wrench", "/scene", "/health"
 """Topics."""
@@ -77,12 +77,7 @@ class FoxgloveTarget:
     ----------
     address : str
         HOST:PORT to listen on.
-    probe : Probe
-        To show.
-    about : RecordingInfo
-        Ties the samples' clock to the calendar.
-    remote : bool
-        Whether other machines may connect: what is sent is neither encrypted nor signed.
+    context : OutputContext
 
     Raises
     ------
@@ -92,24 +87,24 @@ class FoxgloveTarget:
 
     pace, trouble = 0.0, ""
 
-    def __init__(self, address: str, probe: Probe, about: RecordingInfo, *, remote: bool = False) -> None:
-        place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=remote, listens=True)
-        self._about = about
+    def __init__(self, address: str, context: OutputContext) -> None:
+        place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=context.remote, listens=True)
+        self._about = context.about
         foxglove.set_log_level(logging.CRITICAL)  # a client that leaves is no news for a terminal
-        context = self._context = foxglove.Context()  # the server holds no reference of its own
+        topics = self._context = foxglove.Context()  # the server holds no reference of its own
         contact = foxglove.Schema(name=CONTACT_SCHEMA, encoding="jsonschema", data=contact_schema())
-        self._contact = foxglove.Channel(CONTACT, schema=contact, message_encoding="json", context=context)
-        self._wrench = foxglove.Channel(WRENCH, schema=_WRENCH_SCHEMA, context=context)
-        self._scene = SceneUpdateChannel(SCENE, context=context)
-        self._health = LogChannel(HEALTH, context=context)
-        self._probe = SceneUpdate(entities=[_probe_entity(probe)])
+        self._contact = foxglove.Channel(CONTACT, schema=contact, message_encoding="json", context=topics)
+        self._wrench = foxglove.Channel(WRENCH, schema=_WRENCH_SCHEMA, context=topics)
+        self._scene = SceneUpdateChannel(SCENE, context=topics)
+        self._health = LogChannel(HEALTH, context=topics)
+        self._probe = SceneUpdate(entities=[_probe_entity(context.probe)])
         self._subscribed = _Subscribed()
         try:
             self._server = foxglove.start_server(
                 name="contactbench",
                 host=place.host,
                 port=place.port,
-                context=context,
+                context=topics,
                 server_listener=self._subscribed,
                 message_backlog_size=_BACKLOG,
             )

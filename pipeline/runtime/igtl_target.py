@@ -18,8 +18,8 @@ from contactbench.pipeline.runtime.places import resolve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import OutputContext
 
 FRAME, WRENCH, STATUS = "Contact", "ContactWrench", "ContactStatus"
 """Device names of the messages TRANSFORM, SENSOR and STATUS."""
@@ -47,10 +47,7 @@ class IgtlTarget:
     ----------
     address : str
         HOST:PORT to listen on.
-    about : RecordingInfo
-        Ties the samples' clock to the calendar.
-    remote : bool
-        Whether other machines may connect: what is sent is neither encrypted nor signed.
+    context : OutputContext
 
     Raises
     ------
@@ -60,9 +57,9 @@ class IgtlTarget:
 
     pace, trouble = 0.0, ""
 
-    def __init__(self, address: str, about: RecordingInfo, *, remote: bool = False) -> None:
-        place = resolve("--igtl", address, socket.SOCK_STREAM, remote=remote, listens=True)
-        self._about = about
+    def __init__(self, address: str, context: OutputContext) -> None:
+        place = resolve("--igtl", address, socket.SOCK_STREAM, remote=context.remote, listens=True)
+        self._about = context.about
         self._listener = socket.socket(place.family, socket.SOCK_STREAM)
         try:
             if os.name != "nt":  # there it would let two programs listen

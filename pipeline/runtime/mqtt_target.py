@@ -20,8 +20,8 @@ from contactbench.pipeline.runtime.places import resolve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import OutputContext
 
 _KEEP_ALIVE_S = 10
 _RETRY_S = (1, 5)  # the shortest and longest wait before it connects again
@@ -40,10 +40,7 @@ class MqttTarget:
     ----------
     address : str
         HOST:PORT/TOPIC; the topic may have levels.
-    about : RecordingInfo
-        Ties the samples' clock to the calendar.
-    remote : bool
-        Whether the broker may be on another machine: what is sent is neither encrypted nor signed.
+    context : OutputContext
 
     Raises
     ------
@@ -53,14 +50,14 @@ class MqttTarget:
 
     pace = 0.0
 
-    def __init__(self, address: str, about: RecordingInfo, *, remote: bool = False) -> None:
+    def __init__(self, address: str, context: OutputContext) -> None:
         where, _, topic = address.partition("/")
-        place = resolve("--mqtt", where, socket.SOCK_STREAM, remote=remote)
+        place = resolve("--mqtt", where, socket.SOCK_STREAM, remote=context.remote)
         if not topic.isprintable() or not 0 < len(topic) <= _LONGEST_TOPIC or set(topic) & {"+", "#"}:
             raise RunError(
                 f"--mqtt {arg(address)}: give a topic after the port, such as 127.0.0.1:1883/bench."
             )
-        self.name, self._about = f"MQTT {address}", about
+        self.name, self._about = f"MQTT {address}", context.about
         self.trouble = message(f"{arg(self.name)}: the broker has not answered yet: check that it runs.")
         self._refused = False  # the last connection
         self._contact, self._health = f"{topic}/contact", f"{topic}/health"

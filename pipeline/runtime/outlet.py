@@ -6,6 +6,7 @@ import queue
 import threading
 import time
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from contactbench.pipeline.errors import arg, message
@@ -14,12 +15,26 @@ from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
 
 _MOST_WAITING = 10_000  # ten seconds at 1 kHz
 _AT_ONCE = 500
 _LOOK_S = 0.002
 _IDLE_S = 0.2
+
+
+@dataclass(frozen=True)
+class OutputContext:
+    """What every output is opened with."""
+
+    about: RecordingInfo
+    """Ties the samples' clock to the calendar."""
+    probe: Probe
+    """For those that show a picture."""
+    remote: bool = False
+    """Whether other machines may take part: nothing is encrypted or signed."""
 
 
 class OutletTarget(Protocol):

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import socket
+import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
@@ -17,10 +19,9 @@ from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
-    from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import OutputContext
 
 CONTACT_TOPIC = "/contact"
 _CHUNK_BYTES = 2**20
@@ -101,6 +102,21 @@ class LineTarget:
             ) from error
 
 
+def line_target(address: str, _context: OutputContext) -> LineTarget:
+    """
+    Return the lines to a new file, or for ``-`` to standard output, which stays open at their end.
+
+    Raises
+    ------
+    OutputError
+        As `LineTarget.new`.
+    """
+    if address != "-":
+        return LineTarget.new(Path(address))
+    sys.stdout.flush()
+    return LineTarget(message("standard output"), os.dup(sys.stdout.fileno()))
+
+
 class UdpTarget:
     """
     One datagram of JSON for every contact; what the system does not take at once is not sent.
@@ -109,8 +125,7 @@ class UdpTarget:
     ----------
     address : str
         HOST:PORT.
-    remote : bool
-        Whether it may be another machine: what is sent is neither encrypted nor signed.
+    context : OutputContext
 
     Raises
     ------
@@ -120,9 +135,9 @@ class UdpTarget:
 
     pace, trouble = 0.0, ""
 
-    def __init__(self, address: str, *, remote: bool = False) -> None:
+    def __init__(self, address: str, context: OutputContext) -> None:
         self.name = f"udp {address}"
-        family, self._to = resolve("--udp", address, socket.SOCK_DGRAM, remote=remote)
+        family, self._to = resolve("--udp", address, socket.SOCK_DGRAM, remote=context.remote)
         self._socket = socket.socket(family, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
 
@@ -151,10 +166,9 @@ class McapTarget:
 
     Parameters
     ----------
-    path : path
-        Must not exist.
-    about : RecordingInfo
-        Ties the samples' clock to the calendar.
+    address : str
+        Path that must not exist.
+    context : OutputContext
 
     Raises
     ------
@@ -164,10 +178,11 @@ class McapTarget:
 
     pace, trouble = _FILE_PACE_S, ""
 
-    def __init__(self, path: Path, about: RecordingInfo) -> None:
-        self.name, self._about = str(path), about
+    def __init__(self, address: str, context: OutputContext) -> None:
+        about = context.about
+        self.name, self._about = address, about
         try:
-            self._file = ChunkFile(path, about.tool)
+            self._file = ChunkFile(Path(address), about.tool)
             self._file.add_metadata(ABOUT_RECORD, about_record(about))
             for device in about.devices:
                 self._file.add_metadata(DEVICE_RECORD, device_record(device))

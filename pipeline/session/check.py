@@ -11,29 +11,26 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.content import content_of, origin_problems
 from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
+    file_problem,
     own_file,
     refuse_links,
     unclaimed,
     unfinished,
-    wrong_with,
 )
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
 from contactbench.pipeline.session.lock import Lock
-from contactbench.pipeline.session.migrate import origin_problems
-from contactbench.pipeline.session.sources import sources_of
-from contactbench.pipeline.session.state import fold
+from contactbench.pipeline.session.remains import upright
+from contactbench.pipeline.session.state import fold, sources_of
 from contactbench.pipeline.session.store import Session
-from contactbench.pipeline.session.ways_in import upright
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from contactbench.pipeline.session.actions import FileRef
     from contactbench.pipeline.session.content import Content
 
 
@@ -89,12 +86,6 @@ def check_journal(
     problems += _others(folder, content)
     notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs}), *_inputs_lost(content)]
     return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
-
-
-def file_problem(folder: Path, ref: FileRef) -> str:
-    """Say what is wrong with a file, and the remedy; empty: nothing. Reads all of it."""
-    wrong = wrong_with(folder, ref)
-    return message(f"{arg(wrong)}: restore it from an archive, or add the original again.") if wrong else ""
 
 
 def other_problems(folder: Path) -> tuple[str, ...]:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
     from pathlib import Path
 
+    from contactbench.pipeline.files import AnyFile, File
+
 FOLDERS = ("raw", "meshes", "results")
 # A recording in the session's folder until it is closed and journaled; never deleted as long as it holds samples.
 UNFINISHED = "unfinished-"
@@ -28,14 +30,14 @@ _SCRATCH = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")
 _BINARY = getattr(os, "O_BINARY", 0)
 
 
-def chunks_of(file: Path) -> Iterator[bytes]:
+def chunks_of(file: File) -> Iterator[bytes]:
     """Read a file piece by piece."""
     with file.open("rb") as stream:
         while chunk := stream.read(_CHUNK):
             yield chunk
 
 
-def digest_of(file: Path) -> tuple[str, int]:
+def digest_of(file: File) -> tuple[str, int]:
     """Return the SHA-256 of a file, 64 hexadecimal digits, and its size. OSError if it cannot be read."""
     digest, size = hashlib.sha256(), 0
     for chunk in chunks_of(file):
@@ -125,7 +127,7 @@ def _plain(name: str) -> str:
     return plain[-_LONGEST:].lstrip(".") or "_"
 
 
-def regular(file: Path) -> Path:
+def regular(file: AnyFile) -> AnyFile:
     """Refuse what is not a file that can be copied: folders, devices, pipes that never end."""
     try:
         mode = file.stat().st_mode
@@ -183,6 +185,21 @@ def wrong_with(session: Path, ref: FileRef) -> str:
     return (
         "" if sha256 == ref.sha256 else message(f"the content of {arg(ref.path)} does not match the journal")
     )
+
+
+def file_problem(folder: Path, ref: FileRef) -> str:
+    """Say what is wrong with a file, and the remedy; empty: nothing. Reads all of it."""
+    wrong = wrong_with(folder, ref)
+    return message(f"{arg(wrong)}: restore it from an archive, or add the original again.") if wrong else ""
+
+
+def touched_mark(file: Path) -> tuple[int, int, int] | None:
+    """Return what changes when a file is touched; None: it is not there."""
+    try:
+        found = file.lstat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino
 
 
 def unfinished(session: Path) -> list[str]:

@@ -15,10 +15,10 @@ from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
+    from contactbench.pipeline.files import File
 
 FEWEST_POSES = 3
 
@@ -36,7 +36,7 @@ class CapturesParameters(CapturesSettings, Parameters):
 
 
 def captures(
-    inputs: Mapping[str, Path],
+    inputs: Mapping[str, File],
     parameters: Mapping[str, Any],
     _created: str | None,
     *,
@@ -92,7 +92,7 @@ def captures(
     return {given.name: encode_poses(poses, given.name)}
 
 
-def _earlier(file: Path) -> tuple[PoseSample, ...]:
+def _earlier(file: File) -> tuple[PoseSample, ...]:
     from contactbench.pipeline.calibration.files.pose_csv import read_poses
 
     # Their times are on another recording's clock.
@@ -120,7 +120,7 @@ class CalibrationParameters(CalibrationSettings, Parameters):
 
 
 def calibration(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
+    inputs: Mapping[str, File], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
     from contactbench.pipeline.calibration import calibrate

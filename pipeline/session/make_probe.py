@@ -9,7 +9,8 @@ from contactbench.pipeline.settings import ProbeSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
+
+    from contactbench.pipeline.files import File
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
@@ -22,7 +23,7 @@ class ProbeParameters(ProbeSettings, Parameters):
 
 
 def probe(
-    inputs: Mapping[str, Path],
+    inputs: Mapping[str, File],
     parameters: Mapping[str, Any],
     _created: str | None,
     *,

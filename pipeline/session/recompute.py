@@ -1,28 +1,28 @@
 """
 How each kind of result is computed from inputs and parameters; the same ones give the same bytes.
 
-A function gets its inputs as files under the names they came with, because some of those names are written into
-results, and gives the result's files. The parameters are those of the command of the same purpose, lengths in mm.
+A function reads its inputs where they lie in the session, under the names they came with, because some of those names
+are written into results, and gives the result's files. The parameters are those of the command of the same purpose,
+lengths in mm.
 """
 
 from __future__ import annotations
 
-import re
-import shutil
-import tempfile
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+import hashlib
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.report.report_file import ReportParameters, report
-from contactbench.pipeline.session.actions import main_file
+from contactbench.pipeline.session.actions import TOOL, main_file
 from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import touched_mark
 from contactbench.pipeline.session.make_calibration import (
     CalibrationParameters,
     CapturesParameters,
@@ -38,13 +38,14 @@ from contactbench.pipeline.verification.result import REFERENCE, VerificationPar
 from contactbench.pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
     from pydantic import BaseModel
 
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import State
+    from contactbench.pipeline.session.state import Result, State
     from contactbench.pipeline.session.store import Session
-
-PREFIX = "contactbench-"  # of temporary folders
 
 
 @dataclass(frozen=True)
@@ -258,25 +259,18 @@ def recomputed(
         raise SessionError(
             f"{arg(kind)}: this kind of result cannot be computed. Known: {arg(', '.join(RECOMPUTE))}."
         )
-    with laid_out(folder, state, inputs, before) as files:
-        try:
-            # Whoever looks at the past checks results, and has everything computed anew.
-            offered = {
-                "progress": progress,
-                "cancelled": cancelled,
-                "remember": before is None,
-                "tell": tell,
-            }
-            done = RECOMPUTE[kind]
-            return done.make(files, parameters, created, **{name: offered[name] for name in done.takes})
-        except InputError as error:
-            raise SessionError(_without_places(str(error))) from error
-
-
-def _without_places(text: str) -> str:
-    """Leave out the temporary folders in which things were computed: they are gone when this is read."""
-    place = re.escape(str(Path(tempfile.gettempdir()) / PREFIX))
-    return re.sub(place + r"[^/\\]*[/\\](?:[0-9]+[/\\])?", "", text)
+    files = inputs_of(folder, state, inputs, before)
+    marks = _marks(files)
+    # Whoever looks at the past checks results, and has everything computed anew.
+    offered = {"progress": progress, "cancelled": cancelled, "remember": before is None, "tell": tell}
+    done = RECOMPUTE[kind]
+    try:
+        made = done.make(files, parameters, created, **{name: offered[name] for name in done.takes})
+    except InputError as error:
+        raise SessionError(*error.args) from error
+    if _marks(files) != marks:  # a file of a session never changes: somebody else wrote it
+        raise SessionError(f"{arg(folder)}: an input changed while it was read: run `session verify`.")
+    return made
 
 
 def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
@@ -294,10 +288,13 @@ def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
 def settings_of(state: State, kind: str) -> dict[str, Any]:
     """Return the parameters that the session's settings give a computation; those set to null are left out."""
     known = RECOMPUTE[kind].parameters.model_fields if kind in RECOMPUTE else {}
-    named = {
-        key.partition(".")[2]: each for key, each in state.settings.items() if key.startswith(f"{kind}.")
-    }
-    return {name: each.value for name, each in named.items() if name in known and each.value is not None}
+    return chosen_of(state, kind, known)
+
+
+def chosen_of(state: State, kind: str, known: Container[str]) -> dict[str, Any]:
+    """Return those of the known settings ``kind.parameter`` that a session has; those set to null are left out."""
+    named = state.named(kind).items()
+    return {name: each.value for name, each in named if name in known and each.value is not None}
 
 
 def mount_of(state: State) -> Three | None:
@@ -321,20 +318,11 @@ def mount_of(state: State) -> Three | None:
     return angles
 
 
-@contextmanager
-def laid_out(
+def inputs_of(
     folder: Path, state: State, inputs: Mapping[str, str], before: int | None = None
-) -> Iterator[dict[str, Path]]:
-    """Give inputs as `lay_out` does, in folders that are gone afterwards."""
-    with tempfile.TemporaryDirectory(prefix=PREFIX) as scratch:
-        yield lay_out(folder, state, inputs, Path(scratch), before)
-
-
-def lay_out(
-    folder: Path, state: State, inputs: Mapping[str, str], target: Path, before: int | None = None
-) -> dict[str, Path]:
+) -> dict[str, NamedFile]:
     """
-    Copy inputs, with what belongs to them and under the names they came with, into folders of their own.
+    Find inputs, with what belongs to them: each where it lies in the session, under the name it came with.
 
     Parameters
     ----------
@@ -343,14 +331,12 @@ def lay_out(
     state : State
     inputs : mapping
         Role -> hash; see `newest_inputs`.
-    target : Path
-        An empty folder.
     before : int, optional
         See `recomputed`.
 
     Returns
     -------
-    dict of str to Path
+    dict of str to NamedFile
         The main file by role.
 
     Raises
@@ -358,15 +344,10 @@ def lay_out(
     SessionError
         The session does not hold one of them, or it cannot be read.
     """
-    return {
-        role: _copied(folder, state, sha256, target / str(number), before)
-        for number, (role, sha256) in enumerate(inputs.items())
-    }
+    return {role: _named(folder, state, sha256, before) for role, sha256 in inputs.items()}
 
 
-def _copied(folder: Path, state: State, sha256: str, target: Path, before: int | None) -> Path:
-    """Copy an input, under the name it came with, where a computation may read it; return where."""
-    target.mkdir()
+def _named(folder: Path, state: State, sha256: str, before: int | None) -> NamedFile:
     used = state.input_with(sha256, before)
     made = None if used is not None else state.result_with(sha256, before)
     if used is not None:
@@ -375,11 +356,99 @@ def _copied(folder: Path, state: State, sha256: str, target: Path, before: int |
         names, main = dict(made.action.files), main_file(made.action)
     else:
         raise SessionError(f"the session contains nothing with the hash {arg(sha256[:12])}: add it first.")
+    places = {name: folder / ref.path for name, ref in names.items()}
     try:
-        for name, ref in names.items():
-            shutil.copyfile(folder / ref.path, target / name)
+        for place in places.values():
+            place.open("rb").close()
     except OSError as error:
         raise SessionError(
             f"{arg(folder)}: an input cannot be read ({arg(error)}): run `session verify`."
         ) from error
-    return target / main
+    return NamedFile(places[main], main, places)
+
+
+def _marks(files: Mapping[str, NamedFile]) -> list[tuple[int, int, int] | None]:
+    return [touched_mark(place) for file in files.values() for place in file.beside.values()]
+
+
+# ---- computed once more ---------------------------------------------------------------------------
+
+
+class ReplayOutcome(StrEnum):
+    """What computing a result again gave."""
+
+    SAME = "same"
+    DIFFERENT = "different"
+    FAILED = "failed"
+    UNKNOWN = "unknown"  # nothing here computes this kind
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """One result, computed again."""
+
+    kind: str
+    name: str
+    number: int  # Of its record
+    outcome: ReplayOutcome
+    sentence: str  # What came of it
+
+
+def replay(session: Session, progress: Callable[[int, int], None] | None = None) -> tuple[Replayed, ...]:
+    """
+    Compute every result of a session again, also replaced and stale ones; adds nothing to it.
+
+    Parameters
+    ----------
+    session : Session
+        Open for reading or writing.
+    progress : callable, optional
+        Takes the number of results that are done, and of all.
+
+    Returns
+    -------
+    tuple of Replayed
+        Oldest first.
+    """
+    found = []
+    results = session.state.results
+    for done, result in enumerate(results, 1):
+        outcome, why = _again(session, result)
+        found.append(Replayed(*result.slot, result.number, outcome, f"{result.title}: {why}"))
+        if progress is not None:
+            progress(done, len(results))
+    return tuple(found)
+
+
+def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
+    action = result.action
+    if action.kind not in RECOMPUTE:
+        return ReplayOutcome.UNKNOWN, message(
+            "this kind of result cannot be computed here, so it was not compared."
+        )
+    parameters = {**action.parameters, "name": action.name}
+    try:
+        files = recomputed(
+            session.folder,
+            session.state,
+            action.kind,
+            action.inputs,
+            parameters,
+            action.created,
+            before=result.number,
+        )
+    except InputError as error:
+        return ReplayOutcome.FAILED, message(f"it cannot be recomputed: {arg(error)}")
+    differing = sorted(
+        name
+        for name in files.keys() | action.files.keys()
+        if name not in files
+        or name not in action.files
+        or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
+    )
+    if not differing:
+        return ReplayOutcome.SAME, message("identical bytes.")
+    older = (
+        "" if result.tool == TOOL else message(f" It was made by {arg(result.tool)}, this is {arg(TOOL)}.")
+    )
+    return ReplayOutcome.DIFFERENT, message(f"different bytes in {arg(', '.join(differing))}.{arg(older)}")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.actions import files_of
-from contactbench.pipeline.session.content import content_of
+from contactbench.pipeline.session.content import content_of, original_of
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
@@ -24,7 +24,6 @@ from contactbench.pipeline.session.files import (
     wrong_with,
 )
 from contactbench.pipeline.session.journal import JOURNAL, read_journal
-from contactbench.pipeline.session.migrate import original_of
 from contactbench.pipeline.session.remains import doubts, note_of, remains_of
 from contactbench.pipeline.session.store import Session
 

@@ -23,6 +23,7 @@ from contactbench.pipeline.session.actions import (
     SessionCreated,
     checked,
     entry,
+    files_of,
     payload_of,
     user,
 )
@@ -31,6 +32,7 @@ from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
     chunks_of,
+    file_problem,
     own_file,
     refuse_links,
     regular,
@@ -43,15 +45,17 @@ from contactbench.pipeline.session.files import (
 from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
 from contactbench.pipeline.session.lock import LOCK, Lock
 from contactbench.pipeline.session.remains import read_damaged
-from contactbench.pipeline.session.stale import stale_results
-from contactbench.pipeline.session.state import MESH, State, fold
+from contactbench.pipeline.session.state import MESH, Result, State, fold
+from contactbench.pipeline.session.why import stale_results
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
     from types import TracebackType
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.session.actions import Action, FileRef
+    from contactbench.pipeline.session.state import Input
 
 _NO_ROOM = {errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC), errno.EROFS}
 
@@ -200,7 +204,7 @@ class Session:
 
     def add_input(
         self,
-        file: Path | bytes,
+        file: File | bytes,
         kind: str,
         *,
         name: str | None = None,
@@ -229,22 +233,13 @@ class Session:
             name = "" if isinstance(file, bytes) else file.name
         source = _chunks(file)
         beside = {each: _chunks(there) for each, there in (companions or {}).items()}
-        if kind == MESH:
-            return self.change_mesh(name, source, beside)
-        given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about or {})}
+        action, folder, given = _input(kind, sensor, about or {})
         # Refused before anything is copied.
-        checked(InputAdded, file=NOWHERE, companions=dict.fromkeys(beside, NOWHERE), **given)
-        ref, refs = self._store("raw", name, source), self._store_all("raw", beside)
-        return self._append(checked(InputAdded, file=ref, companions=refs, **given), sensor)
-
-    def change_mesh(
-        self, name: str, chunks: Iterable[bytes], companions: Mapping[str, Iterable[bytes]] | None = None
-    ) -> Record:
-        """Use another mesh from now on; what was computed from the one before becomes stale."""
-        companions = companions or {}
-        checked(MeshChanged, name=name, file=NOWHERE, companions=dict.fromkeys(companions, NOWHERE))
-        ref, refs = self._store("meshes", name, chunks), self._store_all("meshes", companions)
-        return self._append(checked(MeshChanged, name=name, file=ref, companions=refs))
+        checked(action, name=name, file=NOWHERE, companions=dict.fromkeys(beside, NOWHERE), **given)
+        ref, refs = self._store(folder, name, source), self._store_all(folder, beside)
+        return self._append(
+            checked(action, name=name, file=ref, companions=refs, **given), given.get("sensor")
+        )
 
     def adopt(
         self, file: Path, kind: str, *, name: str, sensor: str | None, about: Mapping[str, Any]
@@ -317,6 +312,28 @@ class Session:
                 )
         refs = self._store_all("results", {each: (content,) for each, content in files.items()})
         return self._append(checked(ResultAdded, files=refs, **given))
+
+    def add_again(self, there: Input | Result) -> Record:
+        """
+        Add what the session had once more, with the very files that it has, and say of it what was said last.
+
+        Raises
+        ------
+        SessionError
+            One of its files is not what the journal says, or the journal cannot be written.
+        """
+        action: Action
+        given: dict[str, Any] = {}
+        if isinstance(there, Result):
+            action = there.action
+        else:
+            make, _, given = _input(there.kind, there.sensor, there.about)
+            action = make(name=there.name, file=there.file, companions=dict(there.companions), **given)
+        for ref in files_of(action):
+            if wrong := file_problem(self.folder, ref):
+                raise SessionError(f"{arg(self.folder)}: {arg(wrong)}")
+        record = self._append(action, given.get("sensor"))
+        return record if there.mark is None else self._append(there.mark)
 
     def mark(
         self, kind: str, name: str, mark: Literal["accepted", "rejected", "stale"], reason: str = ""
@@ -407,7 +424,16 @@ class Session:
         return self._writer
 
 
-def _chunks(file: Path | bytes) -> Iterable[bytes]:
+def _input(
+    kind: str, sensor: str | None, about: Mapping[str, Any]
+) -> tuple[type[InputAdded | MeshChanged], str, dict[str, Any]]:
+    """Return the action that adds an input of a kind, the folder of its files, and what is said of it."""
+    if kind == MESH:
+        return MeshChanged, "meshes", {}
+    return InputAdded, "raw", {"kind": kind, "sensor": sensor, "about": dict(about)}
+
+
+def _chunks(file: File | bytes) -> Iterable[bytes]:
     return (file,) if isinstance(file, bytes) else chunks_of(regular(file))
 
 

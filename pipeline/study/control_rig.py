@@ -17,9 +17,9 @@ from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.loop import Rig, arm_of
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
+from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
 from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformScene, Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.study.marker_touches import model_of, truth_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -24,9 +24,9 @@ from contactbench.pipeline.control.margins import AXES
 from contactbench.pipeline.control.settings import Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.scenes import Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.pages import png
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 

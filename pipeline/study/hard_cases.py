@@ -46,7 +46,6 @@ __all__ = ["HardCase", "HardCasesReport", "HardOutcome", "HardTrial", "Rule", "r
 Rng = np.random.Generator
 
 _OPEN = Gates(friction_angle=89.99)  # lets all but edge-on candidates through
-_NM = 1e-6  # mm
 _FOR_A_SHARE = 20_000
 _COMPLETE = Rule(
     "the answer of every facet one by one, the truth the point or a candidate within 5 mm", unflagged=1.0
@@ -107,7 +106,7 @@ def _tangential(n: int, rng: Rng) -> Iterator[HardTrial]:
             f"the same, cone opened to {_OPEN.friction_angle} degrees, the truth has clearly the least torque"
         )
         name, probe = f"tangential {said}, open cone", body.probe()
-        yield HardTrial(name, what, exact("1e-6 m"), probe, first, gates=_OPEN, tolerance_mm=1e-3)
+        yield HardTrial(name, what, exact("1e-6 m"), probe, first, gates=_OPEN)
 
 
 def _force(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -116,7 +115,8 @@ def _force(n: int, rng: Rng) -> Iterator[HardTrial]:
     unit = drawn.wrenches / np.linalg.norm(drawn.wrenches[:, :3], axis=1, keepdims=True)
     free = Gates(min_force=0.0)
     low, clipped = refused(Reason.LOW_FORCE), refused(Reason.SATURATED)
-    right, safe = exact("1e-9 m"), Rule("a point right to 1e-9 m, or none", (0.0, 1.0), wrong=0.0)
+    right = exact("1e-9 m")
+    safe = replace(right, words="a point right to 1e-9 m, or none", answered=(0.0, 1.0))
     for name, size, gates, rule in (
         ("zero force", 0.0, Gates(), low),
         ("zero force, no gate", 0.0, free, low),
@@ -130,9 +130,7 @@ def _force(n: int, rng: Rng) -> Iterator[HardTrial]:
         ("force of 1e200 N", 1e200, Gates(), clipped),
     ):
         what = f"ellipsoid, |F| = {size:.10g} N, gate {gates.min_force:g} N, torque in proportion"
-        yield HardTrial(
-            name, what, rule, body.probe(), Drawn(size * unit, drawn.points), gates=gates, tolerance_mm=_NM
-        )
+        yield HardTrial(name, what, rule, body.probe(), Drawn(size * unit, drawn.points), gates=gates)
 
 
 def _numbers(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -170,7 +168,7 @@ def _borders(n: int, rng: Rng) -> Iterator[HardTrial]:
     for place, name in spots:
         drawn = press(*places(body, n, rng, place), rng, arm=0.0)
         what = f"ellipsoid, contacts exactly {name}, no local torque"
-        yield HardTrial(f"{name}, k = 0", what, exact("1e-9 m"), probe, drawn, gates=_OPEN, tolerance_mm=_NM)
+        yield HardTrial(f"{name}, k = 0", what, exact("1e-9 m"), probe, drawn, gates=_OPEN)
         drawn = press(*places(body, n, rng, place), rng, arm=0.003)
         what = f"ellipsoid, contacts exactly {name}, local torque about the normal of one of the facets there"
         check = certified(body, drawn.wrenches)
@@ -186,7 +184,7 @@ def _borders(n: int, rng: Rng) -> Iterator[HardTrial]:
     k = np.resize([0.0, 0.125, -0.125], len(up))[:, None] * up
     drawn = Drawn(np.hstack([-8.0 * up, np.cross(points[inner], -8.0 * up) + k]), points[inner])
     what = "box of dyadic numbers, force straight down on edges and vertices: many moments exactly zero"
-    yield HardTrial("exact ties", what, exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
+    yield HardTrial("exact ties", what, exact("1e-9 m"), body.probe(), drawn)
 
 
 def _gaps(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -282,29 +280,26 @@ def _meshes(n: int, rng: Rng) -> Iterator[HardTrial]:
         ("duplicate facets", "every tenth facet twice", body.probe(doubled)),
         ("sliver facets", "every tenth facet split, one part of aspect 1e6", split.probe()),
     ):
-        yield HardTrial(name, f"ellipsoid, {what}", exact("1e-7 m"), probe, drawn, tolerance_mm=1e-4)
+        yield HardTrial(name, f"ellipsoid, {what}", exact("1e-7 m"), probe, drawn)
     rule = Rule("every wrench answered, within 10 mm or flagged")
     what = "the same through a binary STL file: single precision makes the slivers' normals rounding"
     rounded = hm.through_stl(split)
     yield HardTrial("slivers in single precision", what, rule, rounded, drawn)
-    rule = Rule("at least 90 % answered, no wrong point", (0.9, 1.0), wrong=0.0)
+    rule = Rule("at least 90 % answered, no wrong point", (0.9, 1.0), wrong=0.0, tolerance_mm=1e-4)
     what = "ellipsoid, unmerged: no facet shares a vertex, so no vertex can answer"
-    yield HardTrial("soup", what, rule, hm.soup(body).probe(), drawn, tolerance_mm=1e-4)
+    yield HardTrial("soup", what, rule, hm.soup(body).probe(), drawn)
     what = "ellipsoid, written as binary STL and read again"
     probe = hm.through_stl(body)
-    yield HardTrial("soup through an STL file", what, exact("1e-6 m"), probe, drawn, tolerance_mm=1e-3)
+    yield HardTrial("soup through an STL file", what, exact("1e-6 m"), probe, drawn)
     some = body.faces.copy()
     some[tenth] = some[tenth, ::-1]
-    rule = Rule(
-        "what is answered is right, or the mesh's health says that facets are turned over", (0.0, 1.0)
-    )
+    words = "what is answered is right, or the mesh's health says that facets are turned over"
+    rule = Rule(words, (0.0, 1.0), tolerance_mm=1e-4)
     for name, what, faces in (
         ("inside out", "all facets turned over: the far side answers", body.faces[:, ::-1]),
         ("a tenth turned over", "every tenth facet turned over: the far side or nothing answers there", some),
     ):
-        yield HardTrial(
-            name, f"ellipsoid, {what}", rule, body.probe(faces), drawn, tolerance_mm=1e-4, known_bad_mesh=True
-        )
+        yield HardTrial(name, f"ellipsoid, {what}", rule, body.probe(faces), drawn, known_bad_mesh=True)
 
 
 def _origins(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -312,9 +307,7 @@ def _origins(n: int, rng: Rng) -> Iterator[HardTrial]:
     through = np.abs(np.einsum("fi,fi->f", square.normals, square.corners[:, 0])) < 1e-12
     drawn = press(*places(square, n, rng, among=np.asarray(through)), rng)
     what = "box with the sensor origin at a corner, touches on the three sides whose plane runs through it"
-    yield HardTrial(
-        "planes through the origin", what, exact("1e-9 m"), square.probe(), drawn, tolerance_mm=_NM
-    )
+    yield HardTrial("planes through the origin", what, exact("1e-9 m"), square.probe(), drawn)
     far = np.array([0.6, -0.64, 0.48])
     middle = round_body.vertices.mean(axis=0)
     for name, origin in (
@@ -325,9 +318,7 @@ def _origins(n: int, rng: Rng) -> Iterator[HardTrial]:
     ):
         body = round_body.moved(-origin)
         drawn = press(*places(body, n, rng), rng)
-        yield HardTrial(
-            name, f"ellipsoid, sensor {name}", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM
-        )
+        yield HardTrial(name, f"ellipsoid, sensor {name}", exact("1e-9 m"), body.probe(), drawn)
 
 
 def _sizes(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -348,9 +339,8 @@ def _sizes(n: int, rng: Rng) -> Iterator[HardTrial]:
         check, probe, said = like(base, move, other.size), other.probe(), f"T-shape, {what}"
         grown = replace(model, torsion_arm=model.torsion_arm * scale)
         noise = WrenchNoise(0.001, 1e-5 * scale)
-        return HardTrial(
-            name, said, same, probe, of, noise, gates, grown, tolerance_mm=10 * scale, check=check
-        )
+        rule = replace(same, tolerance_mm=10 * scale)
+        return HardTrial(name, said, rule, probe, of, noise, gates, grown, check=check)
 
     for name, scale in (
         ("1 um large", 1e-6 / body.size),
@@ -390,7 +380,7 @@ def _axes(n: int, rng: Rng) -> Iterator[HardTrial]:
         )
     what = f"T-shape, k = 0, where the axis enters once, against {by}"
     truth = Drawn(drawn.wrenches, np.asarray(rays))
-    yield HardTrial("wrench axis", what, exact("1e-6 m"), body.probe(), truth, gates=_OPEN, tolerance_mm=1e-3)
+    yield HardTrial("wrench axis", what, exact("1e-6 m"), body.probe(), truth, gates=_OPEN)
 
 
 def _torques(n: int, rng: Rng) -> Iterator[HardTrial]:
@@ -398,7 +388,7 @@ def _torques(n: int, rng: Rng) -> Iterator[HardTrial]:
     drawn = press(*places(body, n, rng), rng, pitch=1.0)
     what = "ellipsoid, torque about the axis of 1 m times the force"
     free, rule = f"{what}, any torsion allowed", exact("1e-9 m")
-    yield HardTrial("pitch 1 m", free, rule, body.probe(), drawn, tolerance_mm=_NM)
+    yield HardTrial("pitch 1 m", free, rule, body.probe(), drawn)
     known, rule = f"{what}, solver as delivered", refused(Reason.IMPLAUSIBLE)
     usual, some = TouchModel(), drawn.take(slice(0, n // 8))
     check = judged(some)

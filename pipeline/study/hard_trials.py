@@ -51,6 +51,7 @@ class Rule:
     unflagged: float = 0.0
     wrong: float = 1.0
     reasons: tuple[Reason, ...] | None = None  # the only reasons allowed
+    tolerance_mm: float = 10.0  # a larger error is wrong
 
     def faults(self, outcome: HardOutcome) -> tuple[str, ...]:
         """Return what is wrong with an outcome, in words; nothing when it passes."""
@@ -112,7 +113,6 @@ class HardTrial:
     noise: WrenchNoise = field(default_factory=lambda: WrenchNoise(0.0, 0.0))
     gates: Gates = field(default_factory=Gates)
     model: TouchModel = field(default_factory=lambda: EXACT)
-    tolerance_mm: float = 10.0  # a larger error is wrong
     check: Check | None = None  # gives (n,) bool: tries that break a rule of the case's own
     # facets were turned over on purpose: an answer counts as flagged when the mesh's health says so
     known_bad_mesh: bool = False
@@ -136,7 +136,7 @@ class HardTrial:
     def _outcome(self, method: methods.ContactMethod) -> HardOutcome:
         batch = method.locate_batch(self.drawn.wrenches)
         error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
-        far = error > self.tolerance_mm
+        far = error > self.rule.tolerance_mm
         health = self.probe.health
         told = self.known_bad_mesh and (health.outward is False or not health.winding_consistent)
         unflagged = far & (batch.reasons <= Reason.VERTEX) & (not told)
@@ -155,8 +155,9 @@ class HardTrial:
 
 
 def exact(tolerance: str) -> Rule:
-    """Return the rule that every point is there and right."""
-    return Rule(f"every wrench answered, every point right to {tolerance}", wrong=0.0)
+    """Return the rule that every point is there and right, to so much: a number and ``m``."""
+    words = f"every wrench answered, every point right to {tolerance}"
+    return Rule(words, wrong=0.0, tolerance_mm=1e3 * float(tolerance.split()[0]))
 
 
 def refused(*reasons: Reason) -> Rule:

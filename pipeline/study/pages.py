@@ -32,9 +32,7 @@ _HTML = ".html"  # ending of the same page in the design of the reports
 CHAPTERS = {
     "sweep": "sweep.page",
     "stability": "stability",
-    "ablation": "ablation.page",
-    "rivals": "rivals.page",
-    "confidence": "confidence.page",
+    "confidence": "confidence.study",
     "scene": "scene_page",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine

@@ -14,10 +14,10 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
+from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of
 from contactbench.pipeline.simulation.reality.bench import RealBench
+from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.marker_touches import check_bundled, model_of
-from contactbench.pipeline.study.real_causes import VERIFIED_S, MarkedPresses, planned_poses
 from contactbench.pipeline.study.report import Sheet, StudyReport
 
 if TYPE_CHECKING:

@@ -339,6 +339,11 @@ class StudyReport:
             built.add_row(*map(Text, figure.cells), style=STYLES[figure.verdict])
         return built
 
+    def tables(self) -> list[Table]:
+        """Build all that people read for the terminal: tables, and the figures where there are any."""
+        shown = [sheet.table() for sheet in self.sheets if sheet.shown]
+        return [*shown, self.table()] if self.figures else shown
+
     def markdown(self) -> str:
         """Write the figures, and the tables that people read, as Markdown."""
         lines = [f"# {self.title}\n\n{self._settings}\n", _line(_HEADINGS), "|---" * len(_HEADINGS) + "|"]

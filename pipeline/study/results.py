@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
+Row = dict[str, Any]  # plain values
+
 RESULTS = "results.parquet"
 _META, _VERSION = b"contactbench", 1
 PASSING = ("finished", "load")  # of an environment: what differs from hour to hour
@@ -32,7 +34,7 @@ class Results:
 
     kind: str  # which study: one that `contactbench.pipeline.study.pages` knows
     command: str  # what repeats it, as it is typed
-    rows: tuple[dict[str, Any], ...]  # plain values; a row has None where others have a figure
+    rows: tuple[Row, ...]  # plain values; a row has None where others have a figure
     environment: Mapping[str, Any]  # see `environment`
     about: Mapping[str, Any] = field(default_factory=dict)  # whatever else belongs to it, plain values
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.simulation.marker_touches import check_bundled, truth_of
 from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     Payload,
@@ -18,7 +19,6 @@ from contactbench.pipeline.simulation.scenes import (
     depth_for,
 )
 from contactbench.pipeline.simulation.scenes.tissue import PLACES
-from contactbench.pipeline.study.marker_touches import check_bundled, truth_of
 from contactbench.pipeline.study.report import Sheet, StudyReport
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment, TrueSurface
+    from contactbench.pipeline.study.report import Cell
 
 FORCE_N = 7.0
 MOTIONS = {
@@ -55,49 +56,6 @@ class Ride:
     # of this force, mm
     inertia: NDArray[np.float64]
     lag_ms: float  # by how much later than its set-points the carrier is there
-
-
-@dataclass(frozen=True)
-class Effect:
-    """One change of a scene, under one motion, against the scene that it is a change of."""
-
-    motion: str
-    change: str
-    against: str
-    # force, most_force: N, root mean square and largest difference
-    force: float
-    most_force: float
-    # angle, most_angle: degrees
-    angle: float
-    most_angle: float
-    # place, most_place: mm, of the contact on the probe
-    place: float
-    most_place: float
-    # lean, most_lean: degrees, of the force's direction
-    lean: float
-    most_lean: float
-    lag_ms: float  # behind the set-points
-
-
-@dataclass(frozen=True)
-class RideInertia:
-    """What a sensor reads beside contact and weight; largest: N, and the mm by which it moves a contact of 7 N."""
-
-    motion: str
-    scene: str
-    force: float
-    place: float
-
-
-@dataclass(frozen=True)
-class SceneReport:
-    """All that was measured, for one probe and period (s)."""
-
-    probe: str
-    period: float
-    effects: list[Effect]
-    inertia: list[RideInertia]
-    real_time: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -142,20 +100,20 @@ def changes(truth: TrueSurface) -> dict[str, SceneChange]:
 
 
 def run(
-    probe: str = "convex",
+    probes: Sequence[str] = ("convex",),
     period: float = 2.0,
     *,
     motions: Sequence[str] = tuple(MOTIONS),
     only: Sequence[str] | None = None,
     progress: Callable[[str], None] = lambda _: None,
-) -> SceneReport:
+) -> StudyReport:
     """
     Ride every changed scene, and compare.
 
     Parameters
     ----------
-    probe : str
-        A bundled probe.
+    probes : sequence of str
+        Bundled ones.
     period : float
         s, of the phantom's motion: 10 mm or 10 degrees to either side.
     motions : sequence of str
@@ -164,28 +122,44 @@ def run(
         Of `changes`; what they are compared with comes along.
     progress : callable
         Told what is being done.
+
+    Raises
+    ------
+    InputError
+        There is no such probe, or MuJoCo is missing.
     """
-    check_bundled([probe])
-    truth = truth_of(probe)
-    known = changes(truth)
-    chosen = list(known) if only is None else _with_bases(only, known)
-    effects: list[Effect] = []
-    inertia: list[RideInertia] = []
-    factors: dict[str, float] = {}
-    for motion in motions:
-        rides: dict[str, Ride] = {}
-        for change in chosen:
-            progress(f"{motion}: {change}")
-            each = known[change]
-            depth = depth_for(truth, FORCE_N, places=each.places)  # the same force, not the same depth
-            rides[change], factor = ride(each.make, *MOTIONS[motion], period, depth)
-            factors[change] = min(factor, factors.get(change, np.inf))
-            if change != each.against:
-                effects.append(_effect(motion, change, each.against, rides))
-            if change in (AS_IT_IS, ARM):
-                most = rides[change].inertia.max(axis=0)
-                inertia.append(RideInertia(motion, change, float(most[0]), float(most[1])))
-    return SceneReport(probe, period, effects, inertia, factors)
+    effects: list[tuple[Cell, ...]] = []
+    inertia: list[tuple[Cell, ...]] = []
+    factors: dict[tuple[str, str], float] = {}
+    for probe in check_bundled(probes):
+        truth = truth_of(probe)
+        known = changes(truth)
+        chosen = list(known) if only is None else _with_bases(only, known)
+        for motion in motions:
+            rides: dict[str, Ride] = {}
+            for change in chosen:
+                progress(f"{motion}: {change}")
+                each = known[change]
+                depth = depth_for(truth, FORCE_N, places=each.places)  # the same force, not the same depth
+                rides[change], factor = ride(each.make, *MOTIONS[motion], period, depth)
+                factors[probe, change] = min(factor, factors.get((probe, change), np.inf))
+                if change != each.against:
+                    differences = _differences(rides[change], rides[each.against])
+                    effects.append((probe, motion, change, *differences, rides[change].lag_ms))
+                if change in (AS_IT_IS, ARM):
+                    inertia.append((probe, motion, change, *rides[change].inertia.max(axis=0).tolist()))
+    sheets = (
+        Sheet("effects", "What a change of the scene changes", _EFFECTS, tuple(effects)),
+        Sheet("inertia", "What the sensor reads beside contact and weight", _INERTIA, tuple(inertia)),
+        Sheet(
+            "speed",
+            "How fast, with a sample every 5 ms",
+            _TIMES,
+            tuple((*of, factor) for of, factor in factors.items()),
+        ),
+    )
+    about = {"probes": ", ".join(dict.fromkeys(probes)), "period": f"{period:g} s"}
+    return StudyReport("What the scenes with a moving phantom leave out", about, (), (_HOW,), sheets)
 
 
 def ride(
@@ -258,39 +232,14 @@ def _with_bases(only: Sequence[str], known: dict[str, SceneChange]) -> list[str]
     return [change for change in known if change in wanted]
 
 
-def _effect(motion: str, change: str, against: str, rides: dict[str, Ride]) -> Effect:
-    a, b = rides[change], rides[against]
-    differences = [
-        np.abs(a.force - b.force),
-        *(
-            np.linalg.norm(one - other, axis=1)
-            for one, other in ((a.angles, b.angles), (a.places, b.places), (a.leans, b.leans))
-        ),
+def _differences(a: Ride, b: Ride) -> list[float]:
+    """Return the root mean square and the largest of each difference, in the order of `_EFFECTS`."""
+    differences = [np.abs(a.force - b.force)]
+    for one, other in ((a.angles, b.angles), (a.places, b.places), (a.leans, b.leans)):
+        differences.append(np.linalg.norm(one - other, axis=1))
+    return [
+        float(figure) for each in differences for figure in (np.sqrt(np.nanmean(each**2)), np.nanmax(each))
     ]
-    pairs = [(float(np.sqrt(np.nanmean(each**2))), float(np.nanmax(each))) for each in differences]
-    return Effect(motion, change, against, *pairs[0], *pairs[1], *pairs[2], *pairs[3], a.lag_ms)
-
-
-# ---- as tables -------------------------------------------------------------------------------------
-
-
-def report_of(found: Sequence[SceneReport]) -> StudyReport:
-    """Put what was measured with several probes together as one report."""
-    effects = tuple(
-        (r.probe, e.motion, e.change, e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)
-        + (e.lean, e.most_lean, e.lag_ms)
-        for r in found
-        for e in r.effects
-    )
-    inertia = tuple((r.probe, i.motion, i.scene, i.force, i.place) for r in found for i in r.inertia)
-    times = tuple((r.probe, scene, factor) for r in found for scene, factor in r.real_time.items())
-    about = {"probes": ", ".join(r.probe for r in found), "period": f"{found[0].period:g} s"}
-    sheets = (
-        Sheet("effects", "What a change of the scene changes", _EFFECTS, effects),
-        Sheet("inertia", "What the sensor reads beside contact and weight", _INERTIA, inertia),
-        Sheet("speed", "How fast, with a sample every 5 ms", _TIMES, times),
-    )
-    return StudyReport("What the scenes with a moving phantom leave out", about, (), (_HOW,), sheets)
 
 
 _EFFECTS = (

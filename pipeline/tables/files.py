@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ ROW_LIMIT = 100_000
 
 @contextmanager
 def open_table(
-    source: Path | BinaryIO, error: type[InputError] = TableError
+    source: File | BinaryIO, error: type[InputError] = TableError
 ) -> Iterator[tuple[BinaryIO, str, int]]:
     """
     Open a table for reading, unless it is open, and say why where that fails.
@@ -35,7 +35,7 @@ def open_table(
     size : int
         In bytes; 0 if that is unknown.
     """
-    if not isinstance(source, Path):
+    if not isinstance(source, File):
         yield source, message("standard input"), 0
         return
     try:
@@ -53,7 +53,7 @@ def open_table(
 
 
 def read_table(
-    source: Path | BinaryIO,
+    source: File | BinaryIO,
     select: Callable[[TableReader], None],
     wording: Wording,
     *,

@@ -13,11 +13,11 @@ from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.files import File
 
 WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
 SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}
@@ -60,7 +60,7 @@ class KnownCheck:
 
 
 def load_calibrated(
-    file: Path, R_ES: NDArray[np.float64] | None
+    file: File, R_ES: NDArray[np.float64] | None
 ) -> tuple[Calibration, NDArray[np.float64] | None, tuple[str, ...]]:
     """
     Load a calibration.
@@ -90,7 +90,7 @@ def load_calibrated(
     return record.calibration, R_ES, faults
 
 
-def read_check(kind: str, file: Path) -> dict[str, Any]:
+def read_check(kind: str, file: File) -> dict[str, Any]:
     """
     Read what ``contactbench calibrate check --out`` wrote.
 

@@ -38,11 +38,11 @@ from contactbench.pipeline.verification.verify import find_touches
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
-    from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.press import Touch
     from contactbench.pipeline.verification.source import TouchRecording
@@ -365,7 +365,7 @@ def _where(error: float | None, sigma: float) -> str:
 
 
 def known_touch(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
+    inputs: Mapping[str, File], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """
     Check ``calibration`` and ``probe`` with a recording ``touch``: what a session keeps, and the command writes.
@@ -379,7 +379,7 @@ def known_touch(
     return {given.name: to_bytes(touch_content(inputs, given, created))}
 
 
-def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: str | None) -> dict[str, Any]:
+def touch_content(inputs: Mapping[str, File], given: TouchParameters, created: str | None) -> dict[str, Any]:
     """Return all that the file of a check says; arguments and errors as for `known_touch`."""
     from contactbench.pipeline.verification.result import load_surface
     from contactbench.pipeline.verification.source import read_touch_recording

@@ -34,11 +34,11 @@ from contactbench.pipeline.verification.known_check import (
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-    from pathlib import Path
 
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration, PoseSample
+    from contactbench.pipeline.files import File
 
     Floats = NDArray[np.float64]
 
@@ -473,7 +473,7 @@ def _too_unsure(
 
 
 def known_weight(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
+    inputs: Mapping[str, File], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """
     Check ``calibration`` with readings ``unloaded`` and ``loaded``: what a session keeps, and the command writes.
@@ -488,7 +488,7 @@ def known_weight(
 
 
 def weight_content(
-    inputs: Mapping[str, Path], given: WeightParameters, created: str | None
+    inputs: Mapping[str, File], given: WeightParameters, created: str | None
 ) -> dict[str, Any]:
     """Return all that the file of a check says; arguments and errors as for `known_weight`."""
     from contactbench.pipeline.calibration.files.capture_file import read_any_poses

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
 
 COLUMNS = ("name", "x_mm", "y_mm", "z_mm")
@@ -244,7 +245,7 @@ def with_normals(
     return MarkerSet(tuple(kept)), heights
 
 
-def load_markers(file: Path) -> MarkerSet:
+def load_markers(file: File) -> MarkerSet:
     """
     Read a table of markers: name,x_mm,y_mm,z_mm in any order of columns, S.
 

@@ -20,8 +20,8 @@ from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from pathlib import Path
 
+    from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.verification.figures import Verification
 
@@ -71,7 +71,7 @@ class VerificationParameters(VerificationSettings, Parameters):
 
 
 def verification(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
+    inputs: Mapping[str, File], parameters: Mapping[str, Any], _created: str | None
 ) -> dict[str, bytes]:
     """
     Verify ``recording`` with ``probe``, ``calibration`` and ``markers``; ``reference`` may be left out.
@@ -91,7 +91,7 @@ def verification(
 
 
 def verify_files(
-    inputs: Mapping[str, Path], given: VerificationParameters, *, timed: bool = False
+    inputs: Mapping[str, File], given: VerificationParameters, *, timed: bool = False
 ) -> Verification:
     """
     Read the inputs and verify.
@@ -139,7 +139,7 @@ def verify_files(
     )
 
 
-def load_surface(file: Path) -> Probe:
+def load_surface(file: File) -> Probe:
     """
     Load a probe, in the unit that its file says, or that its size suggests.
 
@@ -151,7 +151,7 @@ def load_surface(file: Path) -> Probe:
     return _load_probe(file)[0]
 
 
-def _load_probe(file: Path) -> tuple[Probe, list[str], bool, float | None]:
+def _load_probe(file: File) -> tuple[Probe, list[str], bool, float | None]:
     from contactbench.pipeline.config.runtime import ConfigError
     from contactbench.pipeline.config.runtime.bench import mesh_deviation
     from contactbench.pipeline.mesh.load import probe_of, read_mesh

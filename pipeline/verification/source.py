@@ -14,11 +14,10 @@ from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.files import File
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
@@ -42,7 +41,7 @@ class TouchRecording:
 
 
 def read_touch_recording(
-    file: Path, convention: Convention | None = None, R_ES: ArrayLike | None = None
+    file: File, convention: Convention | None = None, R_ES: ArrayLike | None = None
 ) -> TouchRecording:
     """
     Read a recording: MCAP, or CSV with t,fx,fy,fz,mx,my,mz (raw) and orientations.
@@ -100,7 +99,7 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
     return tuple(said)
 
 
-def read_reference(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def read_reference(file: File) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """
     Read times, s, and forces, N, of a reference sensor: CSV with t,force.
 
@@ -118,7 +117,7 @@ def read_reference(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]
     return rows.numbers[order, 0], np.abs(rows.numbers[order, 1])
 
 
-def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
+def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
     from contactbench.pipeline.recording import read_recording
     from contactbench.pipeline.recording.convert import poses_at
 
@@ -157,7 +156,7 @@ def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
     )
 
 
-def _from_csv(file: Path, convention: Convention | None, R_ES: ArrayLike | None) -> TouchRecording:
+def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None) -> TouchRecording:
     wording = Wording(
         header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
         rows="readings",

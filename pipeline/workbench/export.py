@@ -7,33 +7,43 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from contactbench.pipeline.calibration.payload import payload_in_mm
 from contactbench.pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_session
+from contactbench.pipeline.config.runtime.build import calibration_refused
 from contactbench.pipeline.config.runtime.checks import unchecked
 from contactbench.pipeline.config.runtime.differ import differences
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
+from contactbench.pipeline.config.runtime.values import rotation_ES
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.runtime.run import known
-from contactbench.pipeline.session.check import file_problem
-from contactbench.pipeline.workbench.standings import (
+from contactbench.pipeline.session.files import file_problem
+from contactbench.pipeline.session.recompute import chosen_of
+from contactbench.pipeline.session.why import (
+    NO_TROUBLE,
     RESULTS,
     CheckItem,
+    SessionTrouble,
     broken_behind,
     checklist,
     files_of_bundle,
     refuse_without,
     results_of,
 )
-from contactbench.pipeline.workbench.trouble import NO_TROUBLE, SessionTrouble
+from contactbench.pipeline.settings import PayloadSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from contactbench.pipeline.calibration.payload import Payload
+    from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.differ import Differences
     from contactbench.pipeline.config.runtime.model import SensorPart
-    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session import Session, State
 
 SHA256, PLACE = "export.sha256", "export.place"
 _SHOWN = 60
@@ -296,3 +306,41 @@ def _short(value: Any) -> str:
         return "[" + ", ".join(f"{each:.4g}" for each in value) + "]"
     text = str(value)
     return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"
+
+
+# ---- the robot's payload --------------------------------------------------------------------------
+
+
+PAYLOAD = "payload"  # The settings of a session begin with it: ``payload.sensor_at``
+
+
+@dataclass(frozen=True)
+class PayloadText:
+    """What a robot is told."""
+
+    line: str  # As its controller takes it
+    payload: Payload
+    mount_known: bool  # Somebody said how the sensor is turned on the flange; False: taken as not turned
+
+
+def stored_payload(state: State) -> PayloadSettings:
+    """Return what a session's settings say; InputError, with the first that is wrong."""
+    return PayloadSettings.checked(chosen_of(state, PAYLOAD, PayloadSettings.model_fields))
+
+
+def payload_text(config: RuntimeConfig, settings: PayloadSettings) -> PayloadText:
+    """
+    Return the payload that a bundle's calibration gives.
+
+    Raises
+    ------
+    InputError
+        The calibration was refused, or has no load.
+    """
+    if calibration_refused(config.model):
+        raise InputError("The calibration is refused: calibrate again before you tell a robot its payload.")
+    R_ES = rotation_ES(config.model.frames.quaternion_ES)
+    made = payload_in_mm(
+        config.gravity, np.eye(3) if R_ES is None else R_ES, settings.sensor_at, settings.sensor_body
+    )
+    return PayloadText(made.text(settings.robot), made, R_ES is not None)

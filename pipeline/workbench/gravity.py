@@ -20,8 +20,17 @@ from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
 from contactbench.pipeline.calibration.verify import StillVerification, verify_still
 from contactbench.pipeline.errors import InputError, arg, join, message
-from contactbench.pipeline.workbench.gravity_fit import PLANNED, Solved, plan, solve
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState, earlier_rows, live_rows, middle
+from contactbench.pipeline.workbench.gravity_fit import (
+    PLANNED,
+    PoseRow,
+    PoseState,
+    Solved,
+    earlier_rows,
+    live_rows,
+    middle,
+    plan,
+    solve,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -195,11 +204,10 @@ class GravityWork:
             self._changed()
 
     def finish(self) -> None:
-        """Take what was averaged until now, as the session will: nothing more comes."""
+        """Take what was averaged until now: nothing more comes, and the session computes what it amounts to."""
         with self._lock:
             self._stillness = self._detector.finish()
             self._notice()
-            self._changed()
 
     @property
     def left_out(self) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.live import RECORDING, next_recording
@@ -16,11 +16,11 @@ from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,
     POSES_FILE,
     GravityFinding,
+    PoseRow,
+    calibrated_rows,
     findings,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
-from contactbench.pipeline.workbench.session_change import put_result
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
 _STEM, _CHECK = "gravity-", "gravity-check-"
 _PART = "poses-earlier-{}.csv"
-_DIFFERS = 0.1  # of the contact error: less is what a few samples more or less make
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +157,7 @@ def _computed(
     given = gravity_settings(session.state).given
     before = _same(session, {"poses": poses.content}, given) if again else None
     if before is not None:
-        put_result(session, before)
+        session.add_again(before)
     else:
         compute(session, "calibration", CALIBRATION_FILE, {"poses": poses.content}, given)
     outcome = outcome_of(session.folder, session.state)
@@ -212,25 +211,6 @@ def outcome_of(folder: Path, state: State) -> GravityOutcome | None:
 def _earlier_count(folder: Path, state: State, poses: Result) -> int:
     before = state.result_with(poses.action.inputs.get("earlier", ""))
     return 0 if before is None else len(read_poses(folder / before.file.path).poses)
-
-
-def difference(live: Calibration | None, outcome: GravityOutcome) -> str:
-    """Say how the session's calibration differs from the one that was shown while it was made; empty: it does not."""
-    made = outcome.calibration
-    if live is None:
-        return ""
-    if len(live.poses) != len(made.poses):
-        return message(
-            f"Recomputed from the recording, there are {arg(len(made.poses))} poses instead of"
-            f" {arg(len(live.poses))}: one pose was just at the limit of stillness. The recording"
-            " counts."
-        )
-    if abs(made.contact_error - live.contact_error) > _DIFFERS * max(made.contact_error, live.contact_error):
-        return message(
-            f"Recomputed from the recording, the contact error is {arg(1e3 * made.contact_error):.2g}"
-            f" mm instead of {arg(1e3 * live.contact_error):.2g} mm. The recording counts."
-        )
-    return ""
 
 
 def _recording(state: State, name: str) -> Input:

@@ -9,8 +9,8 @@ from urllib.parse import quote
 from contactbench.pipeline.devices.protocols.registry import drivers
 from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.session.why import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
-from contactbench.pipeline.workbench.standings import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.runtime import Outlet, Run
-from contactbench.pipeline.runtime.network_targets import network_target
+from contactbench.pipeline.runtime.outlet import OutputContext
+from contactbench.pipeline.runtime.outputs import open_outputs
 from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for
 from contactbench.pipeline.workbench.live import Tap
 
@@ -18,21 +19,12 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.workbench.live import Live
 
-USUAL = {
-    "igtl": "127.0.0.1:18944",
-    "foxglove": "127.0.0.1:8765",
-    "dds": "0",
-    "mqtt": "127.0.0.1:1883/contactbench",
-    "udp": "127.0.0.1:9000",
-}
-"""Outputs, as their options are called, and an address for each."""
-
 
 @dataclass(frozen=True)
 class OutputState:
     """How one output is doing."""
 
-    option: str  # a key of `USUAL`
+    option: str  # of `OUTPUTS`
     published: int  # contacts
     lost: int
     error: str  # why it takes nothing, now or any more; empty: it does
@@ -73,7 +65,7 @@ class LiveOutputs:
         ----------
         config : RuntimeConfig
         addresses : mapping
-            Outputs by the names in `USUAL`, with their addresses.
+            Of outputs, by their names in `OUTPUTS`.
         unverified : bool
             Also with a bundle that is not verified.
         remote : bool
@@ -94,19 +86,13 @@ class LiveOutputs:
         check_runnable(config, unverified=unverified)
         about = pair.about()
         check_sensor(config, about.devices[0].serial)
-        outlets: list[Outlet] = []
-        try:
-            for option, address in addresses.items():
-                outlets.append(Outlet(network_target(option, address, config, about, remote=remote)))
-        except BaseException:
-            for outlet in outlets:
-                outlet.close()
-            raise
+        targets = open_outputs(addresses, OutputContext(about, config.probe, remote))
         clock = pair.now if pair.player is None else None
+        outlets = list(map(Outlet, targets.values()))
         run = Run(config, outlets, hold=hold_for(pair.poses.address), clock=clock)
         with self._lock:
             run.__enter__()  # its end is `stop`
-            self._run, self._options = run, tuple(addresses)
+            self._run, self._options = run, tuple(targets)
         self._end = self._live.tap(Tap(run.wrenches, run.poses, lambda *_: None, self.stop))
 
     def stop(self) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import shutil
 import tempfile
 from collections import OrderedDict
 from dataclasses import dataclass, fields
@@ -16,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.files import File, NamedFile
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
@@ -25,13 +24,14 @@ from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, pa
 from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.files import chunks_of
+from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.make_probe import ProbeParameters
-from contactbench.pipeline.session.recompute import PREFIX, lay_out
+from contactbench.pipeline.session.recompute import inputs_of
+from contactbench.pipeline.session.state import MESH
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from numpy.typing import NDArray
 
@@ -56,13 +56,17 @@ ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A mesh file that was taken: a copy of it, so that nobody changes it under the work."""
+    """A mesh file that was taken: the session's own, or a copy, so that nobody changes it under the work."""
 
-    file: Path  # The copy, under its own name, with what belongs to it beside it
-    companions: Mapping[str, Path]  # Name -> file beside it
+    file: NamedFile  # With what belongs to it
     inspection: Inspection
     original: ProbeFile  # As the file has it, m
     sha256: str  # Of the file
+
+    @property
+    def companions(self) -> dict[str, Path]:
+        """Name -> file beside it."""
+        return {name: path for name, path in self.file.beside.items() if name != self.file.name}
 
     @property
     def unit_asked(self) -> bool:
@@ -128,7 +132,7 @@ class ProbeWork:
 
     def __init__(self, desk: Desk) -> None:
         self.desk = desk
-        self._scratch = tempfile.TemporaryDirectory(prefix=PREFIX)
+        self._scratch = tempfile.TemporaryDirectory(prefix="contactbench-")
         self._number = count()
         self._taken: OrderedDict[tuple[str, str], Mesh] = OrderedDict()  # (hash, units) -> what was seen last
 
@@ -137,17 +141,15 @@ class ProbeWork:
         self._scratch.cleanup()
 
     def _place(self) -> Path:
-        folder = Path(self._scratch.name) / str(next(self._number))
-        folder.mkdir()
-        return folder
+        return Path(self._scratch.name) / str(next(self._number))
 
     # ---- the mesh --------------------------------------------------------------------------------
 
     def take(
-        self, file: Path, units: str = "auto", progress: Progress = None, cancelled: Cancel = None
+        self, file: File, units: str = "auto", progress: Progress = None, cancelled: Cancel = None
     ) -> Mesh:
         """
-        Copy a mesh file and find out all about it; as ``contactbench probe inspect``.
+        Find out all about a mesh file; as ``contactbench probe inspect``. One that is not the session's is copied.
 
         Raises
         ------
@@ -155,24 +157,21 @@ class ProbeWork:
             It is no mesh that can be used; the sentence says why.
         Cancelled
         """
-        beside = companions_of(file) if file.is_file() else {}
         found = _inspected(file, units, part_of(progress, _COPIED, 1.0), cancelled)
-        folder = self._place()
-        for each in (file, *beside.values()):
-            _copy(each, folder / each.name, cancelled)
-        copy = folder / file.name
-        return Mesh(
-            copy,
-            {name: folder / name for name in beside},
-            found,
-            import_mesh(copy, _units(units)),
-            hashlib.sha256(copy.read_bytes()).hexdigest(),
-        )
+        kept = file if isinstance(file, NamedFile) else self._copied(file, cancelled)
+        return Mesh(kept, found, import_mesh(kept, _units(units)), digest_of(kept)[0])
+
+    def _copied(self, file: Path, cancelled: Cancel) -> NamedFile:
+        """Copy a file, and what belongs to it."""
+        copies = {name: self._place() for name in (file.name, *companions_of(file))}
+        for name, copy in copies.items():
+            _copy(file.with_name(name), copy, cancelled)
+        return NamedFile(copies[file.name], file.name, copies)
 
     def again(self, mesh: Mesh, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
         """Look at a mesh once more, with the unit that a person said."""
         found = _inspected(mesh.file, units, progress, cancelled)
-        return Mesh(mesh.file, mesh.companions, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
+        return Mesh(mesh.file, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
 
     def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, ProbePlan] | None:
         """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""
@@ -181,7 +180,7 @@ class ProbeWork:
         if recipe is None or "mesh" not in recipe.inputs:  # a probe that came from elsewhere says not how
             return None
         wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
-        files = lay_out(self.desk.folder, state, wanted, self._place())
+        files = inputs_of(self.desk.folder, state, wanted)
         given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
         known = {each.name for each in fields(ProbePlan)} & set(ProbeParameters.model_fields)
         alignment = alignment_of(given, files.get("alignment"))
@@ -206,7 +205,7 @@ class ProbeWork:
         """
         known = self._taken.get((content, units))
         if known is None:
-            files = lay_out(self.desk.folder, self.desk.state, {"mesh": content}, self._place())
+            files = inputs_of(self.desk.folder, self.desk.state, {"mesh": content})
             known = self._taken[content, units] = self.take(files["mesh"], units, progress, cancelled)
         self._taken.move_to_end((content, units))
         while len(self._taken) > _REMEMBERED:
@@ -256,25 +255,25 @@ class ProbeWork:
         inputs, regions = self._regions(plan)
         inputs["mesh"] = mesh.file
         if plan.alignment is not None:
-            inputs["alignment"] = self._place() / "alignment.json"
-            inputs["alignment"].write_text(plan.alignment.to_json(), encoding="utf-8")
+            placed_by = self._place()
+            placed_by.write_text(plan.alignment.to_json(), encoding="utf-8")
+            inputs[ALIGNMENT] = NamedFile(placed_by, ALIGNMENT_FILE)
         done = prepared(inputs, plan.given, remember=True, progress=progress, cancelled=cancelled)
         placed = self.placed(mesh, plan)
         probe = done.content.probe
         distance, _, _ = SurfaceIndex(probe.vertices, probe.faces).closest(placed.probe.vertices)
         return ProbePreview(plan, mesh, placed, done, regions, distance)
 
-    def _regions(self, plan: ProbePlan) -> tuple[dict[str, Path], str]:
+    def _regions(self, plan: ProbePlan) -> tuple[dict[str, File], str]:
         """Return the session's regions as a file, and their content; neither where there are none."""
         state = self.desk.state
         kept = state.newest(REGIONS)
         if kept is None or not plan.painted:
             return {}, ""
-        files = lay_out(self.desk.folder, state, {REGIONS: kept.content}, self._place())
-        return files, kept.content
+        return {**inputs_of(self.desk.folder, state, {REGIONS: kept.content})}, kept.content
 
 
-def _inspected(file: Path, units: str, progress: Progress, cancelled: Cancel) -> Inspection:
+def _inspected(file: File, units: str, progress: Progress, cancelled: Cancel) -> Inspection:
     try:
         return inspect(file, _units(units), progress=progress, cancelled=cancelled)
     except MemoryError as error:
@@ -289,7 +288,7 @@ def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
                     raise Cancelled(message("reading the mesh was cancelled: nothing was changed."))
                 copy.write(chunk)
     except OSError as error:
-        shutil.rmtree(target.parent, ignore_errors=True)
+        target.unlink(missing_ok=True)
         raise InputError(
             f"{arg(file)}: it cannot be copied ({arg(error)}): check the file and the free disk space."
         ) from error
@@ -327,8 +326,7 @@ def _mesh(session: Session, mesh: Mesh) -> str:
         and set(known.companions) == set(mesh.companions)
     )
     if not same:
-        beside = {name: chunks_of(path) for name, path in mesh.companions.items()}
-        session.change_mesh(mesh.file.name, chunks_of(mesh.file), beside)
+        session.add_input(mesh.file, MESH, companions=mesh.companions)
     used = session.state.mesh
     assert used is not None  # noqa: S101  (it was just added)
     return used.content
@@ -339,3 +337,47 @@ def _alignment(session: Session, text: str) -> str:
     if known is None or (session.folder / known.file.path).read_bytes() != text.encode():
         session.add_input(text.encode(), ALIGNMENT, name=ALIGNMENT_FILE)
     return session.state.current_inputs[ALIGNMENT, ALIGNMENT_FILE].content
+
+
+# ---- what fewer facets cost -----------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class TradePoint:
+    """One number of facets."""
+
+    facets: int
+    error_mm: float  # What 95 % of the contacts move less than, against all facets, mm
+    solve_us: float  # Median time of a solve, µs
+    loop_us: float  # The same of the paper's loop over all facets, µs
+    advised: bool = False  # The fewest facets that will do: the knee
+
+
+@dataclass(frozen=True)
+class Trade:
+    """A chart of speed against error."""
+
+    points: tuple[TradePoint, ...]  # By facets, ascending; the last has all of them
+    allowed_mm: float  # Largest error that will do, mm
+    reason: str  # What to take and why
+
+    @property
+    def advised(self) -> int:
+        """Facets to take."""
+        return next((point.facets for point in self.points if point.advised), self.points[-1].facets)
+
+
+def trade_of(ladder: Ladder) -> Trade:
+    """Return a ladder's chart; rungs on which no touch could be compared are left out."""
+    points = [
+        TradePoint(
+            rung.facets,
+            1e3 * rung.judged.noisy.p95,
+            0.0 if rung.speed is None else rung.speed.contactbench.median / 1e3,
+            0.0 if rung.speed is None else rung.speed.algorithm1.median / 1e3,
+            rung is ladder.recommended,
+        )
+        for rung in ladder.rungs
+        if rung.judged.noisy.p95 is not None
+    ]
+    return Trade(tuple(points), 1e3 * ladder.recommendation.limit, ladder.recommendation.reason)

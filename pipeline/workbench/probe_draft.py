@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import from_json
 from contactbench.pipeline.session.files import digest_of
+from contactbench.pipeline.session.why import PROBE_DRAFT
 from contactbench.pipeline.workbench.probe import ProbePlan, commit
-from contactbench.pipeline.workbench.standings import PROBE_DRAFT
 
 if TYPE_CHECKING:
     from contactbench.pipeline.session import Session, State

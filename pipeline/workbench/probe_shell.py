@@ -9,7 +9,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
 from contactbench.pipeline.session.make_probe import ProbeParameters
-from contactbench.pipeline.session.recompute import laid_out, newest_inputs
+from contactbench.pipeline.session.recompute import inputs_of, newest_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -39,16 +39,10 @@ def recipe_of(state: State) -> ProbeRecipe | None:
 
     What was set since in the session's parameters of the kind ``probe`` counts.
     """
-    made = [
-        each for each in state.current_results.values() if each.action.kind == PROBE and not each.rejected
-    ]
-    settings = {
-        key.partition(".")[2]: setting
-        for key, setting in state.settings.items()
-        if key.startswith(f"{PROBE}.") and key.partition(".")[2] in ProbeParameters.model_fields
-    }
-    if made:
-        newest = max(made, key=lambda each: each.number)
+    newest = state.made(PROBE)
+    known = ProbeParameters.model_fields
+    settings = {name: setting for name, setting in state.named(PROBE).items() if name in known}
+    if newest is not None:
         since = {key: each.value for key, each in settings.items() if each.number > newest.number}
         return ProbeRecipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
     if state.mesh is None:
@@ -90,10 +84,10 @@ def shell_file_of(
             " step 3, Probe, to paint on it."
         )
     wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
-    with laid_out(desk.folder, state, wanted) as files:
-        given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
-        dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
-        return place(dense, alignment_of(given, files.get("alignment")))
+    files = inputs_of(desk.folder, state, wanted)
+    given = ProbeParameters.checked({**recipe.parameters, "name": PROBE_FILE})
+    dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
+    return place(dense, alignment_of(given, files.get("alignment")))
 
 
 def used_probe(desk: Desk) -> Probe | None:
@@ -101,5 +95,5 @@ def used_probe(desk: Desk) -> Probe | None:
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
-    with laid_out(desk.folder, desk.state, {PROBE: recipe.result.content}) as files:
-        return load_probe_file(files[PROBE]).probe
+    files = inputs_of(desk.folder, desk.state, {PROBE: recipe.result.content})
+    return load_probe_file(files[PROBE]).probe

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from contextlib import suppress
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError, arg, message
@@ -13,7 +12,7 @@ from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.mesh.regions.history import RegionSteps
 from contactbench.pipeline.mesh.sidecar import encode_probe_file
 from contactbench.pipeline.preparation.shell_regions import painted_regions
-from contactbench.pipeline.session.recompute import laid_out, recomputed
+from contactbench.pipeline.session.recompute import inputs_of, recomputed
 from contactbench.pipeline.workbench.probe_shell import (
     PROBE,
     REGIONS,
@@ -45,25 +44,6 @@ _AFTER_PAINTING = frozenset(
 _PAINTED = "painted.ply"
 # Of the work of opening: the surface.
 _SURFACE = 0.8
-
-
-class Standing(StrEnum):
-    """How the regions that are kept relate to the probe."""
-
-    NONE = "none"  # nothing is kept
-    PLANNED = "planned"  # kept; there is no probe yet, it takes them along when it is made
-    WAITING = "waiting"  # kept, but the probe does not have them yet
-    APPLIED = "applied"
-
-
-def standing(state: State) -> Standing:
-    """Say whether the newest probe has the regions that the session keeps."""
-    kept, recipe = state.newest(REGIONS), recipe_of(state)
-    if kept is None:
-        return Standing.NONE
-    if recipe is None or recipe.result is None:
-        return Standing.PLANNED
-    return Standing.APPLIED if recipe.inputs.get(REGIONS) == kept.content else Standing.WAITING
 
 
 def surface_key(state: State) -> object:
@@ -144,8 +124,8 @@ def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionRep
     kept = desk.state.newest(REGIONS)
     if kept is None:
         return shell.regions, ()
-    with laid_out(desk.folder, desk.state, {REGIONS: kept.content}) as files:
-        return painted_regions(shell, files[REGIONS])
+    files = inputs_of(desk.folder, desk.state, {REGIONS: kept.content})
+    return painted_regions(shell, files[REGIONS])
 
 
 def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | None:

@@ -7,9 +7,10 @@ import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.live import next_recording
-from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
+from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
+from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.verification.result import VerificationParameters
 from contactbench.pipeline.workbench.markers import KIND as MARKERS
@@ -106,10 +107,10 @@ def tool_of(folder: Path, state: State) -> TouchTool:
     content = tool_key(state)
     if content is None:
         raise InputError(why_locked(state))
-    with laid_out(folder, state, dict(zip(("probe", "calibration"), content, strict=True))) as files:
-        calibration = load_calibration(files["calibration"])
-        probe = load_surface(files["probe"])
-        regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
+    files = inputs_of(folder, state, dict(zip(("probe", "calibration"), content, strict=True)))
+    calibration = load_calibration(files["calibration"])
+    probe = load_surface(files["probe"])
+    regions = load_probe_file(files["probe"]).regions.regions if probe.region.any() else ()
     if calibration.verdict.level is Level.REFUSE:
         raise InputError(
             "The calibration was refused, so a verification with it would not count. Recalibrate."
@@ -121,19 +122,6 @@ def tool_key(state: State) -> tuple[str, str] | None:
     """Return the hashes of a session's newest probe and calibration; None: one is missing."""
     probe, calibration = state.newest("probe"), state.newest("calibration")
     return None if probe is None or calibration is None else (probe.content, calibration.content)
-
-
-def why_locked(state: State, *kinds: str) -> str:
-    """Say what is missing before touches can be located, of some kinds or of all; empty: nothing."""
-    missing = [kind for kind in kinds or ("calibration", "probe") if state.newest(kind) is None]
-    if not missing:
-        return ""
-    steps = {
-        "calibration": message("calibrate in step 2, Gravity"),
-        "probe": message("prepare the probe in step 3, Probe"),
-    }
-    todo = join(message(", and "), (steps[kind] for kind in missing))
-    return message(f"A contact cannot be located without {arg(' and '.join(missing))}: {arg(todo)}.")
 
 
 class VerifyWork:

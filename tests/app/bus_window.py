@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QAbstractButton
 from contactbench.app.application import prepared
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.theme import use_theme
 
 _READER = Path(__file__).with_name("bus_reader.py")

@@ -12,7 +12,7 @@ from shiboken6 import isValid
 from contactbench.app.page import Page
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 
 @pytest.fixture(autouse=True)

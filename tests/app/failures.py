@@ -10,7 +10,7 @@ from workbench.touch_session import make_session
 from contactbench.app.errors import Faults, LogFile
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .conftest import close, delete_now, shown
 

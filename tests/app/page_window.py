@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from contactbench.app.bench import Bench
+from contactbench.pipeline.steps import StepState, StepStatus
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.steps import StepState, StepStatus
 from contactbench.widgets.scene import Scene
 
 READY = StepStatus(StepState.READY, "")

@@ -5,8 +5,8 @@ from waiting import until
 
 from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.steps import Step
 
 
 @pytest.fixture

@@ -124,7 +124,7 @@ from pathlib import Path
 from PySide6.QtCore import QTimer
 from contactbench.app import application
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 class Window(MainWindow):
     def __init__(self, *given):

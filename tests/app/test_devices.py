@@ -10,9 +10,9 @@ from contactbench.app.undo import SessionCommand, SetParameters
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live_devices import Devices
-from contactbench.pipeline.workbench.steps import Step
 
 PATIENCE_MS = 30_000
 BENCH = "virtual://bench?probe=convex&sensor=paper"

@@ -9,7 +9,7 @@ from PySide6.QtCore import QtMsgType, qWarning
 
 from contactbench.app.errors import LOG, Faults, LogFile
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .conftest import shown
 

@@ -16,7 +16,7 @@ from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .page_window import PageWindow
 

@@ -12,7 +12,7 @@ from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .failures import prepared, whole
 

@@ -8,8 +8,8 @@ import threading
 import pytest
 from PySide6.QtCore import QObject, Qt, Signal
 
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.live import Ring
-from contactbench.pipeline.workbench.steps import Step
 
 from .failures import prepared, whole
 

@@ -19,7 +19,7 @@ from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .conftest import close as close_window
 from .conftest import shown
@@ -298,7 +298,7 @@ import sys
 from pathlib import Path
 from contactbench.app import application
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from PySide6.QtCore import QTimer
 
 class Window(MainWindow):

@@ -27,7 +27,7 @@ from shiboken6 import isValid
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .failures import prepared, whole
 

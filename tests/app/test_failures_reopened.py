@@ -17,8 +17,8 @@ from workbench.touch_session import make_session
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.gravity_results import finish
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.scene.views import SceneLook, turned
 
@@ -188,7 +188,7 @@ from pathlib import Path
 from contactbench.app import application
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from PySide6.QtCore import QTimer
 
 class Window(MainWindow):

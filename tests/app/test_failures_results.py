@@ -16,9 +16,9 @@ from workbench.touch_session import make_session, verify
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.gravity_results import finish
-from contactbench.pipeline.workbench.session_change import value_in
-from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.workbench.undo_history import value_in
 from contactbench.widgets.scene.scene import Pick
 
 from .conftest import close as close_window

@@ -14,9 +14,8 @@ from contactbench.app.trouble_notice import TroubleNotice
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.workbench.standings import CheckState
-from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.pipeline.workbench.trouble import DISK
+from contactbench.pipeline.session.why import DISK, CheckState
+from contactbench.pipeline.steps import Step, StepState
 
 from .failures import whole
 from .test_failures_devices import equipped, port_of

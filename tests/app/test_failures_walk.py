@@ -18,8 +18,8 @@ from workbench.touch_session import make_session, verify
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
-from contactbench.pipeline.workbench.steps import Step
-from contactbench.pipeline.workbench.trouble import DISK
+from contactbench.pipeline.session.why import DISK
+from contactbench.pipeline.steps import Step
 
 from .conftest import close as close_window
 from .failures import whole

@@ -11,9 +11,8 @@ from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.workbench.gravity_fit import GravityFinding, Solved
-from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.steps import StepState, StepStatus
+from contactbench.pipeline.steps import StepState, StepStatus
+from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseState, Solved
 
 from .page_window import PageWindow
 

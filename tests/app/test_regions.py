@@ -15,9 +15,9 @@ from contactbench.app.bench import Bench
 from contactbench.app.pages.regions import RegionsPage
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.why import RegionsState, regions_state
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.regions_session import Standing, standing
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.theme import style_sheet
@@ -369,16 +369,16 @@ def test_giving_them_to_the_probe(window, qtbot):
     assert window.page.bar.primary.property("primary")
     window.page.bar.primary.click()
     assert not panel.body.isEnabled()
-    qtbot.waitUntil(lambda: standing(window.bench.desk.state) is Standing.APPLIED, timeout=LONG)
+    qtbot.waitUntil(lambda: regions_state(window.bench.desk.state) is RegionsState.APPLIED, timeout=LONG)
     qtbot.waitUntil(lambda: "has these regions" in said(window), timeout=LONG)
     idle(window, qtbot)
     assert window.page.bar.primary.text() == "Next: Verify"
     assert Step.REGIONS not in window.bench.running
     assert rows(window)[0][1] > 0, "the surface is the same: it was not read again"
     window.bench.undo.undo()
-    qtbot.waitUntil(lambda: standing(window.bench.desk.state) is Standing.WAITING, timeout=LONG)
+    qtbot.waitUntil(lambda: regions_state(window.bench.desk.state) is RegionsState.WAITING, timeout=LONG)
     window.bench.undo.redo()
-    qtbot.waitUntil(lambda: standing(window.bench.desk.state) is Standing.APPLIED, timeout=LONG)
+    qtbot.waitUntil(lambda: regions_state(window.bench.desk.state) is RegionsState.APPLIED, timeout=LONG)
 
 
 def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
@@ -401,7 +401,7 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
     window.page.job.cancel()  # as the status bar does
     asked.set()
     idle(window, qtbot)
-    assert standing(window.bench.desk.state) is Standing.WAITING
+    assert regions_state(window.bench.desk.state) is RegionsState.WAITING
     assert window.page.bar.primary.isEnabled()
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from contactbench.app.dialogs import CheatSheet, keys_of
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 
 from .conftest import shown
 

@@ -18,7 +18,7 @@ from contactbench.app.settings import Recent, WindowSettings
 from contactbench.app.start import QuestionCard, StartPage
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
 
 from .conftest import shown

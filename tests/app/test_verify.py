@@ -12,9 +12,9 @@ from contactbench.app.bench import Weight
 from contactbench.app.pages.verify import VerifyPage
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.live import LiveReading
 from contactbench.pipeline.workbench.markers import Markers, kept
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
 

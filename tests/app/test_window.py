@@ -16,7 +16,7 @@ from contactbench.app.help_book import HelpBook
 from contactbench.app.settings import WindowSettings
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import guard_wheels
 
 from .conftest import PlainPage, beats, close, shown

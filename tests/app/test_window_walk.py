@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 from workbench.touch_session import make_session, verify
 
 from contactbench.app.window_docks import SMALLEST, first_size
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.action_bar import ActionBar
 from contactbench.widgets.theme import colours, contrast, use_theme
 

@@ -23,6 +23,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # Name: where the function is. The first line of its module's docstring is its help.
 BENCHMARKS = {
+    "ablation": "ablation.study:run",
     "alignment": "preparation.alignment:run",
     "bundles": "bundle_fuzz:run",
     "calibration-doubt": "calibration_doubt:run",
@@ -153,8 +154,7 @@ def finish(report, out: Path | None, *, as_json: bool) -> int:
     else:
         from rich.console import Console
 
-        for table in (*(sheet.table() for sheet in report.sheets if sheet.shown), report.table()):
-            Console().print(table)
+        Console().print(*report.tables())
     return 0 if report.passed else 1
 
 

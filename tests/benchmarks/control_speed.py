@@ -12,9 +12,9 @@ from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

@@ -174,7 +174,7 @@ def _read_times(folder: Path, count: int) -> tuple[float, float]:
     for number in range(count):
         with Session.create(folder / f"{number:04d}") as session:
             session.set_parameter("devices.serial", f"M8128-{number % FEWEST}")
-            session.change_mesh("probe.stl", (b"solid",))
+            session.add_input(b"solid", "mesh", name="probe.stl")
     begin = process_time()
     first = read_fleet([*find([folder])])
     between = process_time()

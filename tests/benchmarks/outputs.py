@@ -22,7 +22,8 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import RecordingInfo
 from contactbench.pipeline.runtime import Engine, Outlet
-from contactbench.pipeline.runtime.network_targets import network_target
+from contactbench.pipeline.runtime.outlet import OutputContext
+from contactbench.pipeline.runtime.outputs import open_outputs
 from contactbench.pipeline.runtime.run import responsive
 from contactbench.pipeline.study.report import Figure, StudyReport
 
@@ -87,7 +88,10 @@ def measure(output: str, config: RuntimeConfig, folder: Path, seconds: float) ->
     first, second = folder / f"{output}-1.bin", folder / f"{output}-2.bin"
     with reader(output, address, first, about) as reading:
         outlet = Outlet(
-            network_target(output, address + ("/bench" if output == "mqtt" else ""), config, about)
+            open_outputs(
+                {output: address + ("/bench" if output == "mqtt" else "")},
+                OutputContext(about, config.probe),
+            )[output]
         )
         feed = _Feed(config, outlet)
         outlet.start()

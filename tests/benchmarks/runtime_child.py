@@ -19,7 +19,9 @@ from benchmarks.live.reader import resident
 from benchmarks.live.records import GIVEN
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.recording import RecordingInfo
 from contactbench.pipeline.runtime import Outlet, Run
+from contactbench.pipeline.runtime.outlet import OutputContext
 from contactbench.pipeline.runtime.run import responsive
 from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
 from contactbench.pipeline.streams import open_pair
@@ -41,6 +43,7 @@ _STILL = "still://?rpy=0,0,0"
 def live(folder: Path, seconds: float, urls: Sequence[str]) -> dict[str, float]:
     """Run on sensors for a time, and note each contact of the n-th in given-n.bin when it is there."""
     config = RuntimeConfig.load(folder / "bundle")
+    context = OutputContext(RecordingInfo(time.time_ns(), time.monotonic(), ()), config.probe)
     outlets: list[Outlet] = []
     runners = []
     with ExitStack() as stack:
@@ -48,7 +51,7 @@ def live(folder: Path, seconds: float, urls: Sequence[str]) -> dict[str, float]:
         for number, url in enumerate(urls):
             lines = folder / f"live-{number}.jsonl"
             lines.unlink(missing_ok=True)
-            outlets += (own := (Outlet(LineTarget.new(lines)), Outlet(UdpTarget(_NOWHERE))))
+            outlets += (own := (Outlet(LineTarget.new(lines)), Outlet(UdpTarget(_NOWHERE, context))))
             file = stack.enter_context((folder / f"given-{number}.bin").open("wb"))
 
             def note(sample: WrenchSample, _: Answer, file: BinaryIO = file) -> None:
@@ -78,7 +81,9 @@ def replay(folder: Path, tape: Path) -> dict[str, float]:
     pair = open_pair(address, address, lambda s: runner.wrenches(s), lambda s: runner.poses(s))
     outlets = (
         Outlet(LineTarget.new(folder / "replay.jsonl"), patient=True),
-        Outlet(McapTarget(folder / "replay.mcap", pair.about()), patient=True),
+        Outlet(
+            McapTarget(str(folder / "replay.mcap"), OutputContext(pair.about(), config.probe)), patient=True
+        ),
     )
     runner = Run(config, outlets)
     used = array("q")  # a list of numbers would itself grow by a share of what may grow

@@ -109,7 +109,7 @@ def add_forever(folder: Path) -> None:
                     "test", f"r{turn % 5}.bin", {f"r{turn % 5}.bin": data}, inputs, {}
                 )
             else:
-                record = session.change_mesh("m.stl", (turn.to_bytes(8, "little") * 700,))
+                record = session.add_input(turn.to_bytes(8, "little") * 700, "mesh", name="m.stl")
             os.write(1, f"{record.number} {record.hash}\n".encode())
 
 

@@ -12,7 +12,7 @@ from contactbench.pipeline.contact.patch import Bed, LivePatch, PatchReader
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 FORCE, MODULUS = 7.0, 3e6
 TRUE = Bed(modulus=MODULUS, factor=1.0)

@@ -15,9 +15,9 @@ from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.simulation.marker_touches import model_of, truth_of
 from contactbench.pipeline.simulation.scenes import Payload, Tissue
 from contactbench.pipeline.simulation.scenes.platform import PlatformScene
-from contactbench.pipeline.study.marker_touches import model_of, truth_of
 
 PAYLOAD = Payload()
 QUICK = {"step": 0.0025, "places": 40}

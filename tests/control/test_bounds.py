@@ -5,7 +5,7 @@ from benchmarks.reproduce.tilt_bound import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.tilt import Tilt, TiltReading
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 
 @pytest.fixture(scope="module")

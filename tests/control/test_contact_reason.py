@@ -12,7 +12,7 @@ from contactbench.pipeline.control.contact_reason import HEED, NEAR_M, NEAR_S, H
 from contactbench.pipeline.control.intake import SampleIntake, SensingFault
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.kernel import Reason
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 
 @dataclass

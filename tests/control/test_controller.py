@@ -13,9 +13,9 @@ from contactbench.pipeline.control.margins import loop_of, margins
 from contactbench.pipeline.control.settings import Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.scenes import TissueCourse
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
-from contactbench.pipeline.study.marker_touches import model_of
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

@@ -3,7 +3,7 @@ import pytest
 
 from contactbench.pipeline.contact.footprint import spread
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 
 @pytest.fixture(scope="module", params=["convex", "linear", "t-shape"])

@@ -8,7 +8,7 @@ from contactbench.pipeline.contact import Gates, WrenchNoise
 from contactbench.pipeline.control.intake import SampleIntake, SensingFault
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 GRAVITY = GravityModel([0, 0, -4.4], [1.0, -2.0, 3.0], [0.003, -0.002, 0.06], [0.01, 0.02, -0.01])
 PRESSED = np.array([0.0, 0.0, -7.0, 0.0, -7.0 * -0.004, 0.0])  # 4 mm off in +x: M_y = -x F_z

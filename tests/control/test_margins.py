@@ -7,7 +7,7 @@ from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.margins import AXES, LoopModel, loop_of, margins, response, sweep
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import pytest
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.settings import ControlSettings, for_tool
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 
 @pytest.mark.parametrize("name", ["convex", "linear", "t-shape"])

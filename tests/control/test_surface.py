@@ -4,7 +4,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.surface import TissueSurface
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 DT = 0.02
 DOWN = np.diag([1.0, -1.0, -1.0])

@@ -16,9 +16,8 @@ from contactbench.pipeline.devices.emulate import Fault, constant, emulator, swi
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.igtl import IgtlError
 from contactbench.pipeline.devices.protocols.igtl_pose import BODY, BodyStream, IgtlModel
-from contactbench.pipeline.devices.robot_poses import poses_from
+from contactbench.pipeline.devices.robot_poses import ParsedPoses, poses_from
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.tracker_poses import TrackerPoses
 from contactbench.pipeline.devices.url import DeviceAddress
 
 R_TB = Rotation.from_rotvec(IgtlModel.rest[3:]).as_matrix()
@@ -119,9 +118,8 @@ def test_a_measurement_that_is_sent_again_is_no_new_one() -> None:
 def test_a_body_that_is_not_there_is_said() -> None:
     heard, stamps = Heard(), iter(range(1, 10**6))
     talk = Line(lambda *_: line("A", next(stamps) * 10**9))
-    with TrackerPoses(
-        DeviceAddress.parse("igtl+tcp://h?device=B"), heard.take, heard.change, line=talk
-    ):  # fmt: skip
+    where = DeviceAddress.parse("igtl+tcp://h?device=B")
+    with ParsedPoses(where, BodyStream("B"), heard.take, heard.change, line=talk):
         until(lambda: any("sends no body 'B', only A" in each for each in heard.findings()))
     assert heard.samples == []
 
@@ -129,7 +127,7 @@ def test_a_body_that_is_not_there_is_said() -> None:
 def test_a_pose_that_is_none_is_said_and_dropped() -> None:
     bodies = BodyStream()
     assert bodies.feed(igtl.pack(igtl.TRANSFORM, BODY, 1, bytes(48)), 1.0) == []
-    assert "orientation is no rotation" in bodies.trouble
+    assert "orientation is no rotation" in bodies.troubles()["pose"]
     assert bodies.counters.bad_checksums == 1
     assert len(bodies.feed(line(BODY, 10**9), 1.0)) == 1
-    assert bodies.trouble == ""
+    assert bodies.troubles() == {}

@@ -55,7 +55,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
             result = CliRunner().invoke(session_app, list(map(str, each)))
             assert result.exit_code == 0, result.output
         with Session.open(folder / "all" / name) as session:
-            session.change_mesh("linear.stl", (b"solid",))
+            session.add_input(b"solid", "mesh", name="linear.stl")
     Session.create(folder / "all" / "sub" / "empty").close()
     return folder / "all"
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from config.runtime.bundles import example
 from kernel.runtime_cases import stream
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.runtime.outlet import OutputContext
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -26,6 +29,8 @@ ABOUT = RecordingInfo(
         DeviceInfo("flange", "/flange", "elfin+tcp://10.0.0.2", rate=100.0),
     ),
 )
+CONTEXT = OutputContext(ABOUT, example().probe)
+REMOTE = replace(CONTEXT, remote=True)
 
 
 def wrench(time: float, reading: Any, status: Status = Status.OK) -> WrenchSample:

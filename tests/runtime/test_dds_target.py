@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from runtime.contacts import touching
-from runtime.runtime_recordings import ABOUT
+from runtime.runtime_recordings import ABOUT, CONTEXT, REMOTE
 from waiting import until
 
 from contactbench.pipeline.runtime import RunError
@@ -31,7 +31,7 @@ DOMAIN = 100 + os.getpid() % 100  # two runs on one machine must not hear each o
 def target() -> Iterator[DdsTarget]:
     from contactbench.pipeline.runtime.dds_target import DdsTarget
 
-    made = DdsTarget(str(DOMAIN), ABOUT)
+    made = DdsTarget(str(DOMAIN), CONTEXT)
     yield made
     made.close()
 
@@ -106,7 +106,7 @@ def test_closed_it_leaves_the_network_though_somebody_holds_it(monkeypatch: pyte
 
     # With leave it has no domain of its own, whose end would end all that is in it.
     monkeypatch.setenv("CYCLONEDDS_URI", _LOOPBACK)
-    target = DdsTarget(str(DOMAIN), ABOUT, remote=True)
+    target = DdsTarget(str(DOMAIN), REMOTE)
     participant = DomainParticipant(DOMAIN)
     reader = DataReader(participant, Topic(participant, WRENCH, WrenchStamped))
     until(reader.get_matched_publications)
@@ -135,4 +135,4 @@ def test_no_domain(domain: str) -> None:
     from contactbench.pipeline.runtime.dds_target import DdsTarget
 
     with pytest.raises(RunError, match="--dds"):
-        DdsTarget(domain, ABOUT)
+        DdsTarget(domain, CONTEXT)

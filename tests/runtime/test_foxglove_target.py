@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from config.runtime.bundles import example
 from runtime.contacts import touching
-from runtime.runtime_recordings import ABOUT
+from runtime.runtime_recordings import ABOUT, CONTEXT
 from waiting import until
 
 from contactbench.pipeline.runtime import RunError
@@ -28,7 +28,7 @@ connect = pytest.importorskip("websockets.sync.client").connect
 def target() -> Iterator[FoxgloveTarget]:
     from contactbench.pipeline.runtime.foxglove_target import FoxgloveTarget
 
-    made = FoxgloveTarget("127.0.0.1:0", example().probe, ABOUT)
+    made = FoxgloveTarget("127.0.0.1:0", CONTEXT)
     yield made
     made.close()
 
@@ -152,4 +152,4 @@ def test_addresses(target: FoxgloveTarget) -> None:
         (f"127.0.0.1:{target.port}", "choose another port"),
     ):
         with pytest.raises(RunError, match=says):
-            FoxgloveTarget(address, example().probe, ABOUT)
+            FoxgloveTarget(address, CONTEXT)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from runtime.contacts import touch, touching
-from runtime.runtime_recordings import ABOUT
+from runtime.runtime_recordings import ABOUT, CONTEXT, REMOTE
 from waiting import until
 
 from contactbench.pipeline.devices.protocols import igtl
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @pytest.fixture
 def target() -> Iterator[IgtlTarget]:
-    made = IgtlTarget("127.0.0.1:0", ABOUT)
+    made = IgtlTarget("127.0.0.1:0", CONTEXT)
     yield made
     made.close()
 
@@ -67,7 +67,7 @@ def heard(client: socket.socket, target: IgtlTarget) -> bytes:
 class TestClients:
     def test_an_independent_client_gets_the_contact_frame(self) -> None:
         pyigtl = pytest.importorskip("pyigtl")
-        target = IgtlTarget("127.0.0.1:0", ABOUT)
+        target = IgtlTarget("127.0.0.1:0", CONTEXT)
         outlet = Outlet(target)
         client = pyigtl.OpenIGTLinkClient(port=target.port, start_now=False)
         outlet.start()
@@ -152,16 +152,16 @@ class TestAddresses:
     @pytest.mark.parametrize("address", ["127.0.0.1", "127.0.0.1:x", ":1", "127.0.0.1:99999"])
     def test_no_address(self, address: str) -> None:
         with pytest.raises(RunError, match="--igtl"):
-            IgtlTarget(address, ABOUT)
+            IgtlTarget(address, CONTEXT)
 
     def test_others_listen_only_with_leave(self) -> None:
         with pytest.raises(RunError, match="--allow-remote"):
-            IgtlTarget("0.0.0.0:0", ABOUT)
-        IgtlTarget("0.0.0.0:0", ABOUT, remote=True).close()
+            IgtlTarget("0.0.0.0:0", CONTEXT)
+        IgtlTarget("0.0.0.0:0", REMOTE).close()
 
     def test_one_in_use_is_said(self, target: IgtlTarget) -> None:
         with pytest.raises(RunError, match="choose another port"):
-            IgtlTarget(f"127.0.0.1:{target.port}", ABOUT)
+            IgtlTarget(f"127.0.0.1:{target.port}", CONTEXT)
 
 
 @pytest.mark.parametrize("normal", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (-0.95, 0.1, 0.2), (0.3, -0.5, 0.7)])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 from runtime.contacts import touching
 from runtime.mqtt_broker import Broker
-from runtime.runtime_recordings import ABOUT
+from runtime.runtime_recordings import CONTEXT
 from waiting import until
 
 from contactbench.pipeline.runtime import Outlet, RunError
@@ -32,7 +32,7 @@ def broker() -> Iterator[Broker]:
 def target_at(port: int) -> MqttTarget:
     from contactbench.pipeline.runtime.mqtt_target import MqttTarget
 
-    return MqttTarget(f"127.0.0.1:{port}/bench/one", ABOUT)
+    return MqttTarget(f"127.0.0.1:{port}/bench/one", CONTEXT)
 
 
 def test_contacts_go_out_and_health_stays(broker: Broker) -> None:
@@ -148,4 +148,4 @@ def test_addresses(address: str, says: str) -> None:
     from contactbench.pipeline.runtime.mqtt_target import MqttTarget
 
     with pytest.raises(RunError, match=says):
-        MqttTarget(address, ABOUT)
+        MqttTarget(address, CONTEXT)

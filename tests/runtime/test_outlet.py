@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from config.runtime.bundles import example
 from mcap.reader import make_reader
-from runtime.runtime_recordings import ABOUT, BEGIN
+from runtime.runtime_recordings import ABOUT, BEGIN, CONTEXT, REMOTE
 
 from contactbench.pipeline.runtime import Answer, Outlet, OutputError, RunError, make_runtime
 from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
@@ -155,32 +155,32 @@ class TestUdp:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
             listener.bind(("127.0.0.1", 0))
             listener.settimeout(5)
-            target = UdpTarget(f"127.0.0.1:{listener.getsockname()[1]}")
+            target = UdpTarget(f"127.0.0.1:{listener.getsockname()[1]}", CONTEXT)
             assert target.write(answers(3)) == 3
             target.close()
             got = [json.loads(listener.recv(4096))["time"] for _ in range(3)]
         assert got == [answer.time for answer in answers(3)]
 
     def test_nobody_listens(self) -> None:
-        target = UdpTarget("127.0.0.1:9")
+        target = UdpTarget("127.0.0.1:9", CONTEXT)
         assert target.write(answers(5)) <= 5
         target.close()
 
     @pytest.mark.parametrize("address", ["127.0.0.1", "127.0.0.1:0", "127.0.0.1:70000", ":9000", "a b:9000"])
     def test_no_address(self, address: str) -> None:
         with pytest.raises(RunError, match="--udp"):
-            UdpTarget(address)
+            UdpTarget(address, CONTEXT)
 
     @pytest.mark.parametrize("address", ["192.0.2.1:9000", "0.0.0.0:9000"])
     def test_another_machine_only_with_leave(self, address: str) -> None:
         with pytest.raises(RunError, match="--allow-remote"):
-            UdpTarget(address)
-        UdpTarget(address, remote=True).close()
+            UdpTarget(address, CONTEXT)
+        UdpTarget(address, REMOTE).close()
 
 
 class TestMcap:
     def test_others_can_read_it(self, tmp_path: Path) -> None:
-        outlet = Outlet(McapTarget(tmp_path / "c.mcap", ABOUT))
+        outlet = Outlet(McapTarget(str(tmp_path / "c.mcap"), CONTEXT))
         outlet.start()
         given = [*answers(1_200), *answers_at([1e300])]
         for answer in given:
@@ -201,4 +201,4 @@ class TestMcap:
     def test_a_file_that_is_there(self, tmp_path: Path) -> None:
         (tmp_path / "c.mcap").touch()
         with pytest.raises(OutputError, match=r"c\.mcap"):
-            McapTarget(tmp_path / "c.mcap", ABOUT)
+            McapTarget(str(tmp_path / "c.mcap"), CONTEXT)

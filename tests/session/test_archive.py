@@ -18,7 +18,7 @@ from contactbench.pipeline.session.check import check, check_journal
 @pytest.fixture
 def folder(tmp_path):
     with Session.create(tmp_path / "s", by="a") as session:
-        session.change_mesh("m.stl", (b"solid" * 100,))
+        session.add_input(b"solid" * 100, "mesh", name="m.stl")
         session.add_result("test", "r", {"r": b"1"}, {"mesh": session.state.mesh.file.sha256}, {})
     return tmp_path / "s"
 
@@ -155,7 +155,7 @@ def test_flipped_bytes_give_a_whole_session_or_none(tmp_path_factory, data):
     if not base.exists():
         base.mkdir()
         with Session.create(base / "s", by="a") as session:
-            session.change_mesh("m.stl", (b"solid" * 20,))
+            session.add_input(b"solid" * 20, "mesh", name="m.stl")
         export_archive(base / "s", base / "s.zip")
     content = bytearray((base / "s.zip").read_bytes())
     for _ in range(data.draw(st.integers(1, 3))):
@@ -222,7 +222,7 @@ def test_what_is_added_meanwhile_is_not_in_it(folder, tmp_path, monkeypatch):
         def later(*arguments):
             found = check_journal(*arguments)
             if len(session.records) == 3:
-                session.change_mesh("late.stl", (b"late",))
+                session.add_input(b"late", "mesh", name="late.stl")
             return found
 
         monkeypatch.setattr("contactbench.pipeline.session.archive.check_journal", later)

@@ -36,7 +36,7 @@ def work(folder, acknowledged):
     with Session.create(folder, by="a") as session:
         acknowledged.append(session.records[0].hash)
         acknowledged.append(session.note("n" * 100).hash)
-        acknowledged.append(session.change_mesh("m.stl", (b"solid" * 1000, b"end")).hash)
+        acknowledged.append(session.add_input(b"solid" * 1000 + b"end", "mesh", name="m.stl").hash)
         mesh = session.state.mesh.file.sha256
         acknowledged.append(session.add_result("test", "r", {"r": b"1", "s": b"2"}, {"mesh": mesh}, {}).hash)
     with Session.open(folder, by="a") as session:
@@ -162,6 +162,6 @@ def test_files_are_there_before_the_record_that_names_them(tmp_path, monkeypatch
         for name in ("fsync", "replace"):
             real = getattr(os, name)
             monkeypatch.setattr(os, name, lambda *a, name=name, real=real: (order.append(name), real(*a))[1])
-        session.change_mesh("m.stl", (b"x",))
+        session.add_input(b"x", "mesh", name="m.stl")
     # file, its name, its folder, and only then the record
     assert order == ["fsync", "replace", "fsync", "fsync"]

@@ -13,8 +13,7 @@ from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.session.replay import ReplayOutcome, replay
+from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe_shell import shell_file_of
 from contactbench.pipeline.workbench.regions_session import keep, regions_on

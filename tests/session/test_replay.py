@@ -1,5 +1,6 @@
 """Results computed again from raw inputs, and compared with what the commands write."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -9,8 +10,7 @@ from weighing_files import weighed, write_euler
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.recompute import compute
-from contactbench.pipeline.session.replay import ReplayOutcome, replay
+from contactbench.pipeline.session.recompute import RECOMPUTE, ReplayOutcome, compute, replay
 
 
 def invoke(*arguments):
@@ -142,9 +142,23 @@ def test_an_input_that_was_added_again_under_another_name_changes_no_replay(sess
     assert [each.outcome for each in replay(session)] == [ReplayOutcome.SAME]
 
 
-def test_errors_name_no_temporary_folder(session, tmp_path):
+def test_an_input_that_changes_while_it_is_read_is_refused(session, poses, monkeypatch):
+    done = RECOMPUTE["calibration"]
+
+    def meddled(files, parameters, created):
+        found = done.make(files, parameters, created)
+        files["poses"].path.write_bytes(b"other")
+        return found
+
+    monkeypatch.setitem(RECOMPUTE, "calibration", dataclasses.replace(done, make=meddled))
+    with pytest.raises(SessionError, match="an input changed while it was read"):
+        calibrated(session, poses)
+    assert not session.state.results
+
+
+def test_errors_name_the_file_as_its_user_does(session, tmp_path):
     (tmp_path / "empty.csv").write_bytes(b"nothing\n")
     with pytest.raises(SessionError) as caught:
         calibrated(session, tmp_path / "empty.csv")
-    assert "empty.csv" in str(caught.value)
-    assert "contactbench-" not in str(caught.value)
+    assert str(caught.value).startswith("empty.csv: ")
+    assert str(session.folder) not in str(caught.value)

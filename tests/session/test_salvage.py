@@ -36,7 +36,7 @@ def whole(tmp_path_factory):
             table = b"t,fx\n0,1\n" + turn.encode()
             poses = session.add_input(table, "poses", name=f"p{turn}.csv", sensor="42").action.file.sha256
             session.add_result("calibration", f"c{turn}.json", {f"c{turn}.json": b"{}"}, {"poses": poses}, {})
-            mesh = session.change_mesh(f"m{turn}.stl", (b"solid" + turn.encode(),)).action.file.sha256
+            mesh = session.add_input(b"solid" + turn.encode(), "mesh", name=f"m{turn}.stl").action.file.sha256
             session.add_result(
                 "probe", f"p{turn}.ply", {f"p{turn}.ply": b"ply" + turn.encode()}, {"mesh": mesh}, {}
             )

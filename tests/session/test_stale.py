@@ -224,7 +224,7 @@ def test_the_state_is_a_fold(tmp_path_factory, steps):
                 case "zero":
                     session.rezeroed("42")
                 case "mesh":
-                    session.change_mesh("m.stl", (str(n % 2).encode(),))
+                    session.add_input(str(n % 2).encode(), "mesh", name="m.stl")
                 case "set":
                     session.set_parameter("test.a", n)
                 case "result":

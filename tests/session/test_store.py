@@ -16,10 +16,10 @@ from contactbench.pipeline.session import (
     SessionError,
     SessionLockedError,
     frames,
-    migrate,
 )
 from contactbench.pipeline.session.actions import VERSION
 from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.content import MIGRATIONS
 
 ROOT = Path(__file__).parents[2]
 
@@ -251,7 +251,7 @@ def test_an_older_version_is_migrated_and_the_original_kept(folder, monkeypatch)
     old = rewrite(folder, older)
     with pytest.raises(SchemaError, match="too old"):
         Session.open(folder)
-    monkeypatch.setitem(migrate.MIGRATIONS, 0, newer)
+    monkeypatch.setitem(MIGRATIONS, 0, newer)
     with Session.open(folder, write=False) as session:
         assert session.records[1].entry.by == "ada"
     assert (folder / "journal").read_bytes() == old

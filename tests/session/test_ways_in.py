@@ -6,8 +6,8 @@ import pytest
 
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.remains import ways_in
 from contactbench.pipeline.session.salvage import salvage
-from contactbench.pipeline.session.ways_in import ways_in
 
 
 @pytest.fixture

@@ -117,7 +117,7 @@ def test_a_rule_accepts_what_is_right() -> None:
 def trial(rng: np.random.Generator) -> HardTrial:
     body = hm.ellipsoid(2)
     drawn = hm.press(*hm.places(body, 50, rng), rng)
-    return HardTrial("name", "what", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=1e-6)
+    return HardTrial("name", "what", exact("1e-9 m"), body.probe(), drawn)
 
 
 def test_a_trial_passes_only_against_the_right_truth(trial: HardTrial) -> None:

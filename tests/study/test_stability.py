@@ -78,9 +78,8 @@ def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
 
     monkeypatch.setattr(study, "run", lambda *_, **__: broken(report) if code else report)
     out = tmp_path / "one"
-    ran = CliRunner().invoke(
-        app, ["study", "stability", "--quick", "--seed", "1", "--out", str(out), "--json"]
-    )
+    words = ["study", "stability", "--samples", "50", "--seed", "1", "--out", str(out), "--json"]
+    ran = CliRunner().invoke(app, words)
     assert ran.exit_code == code
     data = json.loads(ran.stdout)
     assert data["passed"] is (code == 0)
@@ -93,7 +92,7 @@ def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
         assert (other / name).read_bytes() == (out / name).read_bytes()
     text = (out / "page.md").read_text(encoding="utf-8")
     assert text.startswith("## Numerical stability")
-    assert "Repeat with `contactbench study stability --samples 50 --seed 1`" in text
+    assert "Repeat with `contactbench study stability --seed 1 --samples 50`" in text
     assert ("Every bound is kept." in text) is (code == 0)
     assert ("1e+09" in text) is (code == 1)
     assert {line.count("|") - line.count("\\|") for line in text.splitlines() if line.startswith("|")} == {10}

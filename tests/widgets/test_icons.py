@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QIcon
 
-from contactbench.pipeline.workbench.steps import StepState
+from contactbench.pipeline.steps import StepState
 from contactbench.widgets.icons import NAMES, icon, state_icon
 from contactbench.widgets.theme import colours, use_theme
 

@@ -4,8 +4,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
-from contactbench.pipeline.workbench.standings import CheckItem, CheckState
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.session.why import CheckItem, CheckState
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.verify_touches import MarkerRow
 from contactbench.widgets.checklist import Checklist
 from contactbench.widgets.marker_table import MarkerTable

@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.residual_table import SIGMAS, STATE, ResidualTable
 from contactbench.widgets.verdict_box import GOOD, REFUSE, Shrinking, VerdictBox
 

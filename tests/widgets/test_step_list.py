@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.step_list import StepList
 
 

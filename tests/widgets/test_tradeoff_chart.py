@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
-from contactbench.pipeline.workbench.probe_ladder import Trade, TradePoint
+from contactbench.pipeline.workbench.probe import Trade, TradePoint
 from contactbench.widgets.theme import dress, use_theme
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 

@@ -9,9 +9,9 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from contactbench.pipeline.calibration.stillness import StillState
-from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.standings import CheckItem, CheckState
-from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.session.why import CheckItem, CheckState
+from contactbench.pipeline.steps import Step, StepState, StepStatus
+from contactbench.pipeline.workbench.gravity_fit import PoseState
 from contactbench.pipeline.workbench.verify_touches import MarkerRow
 from contactbench.widgets import theme
 from contactbench.widgets.capture_state import CaptureState

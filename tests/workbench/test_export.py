@@ -12,9 +12,9 @@ from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
 from contactbench.pipeline.config.runtime.differ import ConfigDifference, Differences
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.why import RESULTS, checklist, results_of
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.export import PLACE, SHA256, export, survey, told
-from contactbench.pipeline.workbench.standings import RESULTS, checklist, results_of
-from contactbench.pipeline.workbench.steps import Step
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,7 @@ from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.session.state import State
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
-from contactbench.pipeline.workbench.gravity_fit import gravity_settings
-from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_fit import PoseState, gravity_settings
 from contactbench.pipeline.workbench.live import LiveBlock
 
 PLAIN = gravity_settings(State())

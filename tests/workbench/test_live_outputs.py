@@ -11,11 +11,10 @@ from waiting import until
 from workbench.touch_session import STEPWISE, make_session
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.runtime.network_targets import NETWORK_TARGETS
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.export import built
 from contactbench.pipeline.workbench.live import Live
-from contactbench.pipeline.workbench.live_outputs import USUAL, LiveOutputs
+from contactbench.pipeline.workbench.live_outputs import LiveOutputs
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,10 +49,6 @@ def listener() -> Iterator[socket.socket]:
 
 def place(listener: socket.socket) -> str:
     return f"127.0.0.1:{listener.getsockname()[1]}"
-
-
-def test_every_output_of_the_command_has_an_address_here() -> None:
-    assert USUAL.keys() == NETWORK_TARGETS.keys()
 
 
 def test_contacts_go_out_until_it_is_stopped(

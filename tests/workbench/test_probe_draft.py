@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from workbench.changes import observed
 from workbench.probe_files import egg
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
+from contactbench.pipeline.session.why import statuses
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork
 from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
-from contactbench.pipeline.workbench.session_change import observed
-from contactbench.pipeline.workbench.standings import statuses
-from contactbench.pipeline.workbench.steps import Step, StepState
 
 PLAN = ProbePlan(
     units="mm",

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from workbench.changes import observed
 from workbench.probe_files import bad_meshes, egg
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.session.recompute import compute, newest_inputs
-from contactbench.pipeline.session.replay import ReplayOutcome, replay
+from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
+from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit, trade_of
 from contactbench.pipeline.workbench.probe_alignment import (
     back_to_mesh,
     by_axes,
@@ -25,9 +25,7 @@ from contactbench.pipeline.workbench.probe_alignment import (
     by_points,
     numbers_of,
 )
-from contactbench.pipeline.workbench.probe_ladder import trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
-from contactbench.pipeline.workbench.session_change import observed
 
 PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 

@@ -17,6 +17,7 @@ from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import Brush, RegionError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.why import RegionsState, regions_state
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.regions import (
     Box,
@@ -30,11 +31,9 @@ from contactbench.pipeline.workbench.regions import (
     Smooth,
 )
 from contactbench.pipeline.workbench.regions_session import (
-    Standing,
     apply,
     keep,
     open_work,
-    standing,
     surface_key,
 )
 
@@ -246,14 +245,14 @@ def kept(desk, work):  # noqa: F811
 
 
 def test_what_was_painted_is_found_again_and_reaches_the_probe(desk):  # noqa: F811
-    assert standing(desk.state) is Standing.NONE
+    assert regions_state(desk.state) is RegionsState.NONE
     work = open_work(desk)
     assert kept(desk, work) is None, "there are none, and never were any"
     work.step(lambda model: model.add("Lens"))
     paint(work, TOP)
     assert kept(desk, work) is not None
     assert kept(desk, work) is None, "the very same are not kept twice"
-    assert standing(desk.state) is Standing.WAITING
+    assert regions_state(desk.state) is RegionsState.WAITING
 
     again = open_work(desk)
     assert again.notes == ()
@@ -262,7 +261,7 @@ def test_what_was_painted_is_found_again_and_reaches_the_probe(desk):  # noqa: F
 
     key, shares = surface_key(desk.state), []
     record = desk.do(apply(desk, shares.append)).result()
-    assert standing(desk.state) is Standing.APPLIED
+    assert regions_state(desk.state) is RegionsState.APPLIED
     assert shares[-1] == 1.0
     assert surface_key(desk.state) == key, "the surface is the same: what can be undone stays"
     probe = load_probe_file(desk.folder / record.action.files["probe.ply"].path).probe
@@ -280,7 +279,7 @@ def test_removing_all_regions_reaches_the_probe_too(desk):  # noqa: F811
     desk.do(apply(desk)).result()
     work.step(lambda model: model.remove(1))
     kept(desk, work)
-    assert standing(desk.state) is Standing.WAITING
+    assert regions_state(desk.state) is RegionsState.WAITING
     record = desk.do(apply(desk)).result()
     assert not load_probe_file(desk.folder / record.action.files["probe.ply"].path).probe.region.any()
 

@@ -1,7 +1,8 @@
 import pytest
+from workbench.changes import observed
 
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.session_change import change_between, observed, value_in
+from contactbench.pipeline.workbench.undo_history import SessionChange, change_between, value_in
 
 
 @pytest.fixture
@@ -38,7 +39,7 @@ def test_a_setting_that_was_not_there_becomes_what_is_meant_without_it(session, 
 def test_setting_the_same_value_is_nothing_to_undo(session):
     session.set_parameter("devices.sensor", "a")
     _, change = observed(lambda s: s.set_parameter("devices.sensor", "a"))(session)
-    assert change.empty
+    assert change == SessionChange({}, {}, {})
 
 
 def test_a_result_goes_back_to_the_one_before(session):

@@ -3,8 +3,8 @@ import json
 import pytest
 
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.workbench.standings import read_facts, results_of, statuses
-from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.session.why import read_facts, results_of, statuses
+from contactbench.pipeline.steps import Step, StepState
 
 
 @pytest.fixture

@@ -10,10 +10,17 @@ from workbench.touch_session import make_session, verify
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.why import (
+    DISK,
+    CheckState,
+    FileWatch,
+    SessionTrouble,
+    files_behind,
+    read_facts,
+    statuses,
+)
+from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.export import export, survey
-from contactbench.pipeline.workbench.standings import CheckState, read_facts, statuses
-from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.pipeline.workbench.trouble import DISK, FileWatch, SessionTrouble, files_behind
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +114,7 @@ def test_only_what_was_touched_is_looked_at_again(session, monkeypatch):
     watch, read = FileWatch(session.folder), []
     assert watch.look(session.state) == {}
     monkeypatch.setattr(
-        "contactbench.pipeline.workbench.trouble.file_problem",
+        "contactbench.pipeline.session.why.file_problem",
         lambda _folder, ref: read.append(ref.path) or "",
     )
     watch.look(session.state)

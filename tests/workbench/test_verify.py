@@ -9,10 +9,11 @@ from workbench.touch_session import STEPWISE, make_session, press, touch_all
 from contactbench.pipeline import cli
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import Markers, keep, spread
-from contactbench.pipeline.workbench.verify import VerifyWork, outcome_of, tool_key, tool_of, why_locked
+from contactbench.pipeline.workbench.verify import VerifyWork, outcome_of, tool_key, tool_of
 
 
 class Work:

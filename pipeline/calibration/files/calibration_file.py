@@ -33,6 +33,7 @@ from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.verdict import Verdict
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
+from contactbench.pipeline.files import File
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -59,7 +60,7 @@ class SourceFile:
     sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")]  # Of its content
 
     @classmethod
-    def of(cls, file: Path) -> SourceFile:
+    def of(cls, file: File) -> SourceFile:
         """Read a file for its hash; CalibrationFileError if that fails."""
         try:
             with file.open("rb") as stream:
@@ -107,7 +108,7 @@ def save_calibration(
     calibration: Calibration,
     file: Path,
     *,
-    source: Path | SourceFile | None = None,
+    source: File | SourceFile | None = None,
     created: datetime | None = None,
     mount: Mount | None = None,
 ) -> None:
@@ -144,14 +145,14 @@ def encode_calibration(
     calibration: Calibration,
     name: str,
     *,
-    source: Path | SourceFile | None = None,
+    source: File | SourceFile | None = None,
     created: datetime | None = None,
     mount: Mount | None = None,
 ) -> bytes:
     """Return what `save_calibration` writes; `name` is what messages call it."""
     if created is not None and created.tzinfo is None:
         raise CalibrationFileError(f"{arg(name)}: created has no time zone: use datetime.now(UTC).")
-    source = SourceFile.of(source) if isinstance(source, Path) else source
+    source = SourceFile.of(source) if isinstance(source, File) else source
     content = _document(calibration, source, created, mount)
     try:
         data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
@@ -163,7 +164,7 @@ def encode_calibration(
     return data
 
 
-def load_calibration(file: Path) -> Calibration:
+def load_calibration(file: File) -> Calibration:
     """
     Read a calibration that `save_calibration` wrote.
 
@@ -175,7 +176,7 @@ def load_calibration(file: Path) -> Calibration:
     return load_record(file).calibration
 
 
-def load_record(file: Path) -> CalibrationRecord:
+def load_record(file: File) -> CalibrationRecord:
     """
     Read a calibration with where and when it comes from.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -26,6 +25,7 @@ from contactbench.pipeline.calibration.stillness import (
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from contactbench.pipeline.errors import InputError, arg, join, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.delay import estimate_delay
@@ -49,9 +49,9 @@ Delay = float | Literal["auto"] | None
 Progress = Callable[[int, int], None] | None
 
 
-def is_recording(source: Path | BinaryIO) -> bool:
+def is_recording(source: File | BinaryIO) -> bool:
     """Tell whether a file is an MCAP recording, by how it begins."""
-    if not isinstance(source, Path):
+    if not isinstance(source, File):
         return False
     try:
         with source.open("rb") as stream:
@@ -61,10 +61,10 @@ def is_recording(source: Path | BinaryIO) -> bool:
 
 
 def capture_poses(
-    source: Path | BinaryIO,
+    source: File | BinaryIO,
     convention: Convention | None = None,
     *,
-    robot_poses: Path | None = None,
+    robot_poses: File | None = None,
     R_ES: ArrayLike | None = None,
     model: GravityModel | None = None,
     delay: Delay = None,
@@ -120,9 +120,9 @@ def capture_poses(
 
 
 def _of_two(
-    source: Path | BinaryIO,
+    source: File | BinaryIO,
     convention: Convention | None,
-    robot_poses: Path | None,
+    robot_poses: File | None,
     R_ES: ArrayLike | None,
     work: Capturing,
     delay: Delay,
@@ -136,7 +136,8 @@ def _of_two(
     taken as W.
     """
     if robot_poses is None:
-        recording = read_recording(Path(str(source)), progress)
+        assert isinstance(source, File)  # noqa: S101 - a stream is no recording
+        recording = read_recording(source, progress)
         wrenches, poses = _only(source, recording)
         said = list(recording.warnings)
     else:
@@ -171,10 +172,10 @@ def _of_two(
 
 
 def read_any_poses(
-    source: Path,
+    source: File,
     convention: Convention | None = None,
     *,
-    robot_poses: Path | None = None,
+    robot_poses: File | None = None,
     R_ES: ArrayLike | None = None,
     delay: Delay = None,
     progress: Callable[[int, int], None] | None = None,
@@ -220,7 +221,7 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
     return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
 
 
-def _only(source: Path | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
+def _only(source: File | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise RecordingError(
             f"{arg(source)}: it contains {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))}"
@@ -231,7 +232,7 @@ def _only(source: Path | BinaryIO, recording: Recording) -> tuple[WrenchTrack, F
 
 
 def _check_overlap(
-    source: Path | BinaryIO, robot_poses: Path, wrenches: WrenchTrack, poses: FlangeTrack
+    source: File | BinaryIO, robot_poses: File, wrenches: WrenchTrack, poses: FlangeTrack
 ) -> None:
     """Refuse tables whose times have nothing in common: two clocks, which no delay brings together."""
     (one, two), (three, four) = wrenches.times[[0, -1]], poses.times[[0, -1]]
@@ -244,7 +245,7 @@ def _check_overlap(
 
 
 def _delay(
-    source: Path | BinaryIO, wrenches: WrenchTrack, poses: FlangeTrack, delay: Delay, said: list[str]
+    source: File | BinaryIO, wrenches: WrenchTrack, poses: FlangeTrack, delay: Delay, said: list[str]
 ) -> float:
     if delay == "auto":
         estimate = estimate_delay(wrenches, poses)
@@ -287,7 +288,7 @@ class Captured:
 
 
 def _of_table(
-    source: Path | BinaryIO,
+    source: File | BinaryIO,
     convention: Convention | None,
     R_ES: ArrayLike | None,
     work: Capturing,
@@ -418,7 +419,7 @@ def in_order(reader: TableReader) -> Iterator[TableRows]:
         yield rows
 
 
-def read_wrench_track(source: Path | BinaryIO, progress: Progress = None) -> WrenchTrack:
+def read_wrench_track(source: File | BinaryIO, progress: Progress = None) -> WrenchTrack:
     """
     Read the wrenches of a sensor from a table.
 
@@ -458,7 +459,7 @@ def read_wrench_track(source: Path | BinaryIO, progress: Progress = None) -> Wre
 
 
 def read_flange_track(
-    file: Path, convention: Convention | None = None, progress: Progress = None
+    file: File, convention: Convention | None = None, progress: Progress = None
 ) -> FlangeTrack:
     """
     Read the orientations of a flange from a table.

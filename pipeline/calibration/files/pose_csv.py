@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from contactbench.pipeline.files import File
+
 FORCES, TORQUES = ("fx", "fy", "fz"), ("mx", "my", "mz")
 CHANNELS = (*FORCES, *TORQUES)
 _FORCE_SD, _TORQUE_SD = ("sfx", "sfy", "sfz"), ("smx", "smy", "smz")
@@ -69,7 +71,7 @@ class PoseTable:
 
 
 def read_poses(
-    source: Path | BinaryIO, convention: Convention | None = None, *, R_ES: ArrayLike | None = None
+    source: File | BinaryIO, convention: Convention | None = None, *, R_ES: ArrayLike | None = None
 ) -> PoseTable:
     """
     Read still, contact-free poses from a CSV file.
@@ -168,7 +170,7 @@ def encode_poses(poses: Sequence[PoseSample], name: str) -> bytes:
 # ---- recordings --------------------------------------------------------------------------------
 
 
-def is_recorded_table(file: Path) -> bool:
+def is_recorded_table(file: File) -> bool:
     """
     Tell by its first rows whether a CSV file is a recording of samples, not a table of still poses.
 

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from xml.parsers import expat
 
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
-from contactbench.pipeline.devices.protocols.rdt import ONROBOT_SCALE, CountScale
 from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
 from contactbench.pipeline.errors import arg, message
@@ -33,6 +32,34 @@ _PRODUCT, _PER_FORCE, _PER_TORQUE, _FORCE_UNIT, _TORQUE_UNIT = _NAMES = (
 _NUMBER = re.compile(r"[0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][+-]?[0-9]{1,2})?")
 _FEWEST, _MOST = 1e-3, 1e12  # counts per unit that any sensor could have
 _LONGEST = 80  # characters of a name or number that are looked at
+
+
+@dataclass(frozen=True, slots=True)
+class CountScale:
+    """
+    Counts per unit.
+
+    Raises
+    ------
+    ProtocolError
+        One is not finite or not positive.
+    """
+
+    # ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
+    per_newton: float
+    per_newton_metre: float
+
+    def __post_init__(self) -> None:
+        for value in (self.per_newton, self.per_newton_metre):
+            if not (math.isfinite(value) and value > 0):
+                raise ProtocolError(
+                    f"RDT: counts per unit must be finite and above 0, not {arg(value)!r}: "
+                    "read them from the sensor's configuration page."
+                )
+
+
+ATI_TYPICAL = CountScale(1e6, 1e6)
+ONROBOT_SCALE = CountScale(1e4, 1e5)
 
 
 class ScaleError(ProtocolError):

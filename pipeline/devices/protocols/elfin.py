@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
@@ -25,11 +24,7 @@ from contactbench.pipeline.errors import arg
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
-    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
-    from contactbench.pipeline.devices.sample import FlangeSample
-    from contactbench.pipeline.devices.url import DeviceAddress
 
 _POSITION = "ReadActPos"
 REQUEST = f"{_POSITION},0,;".encode()
@@ -253,21 +248,3 @@ class ElfinModel(Model):
 def _answer(name: str, values: Sequence[float]) -> bytes:
     numbers = ",".join(str(v) if isinstance(v, int) else f"{v:.6f}" for v in values)
     return f"{name},OK,{numbers},;".encode("ascii")
-
-
-class ElfinDriver(Driver):
-    """An Elfin's controller."""
-
-    scheme, title = "elfin", "Hans Robot Elfin"
-    ways = (Way(Carrier.TCP, port=10_003),)
-    rate = 50.0
-    emulated = ElfinModel
-    stamped = False  # it is asked, and so its answers are timed already
-
-    def poses(
-        self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
-    ) -> ReconnectingStream[FlangeSample]:
-        """As `Driver`."""
-        from contactbench.pipeline.devices.robot_poses import ElfinPoses  # it needs what is here
-
-        return ElfinPoses(address, on_samples, on_change)

@@ -7,15 +7,27 @@ frame is turned against the flange.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import time
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.protocols.elfin import ElfinError
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.protocols.elfin import (
+    REQUEST,
+    ElfinError,
+    ElfinModel,
+    ReplyReader,
+    read_position,
+)
+from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.transport import LineLost, line_to
+from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
@@ -23,6 +35,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.devices.driver import OnChange, OnFlanges
+    from contactbench.pipeline.devices.transport import Line
+    from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.robot import Robot
 
 _NUMBERS = 12
@@ -33,6 +48,15 @@ _ABSURD = 1e6  # mm or degrees
 ROTATION_TOLERANCE_DEG = 0.5
 # No probe or tool reaches further from the flange, m.
 LONGEST_TOOL = 0.6
+
+_USUAL_RATE_HZ = 50.0
+# Without an answer for so long, a line is opened again: questions that wait add up in a slow controller.
+_UNANSWERED_S = 1.0
+# After a piece that was no answer none follows, or it would have come.
+_GARBLED_S = 0.1
+# Half of it is how wrong the time of a pose may be; a flange at 0.2 rad/s has turned by 0.3 degrees then.
+_LATEST_S = 0.05
+_SHOWN_S = 2.0
 
 
 class FieldOrder(Enum):
@@ -148,3 +172,137 @@ def _split(
     # Lower case: turns about the fixed axes, R = Rz Ry Rx.
     R_BT = Rotation.from_euler("xyz", pose[3:], degrees=True).as_matrix()
     return np.radians(joints), pose[:3] * _MILLIMETRE, R_BT
+
+
+class ElfinPoses(ReconnectingStream[FlangeSample]):
+    """
+    An Elfin robot's flange, asked for at the address's rate.
+
+    The first answer settles whether joints or pose come first, by the arm's kinematics. One question waits for
+    its answer at a time; a pose belongs to the middle between question and answer, and where they are too far
+    apart it is dropped.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    robot : Robot, optional
+        The arm; an Elfin3 when left out.
+
+    Raises
+    ------
+    InputError
+        The arm's kinematics cannot be computed: MuJoCo is not installed.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        on_samples: OnFlanges,
+        on_change: OnChange = None,
+        *,
+        robot: Robot | None = None,
+        line: Line | None = None,
+    ) -> None:
+        from contactbench.pipeline.robot import Robot as Known  # its kinematics take a third of a second
+
+        rate = address.rate or _USUAL_RATE_HZ
+        self._robot = robot or Known.named("elfin3")
+        self._robot.flange_pose(np.zeros(6))  # says at once where MuJoCo is missing
+        self._period = 1.0 / rate
+        self._replies = ReplyReader()
+        self._order: FieldOrder | None = None
+        self._asked: float | None = None
+        self._next = 0.0
+        self._trouble, self._refused = "", 0
+        self._malformed = 0  # when the question was asked
+        self._late, self._lateness, self._late_at = 0, 0.0, float("-inf")
+        super().__init__(address, line or line_to(address), Watch(rate), on_samples, on_change)
+
+    def _begin(self) -> None:
+        """Nothing: whoever is asked answers."""
+
+    def _idle(self, now: float) -> float:
+        if self._asked is not None:
+            self._await(now - self._asked)
+        if now >= self._next and self._asked is None:
+            self._malformed = self._replies.malformed
+            self._asked = time.monotonic()  # before it is sent: no answer can be older
+            self._line.write(REQUEST)
+            # At its own pace: what came late is not asked for twice as fast.
+            self._next = max(self._next + self._period, now)
+        return READ_S if self._asked is not None else min(READ_S, max(self._next - now, 0.0))
+
+    def _await(self, waited: float) -> None:
+        if waited > _GARBLED_S and self._replies.malformed > self._malformed:
+            self._asked = None
+        elif waited > _UNANSWERED_S:
+            raise LineLost(
+                f"{arg(self._line.name)}: no answer for {arg(_UNANSWERED_S):g} s: check that the controller"
+                " is not busy. Reconnecting."
+            )
+
+    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
+        samples = []
+        for reply in self._replies.feed(data):
+            asked, self._asked = self._asked, None
+            if asked is None:  # of which question, and so of when, it tells nobody knows
+                self._refused += 1
+                continue
+            try:
+                numbers = read_position(reply)
+            except ElfinError as error:  # the line is well: the next answer may be
+                self._trouble = str(error)
+                self._refused += 1
+                continue
+            if self._order is None:
+                self._order = resolve_order(numbers, self._robot).order
+            self._trouble = ""
+            if arrived - asked > _LATEST_S:
+                self._late += 1
+                self._lateness, self._late_at = arrived - asked, arrived
+                continue
+            pose = flange_sample(numbers, self._order, (asked + arrived) / 2, self._robot)
+            samples.append(replace(pose, arrival=arrived))
+        return samples
+
+    def _end(self) -> None:
+        """Leave the robot alone: it was only asked."""
+
+    def _reset(self) -> None:
+        self._replies.reset()
+        self._trouble = ""
+        self._asked, self._next = None, 0.0
+
+    def _counters(self) -> Counters:
+        damaged = self._replies.malformed + self._refused
+        skipped = self._replies.skipped_bytes
+        frames = self._watch.samples + self._late
+        return Counters(frames=frames, bad_checksums=damaged, skipped_bytes=skipped)
+
+    def _troubles(self) -> dict[str, str]:
+        found = {"answer": self._trouble} if self._trouble else {}
+        if time.monotonic() - self._late_at < _SHOWN_S:
+            found["late"] = message(
+                f"{arg(self._late)} answers of the robot were dropped because they took longer than"
+                f" {arg(1e3 * _LATEST_S):.0f} ms; the last took {arg(1e3 * self._lateness):.0f} ms: check"
+                " network and controller, or choose a lower rate."
+            )
+        return found
+
+
+class ElfinDriver(Driver):
+    """An Elfin's controller."""
+
+    scheme, title = "elfin", "Hans Robot Elfin"
+    ways = (Way(Carrier.TCP, port=10_003),)
+    rate = 50.0
+    emulated = ElfinModel
+    stamped = False  # it is asked, and so its answers are timed already
+
+    def poses(
+        self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
+    ) -> ReconnectingStream[FlangeSample]:
+        """As `Driver`."""
+        return ElfinPoses(address, on_samples, on_change)

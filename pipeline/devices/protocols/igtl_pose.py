@@ -15,7 +15,8 @@ from contactbench.pipeline.devices.options import name as read_name
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader
-from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.protocols.parser import Counters, Parser
+from contactbench.pipeline.devices.robot_poses import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.errors import arg, message
 
@@ -29,9 +30,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.url import DeviceAddress
 
 _MOST_NAMES = 20
+_GUESSED_HZ = 30.0  # trackers give 20 to 250 poses a second
 
 
-class BodyStream:
+class BodyStream(Parser[FlangeSample]):
     """
     Bytes of a server to poses of one body, which plays the flange: E is the body, the base B is the tracker.
 
@@ -44,8 +46,6 @@ class BodyStream:
     ----------
     names : list of str
         Bodies heard of, at most twenty.
-    trouble : str
-        Why the last pose that came is none; empty: it is one.
     """
 
     def __init__(self, body: str | None = None) -> None:
@@ -54,7 +54,7 @@ class BodyStream:
         self._refused = self._repeated = 0
         self._stamp: float | None = None
         self.names: list[str] = []
-        self.trouble = ""
+        self._trouble = ""
 
     @property
     def counters(self) -> Counters:
@@ -68,14 +68,18 @@ class BodyStream:
         )
 
     @property
-    def pending(self) -> int:
+    def pending(self) -> int:  # type: ignore[override]
         """Bytes that wait for the rest of their message."""
         return self._reader.pending
+
+    def begin(self) -> None:
+        """As `Parser`: half a message may be one that is never completed."""
+        self.reset()
 
     def reset(self) -> None:
         """Forget half a message, after the line was lost."""
         self._reader.reset()
-        self._stamp, self.trouble = None, ""
+        self._stamp, self._trouble = None, ""
 
     def feed(self, data: bytes, time: float) -> list[FlangeSample]:
         """
@@ -100,19 +104,32 @@ class BodyStream:
             try:
                 poses = igtl.poses_of(packet)
             except IgtlError as error:
-                self.trouble = str(error)
+                self._trouble = str(error)
                 self._refused += 1
                 continue
             for pose in poses:
                 if not self._is_wanted(pose.body):
                     continue
-                self.trouble = ""
+                self._trouble = ""
                 if packet.time is not None and packet.time == self._stamp:
                     self._repeated += 1
                     continue
                 self._stamp = packet.time
                 samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=packet.time))
         return samples
+
+    def troubles(self) -> dict[str, str]:
+        """Return why the last pose that came is none, or that the body was not heard of, by kind."""
+        if self._trouble:
+            return {"pose": self._trouble}
+        if self._body is None or not self.names or self._body in self.names:
+            return {}
+        return {
+            "body": message(
+                f"The server sends no body {arg(self._body)!r}, only {arg(', '.join(self.names))}: correct"
+                " ?device= in the address, or bring the body in sight."
+            )
+        }
 
     def _is_wanted(self, name: str) -> bool:
         if name not in self.names and len(self.names) < _MOST_NAMES:
@@ -197,6 +214,13 @@ class IgtlDriver(Driver):
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """As `Driver`."""
-        from contactbench.pipeline.devices.tracker_poses import TrackerPoses  # it needs what is here
-
-        return TrackerPoses(address, on_samples, on_change)
+        rate = address.rate  # without one the server is expected to stream
+        return ParsedPoses(
+            address,
+            BodyStream(address.options["device"]),
+            on_samples,
+            on_change,
+            start=b"" if rate is None else igtl.start_qtdata(rate),
+            stop=b"" if rate is None else igtl.pack(igtl.STOP_QTDATA, "", 0, b""),
+            guess=_GUESSED_HZ,
+        )

@@ -42,6 +42,7 @@ from contactbench.pipeline.devices.protocols.parser import (
     SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
+from contactbench.pipeline.devices.robot_poses import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import arg, message
 
@@ -456,8 +457,6 @@ class LineDriver(Driver):
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """As `Driver`."""
-        from contactbench.pipeline.devices.robot_poses import ParsedPoses
-
         layout = Layout.of(address.options)
         if not layout.gives_poses:
             raise AddressError(

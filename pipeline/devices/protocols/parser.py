@@ -78,6 +78,9 @@ class Parser(ABC, Generic[Sample]):
             One per intact frame that ends in these bytes, oldest first.
         """
 
+    def begin(self) -> None:
+        """Begin: the line was opened, or nothing useful came for long."""
+
     def reset(self) -> None:
         """Forget half a frame, after the line was lost. Counters and numbering go on."""
 

@@ -10,19 +10,19 @@ from __future__ import annotations
 
 import math
 import struct
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.options import Option, choice, number
+from contactbench.pipeline.devices.protocols import ati_scale
+from contactbench.pipeline.devices.protocols.ati_scale import ATI_TYPICAL, ONROBOT_SCALE, CountScale
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
     Counters,
-    ProtocolError,
     SensorDriver,
     SensorParser,
 )
@@ -60,32 +60,6 @@ class Profile(IntEnum):
     ONROBOT = 2
 
 
-@dataclass(frozen=True, slots=True)
-class CountScale:
-    """
-    Counts per unit.
-
-    Raises
-    ------
-    ProtocolError
-        One is not finite or not positive.
-    """
-
-    # ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
-    per_newton: float
-    per_newton_metre: float
-
-    def __post_init__(self) -> None:
-        for value in (self.per_newton, self.per_newton_metre):
-            if not (math.isfinite(value) and value > 0):
-                raise ProtocolError(
-                    f"RDT: counts per unit must be finite and above 0, not {arg(value)!r}: "
-                    "read them from the sensor's configuration page."
-                )
-
-
-ATI_TYPICAL = CountScale(1e6, 1e6)
-ONROBOT_SCALE = CountScale(1e4, 1e5)
 SCALES = {"ati": ATI_TYPICAL, "onrobot": ONROBOT_SCALE}
 """By profile. An ATI box may have others: its own configuration page says."""
 
@@ -187,10 +161,8 @@ def _request(command: _Request, argument: int) -> Command:
 
 def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
     """Take the sensor's own counts per newton."""
-    from contactbench.pipeline.devices.protocols.ati_scale import scale_for  # it needs the counts of here
-
     try:
-        parser.scale = scale_for(address)
+        parser.scale = ati_scale.scale_for(address)
     except InputError as error:
         scale = parser.scale
         return message(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.options import Option, numbers
@@ -18,6 +19,7 @@ from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     OutputRecipe,
     Packet,
@@ -26,7 +28,10 @@ from contactbench.pipeline.devices.protocols.ur_rtde import (
     RtdeError,
 )
 from contactbench.pipeline.devices.protocols.ur_wrench import wrench_driver
+from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.transport import line_to
+from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
@@ -37,11 +42,12 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
     from contactbench.pipeline.devices.faults import FrameMoment, SensorReading, Six
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
-    from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
+    from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.devices.url import DeviceAddress
 
 CLOCK, JOINTS, POSE, TOOL = "timestamp", "actual_q", "actual_TCP_pose", "tcp_offset"
 _ABSURD = 1e3  # m or rad
+_USUAL_RATE_HZ = 50.0
 _MOST_TOOL = 10.0  # m or rad
 VARIABLES = (CLOCK, JOINTS, POSE)
 # The pose is that of the tool frame which is active on the pendant; older controllers do not tell which.
@@ -209,6 +215,71 @@ def flange_sample(
         p_BE_B = pose[:3] - R_BE.apply(tool[:3])
     joints = np.asarray(values[JOINTS], dtype=np.float64)
     return FlangeSample(time, R_BE.as_matrix(), p_BE_B, joints, float(values[CLOCK][0]))
+
+
+class UrPoses(ReconnectingStream[FlangeSample]):
+    """
+    A UR robot's flange, over RTDE.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+    on_samples, on_change
+        As for `ReconnectingStream`.
+    tool : 6 floats, optional
+        See `UrStream`.
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        on_samples: OnFlanges,
+        on_change: OnChange = None,
+        *,
+        tool: Sequence[float] | None = None,
+        line: Line | None = None,
+    ) -> None:
+        rate = address.rate or _USUAL_RATE_HZ
+        self._talk = UrStream(rate, tool)
+        self._clock = SampleClock(rate)
+        self._refused = 0
+        super().__init__(address, line or line_to(address), Watch(rate), on_samples, on_change)
+
+    def _begin(self) -> None:
+        self._line.write(self._talk.start())
+
+    def _feed(self, data: bytes, arrived: float) -> list[FlangeSample]:
+        try:
+            samples = self._talk.feed(data, arrived)
+        except ProtocolError:
+            self._refused += 1
+            raise
+        if output := self._talk.take_output():
+            self._line.write(output)
+        return self._clock.stamp(samples)
+
+    def _reset(self) -> None:
+        self._clock.forget()
+
+    def _troubles(self) -> dict[str, str]:
+        if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
+            return {}
+        return {
+            "tool": (
+                "The controller does not report the tool set on the pendant, so the orientation is"
+                " that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on"
+                " the pendant."
+            )
+        }
+
+    def _end(self) -> None:
+        if self._talk.stage is UrStage.STREAMING:
+            self._line.write(ur_rtde.pause_request())
+
+    def _counters(self) -> Counters:
+        return Counters(
+            frames=self._watch.samples, bad_checksums=self._refused, skipped_bytes=self._talk.skipped_bytes
+        )
 
 
 # ---- emulated: a UR5e's controller ---------------------------------------------------------------
@@ -388,8 +459,6 @@ class UrDriver(Driver):
         self, address: DeviceAddress, on_samples: OnFlanges, on_change: OnChange = None
     ) -> ReconnectingStream[FlangeSample]:
         """As `Driver`."""
-        from contactbench.pipeline.devices.robot_poses import UrPoses  # it needs what is here
-
         return UrPoses(address, on_samples, on_change, tool=address.options["tool"])
 
     def emulate(

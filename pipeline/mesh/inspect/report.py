@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
+
+from contactbench.pipeline.mesh.inspect import words
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh.health import MeshHealth
@@ -14,25 +16,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.mesh.units import UnitGuess
-
-Level = Literal["fault", "doubt", "note"]
-
-
-@dataclass(frozen=True)
-class MeshFinding:
-    """
-    One thing found.
-
-    Attributes
-    ----------
-    level : {"fault", "doubt", "note"}
-        A fault spoils contacts and has to be mended; a doubt is to be looked at; a note is to be known.
-    text : str
-        What it is, why it matters and what to do, in sentences.
-    """
-
-    level: Level
-    text: str
 
 
 @dataclass(frozen=True)
@@ -150,16 +133,12 @@ class Inspection:
     @property
     def facts(self) -> tuple[str, ...]:
         """Size, area, volume and counts, in sentences."""
-        from contactbench.pipeline.mesh.inspect.words import facts
-
-        return facts(self)
+        return words.facts(self)
 
     @property
-    def findings(self) -> tuple[MeshFinding, ...]:
+    def findings(self) -> tuple[words.MeshFinding, ...]:
         """What is wrong or worth knowing, faults first; empty when there is nothing."""
-        from contactbench.pipeline.mesh.inspect.words import findings
-
-        return findings(self)
+        return words.findings(self)
 
     @property
     def sentences(self) -> tuple[str, ...]:

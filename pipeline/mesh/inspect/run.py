@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import edge_table
@@ -80,7 +80,7 @@ def inspect(
     work.reach(0.0)
     if isinstance(source, Probe):
         return _inspect(source, _Origin(), samples, work)
-    file = Path(source)
+    file = as_file(source)
     read = read_mesh(file, units)
     work.reach(0.1)
     probe = probe_of(file, read)
@@ -142,7 +142,7 @@ class _Origin:
     shell_made: bool = False
 
 
-def _shell_made(file: Path) -> bool:
+def _shell_made(file: File) -> bool:
     """Tell whether the history beside a file that contactbench wrote says that its outer shell was made."""
     try:
         known = load_probe_file(file)

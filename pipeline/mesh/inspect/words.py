@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
 
 from contactbench.pipeline.errors import arg, capitalised, join, message
-from contactbench.pipeline.mesh.inspect.report import MeshFinding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -45,6 +44,26 @@ _DUPLICATES = message("facet is a duplicate"), message("facets are duplicates")
 _STANDING = message("facet stands"), message("facets stand")
 _FACETS = message("facet"), message("facets")
 _FOLDED = message("thin facet folds"), message("thin facets fold")
+
+
+Level = Literal["fault", "doubt", "note"]
+
+
+@dataclass(frozen=True)
+class MeshFinding:
+    """
+    One thing found.
+
+    Attributes
+    ----------
+    level : {"fault", "doubt", "note"}
+        A fault spoils contacts and has to be mended; a doubt is to be looked at; a note is to be known.
+    text : str
+        What it is, why it matters and what to do, in sentences.
+    """
+
+    level: Level
+    text: str
 
 
 def facts(found: Inspection) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
 from contactbench.pipeline.tables import TableReader, Wording, read_table
@@ -135,7 +136,7 @@ def encode_csv(regions: RegionSet) -> bytes:
     return text.getvalue().encode()
 
 
-def decode_csv(source: Path | io.BytesIO, facet_count: int) -> npt.NDArray[np.int32]:
+def decode_csv(source: File | io.BytesIO, facet_count: int) -> npt.NDArray[np.int32]:
     """
     Read ranks from a table ``face,region``; facets without a row belong to no region.
 
@@ -153,7 +154,7 @@ def decode_csv(source: Path | io.BytesIO, facet_count: int) -> npt.NDArray[np.in
         reader.select(("face", "region"))
 
     rows = read_table(source, select, _CSV, row_limit=facet_count)
-    name = source if isinstance(source, Path) else message("the table")
+    name = source if isinstance(source, File) else message("the table")
     for column, limit in (("face", facet_count - 1), ("region", MOST_REGIONS)):
         values = rows.column(column)
         bad = (values != np.floor(values)) | (values < 0) | (values > limit)
@@ -189,7 +190,7 @@ def save_regions(regions: RegionSet, probe: Probe, file: Path) -> None:
         ) from error
 
 
-def load_regions(file: Path, probe: Probe) -> RegionSet:
+def load_regions(file: File, probe: Probe) -> RegionSet:
     """Read .json or .csv for a mesh; RegionError, naming the file, where that fails."""
     suffix = file.suffix.lower()
     if suffix == ".csv":
@@ -202,7 +203,7 @@ def load_regions(file: Path, probe: Probe) -> RegionSet:
         raise RegionError(f"{arg(file)}: {arg(error)}") from error
 
 
-def read_limited(file: Path) -> bytes:
+def read_limited(file: File) -> bytes:
     """Read a file of at most 64 MiB; RegionError if it is larger or cannot be read."""
     try:
         with file.open("rb") as stream:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from functools import partial
 from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ import numpy as np
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.report import (
     STYLES,
     FigureVerdict,
@@ -23,10 +24,12 @@ from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
+    from pathlib import Path
 
     from rich.table import Table
 
     from contactbench.pipeline.study.confidence.cases import Bools, Float, Measured
+    from contactbench.pipeline.study.results import Results
 
     Bounds = tuple[float | None, float | None]
 
@@ -89,6 +92,25 @@ class ConfidenceRow:
         """Whether the bounds are kept."""
         return verdict_of(self.value, (self.low, self.high), least=self.at_least, most=self.at_most)
 
+    @property
+    def words(self) -> str:
+        """The figure with its 95 % interval, for people."""
+        spread = "" if self.low == self.high else f" ({number(self.low)} to {number(self.high)})"
+        return f"{number(self.value)}{spread}{f' {self.unit}' if self.unit else ''}"
+
+    @property
+    def bound(self) -> str:
+        """What it must keep, for people; nothing where it is only shown."""
+        match self.at_least, self.at_most:
+            case None, None:
+                return ""
+            case None, most:
+                return f"at most {number(most)}"
+            case least, None:
+                return f"at least {number(least)}"
+            case least, most:
+                return f"{number(least)} to {number(most)}"
+
 
 @dataclass(frozen=True)
 class ConfidenceReport:
@@ -118,9 +140,7 @@ class ConfidenceReport:
         """Build what missed its bound for a terminal."""
         from rich.table import Table
 
-        from contactbench.pipeline.study.confidence.page import bound, figure
-
-        judged = [row for row in self.rows if bound(row)]
+        judged = [row for row in self.rows if row.bound]
         shown = [row for row in judged if row.verdict is not FigureVerdict.MET]
         built = Table(
             title=f"Bounds missed or open, {self.sizes.touches:,} touches x {self.sizes.seeds}, seed {self.seed}"
@@ -131,7 +151,7 @@ class ConfidenceReport:
         for heading in ("probe", "case", "figure", "measured", "bound", "verdict"):
             built.add_column(heading)
         for row in shown:
-            cells = (row.probe, row.case, row.figure, figure(row), bound(row), str(row.verdict))
+            cells = (row.probe, row.case, row.figure, row.words, row.bound, str(row.verdict))
             built.add_row(*cells, style=STYLES[row.verdict])
         return [built]
 
@@ -209,55 +229,44 @@ class ConfidenceCase:
 def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[ConfidenceCase]:
     """Give every case but the reliability and the pruning, which are no figures of several seeds."""
     count, facets = sizes.touches, sizes.facets
+    noises, (little, _), (gentle, _) = cases.NOISES.items(), cases.TORSIONS_M, cases.PULLS_N
     wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
-    for i, thickness in enumerate(cases.FINS_M):
-        for j, (said, noise) in enumerate(cases.NOISES.items()):
-            name = f"{1e3 * thickness:g} mm, {said} noise"
-            yield ConfidenceCase(
-                "fin", "capsule", name, (i, j), partial(cases.fin, thickness, noise, count), wrong
-            )
+    for (i, thickness), (j, (said, noise)) in product(enumerate(cases.FINS_M), enumerate(noises)):
+        fin = partial(cases.fin, thickness, noise, count)
+        yield ConfidenceCase("fin", "capsule", f"{1e3 * thickness:g} mm, {said} noise", (i, j), fin, wrong)
     for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
-        measure = partial(cases.region, probe, facets, count)
-        yield ConfidenceCase(
-            "region", probe, "8 to 10 N", (i,), measure, {"sure, of these over 5 mm off": (None, 0.1)}
-        )
-        for (said, noise), region, pull in product(cases.NOISES.items(), (False, True), cases.PULLS_N):
-            name = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
-            pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=region)
+        region = partial(cases.region, probe, facets, count)
+        bounds: dict[str, Bounds] = {"sure, of these over 5 mm off": (None, 0.1)}
+        yield ConfidenceCase("region", probe, "8 to 10 N", (i,), region, bounds)
+        for (said, noise), declared, pull in product(noises, (False, True), cases.PULLS_N):
+            name = f"{pull:g} N, {said} noise, {'lens declared' if declared else 'no region'}"
+            pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=declared)
             # A pull of ten times the model's error is shown, not judged.
-            yield ConfidenceCase(
-                "pull", probe, name, (i,), pulled, wrong if pull == min(cases.PULLS_N) else {}
-            )
+            yield ConfidenceCase("pull", probe, name, (i,), pulled, wrong if pull == gentle else {})
     for i, probe in enumerate(names):
-        title = title_of(probe)
-        yield ConfidenceCase(
-            "two touches", title, "forces 1:1 to 1:3", (i,), partial(cases.two, probe, facets, count),
-            {"sure and over 5 mm from both": (None, 15.0)},
-        )  # fmt: skip
-        for (said, noise), torsion in product(cases.NOISES.items(), cases.TORSIONS_M):
-            # Of a file nobody knows how often one wrench has several answers.
-            judged = probe in PROBE_NAMES and torsion == min(cases.TORSIONS_M)
-            name = f"torsion {1e3 * torsion:g} mm, {said} noise"
+        title, two = title_of(probe), partial(cases.two, probe, facets, count)
+        bounds = {"sure and over 5 mm from both": (None, 15.0)}
+        yield ConfidenceCase("two touches", title, "forces 1:1 to 1:3", (i,), two, bounds)
+        bounds = {"sure": (95.0 if probe == "t-shape" else 98.0, None)}
+        for (said, noise), torsion in product(noises, cases.TORSIONS_M):
             single = partial(cases.single, probe, facets, noise, torsion, count)
-            least = 95.0 if probe == "t-shape" else 98.0
-            yield ConfidenceCase(
-                "one touch", title, name, (i,), single, {"sure": (least, None)} if judged else {}
-            )
+            name = f"torsion {1e3 * torsion:g} mm, {said} noise"
+            # Of a file nobody knows how often one wrench has several answers.
+            judged = probe in PROBE_NAMES and torsion == little
+            yield ConfidenceCase("one touch", title, name, (i,), single, bounds if judged else {})
+        bounds = {"inside": (92.0, 98.0)}
         for size, (said, noise), torsion, drift in product(
-            sizes.ellipse_facets, cases.NOISES.items(), cases.TORSIONS_M, (True, False)
+            sizes.ellipse_facets, noises, cases.TORSIONS_M, (True, False)
         ):
             error = "with the model's error" if drift else "without"
             name = f"{size:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
             ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
             # Without it the ellipse, which allows for it, holds more.
-            yield ConfidenceCase(
-                "ellipse", title, name, (i,), ellipse, {"inside": (92.0, 98.0)} if drift else {}
-            )
+            yield ConfidenceCase("ellipse", title, name, (i,), ellipse, bounds if drift else {})
         for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
             name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
-            yield ConfidenceCase(
-                "error", title, name, (i,), partial(cases.errors, probe, facets, force, torsion, count)
-            )
+            errors = partial(cases.errors, probe, facets, force, torsion, count)
+            yield ConfidenceCase("error", title, name, (i,), errors)
 
 
 def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
@@ -280,16 +289,14 @@ def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Confide
         if not count:
             continue
         mean = 100.0 * float(stated[own].mean())
-        least_right, most_right = share_interval(hits, count)
-        least: float | None = None
-        most: float | None = None
+        bounds: Bounds = (None, None)
         if low >= 0.99:
-            least = 99.0
+            bounds = (99.0, None)
         elif count >= _FEW:
-            least, most = mean - 100 * _WITHIN, mean + 100 * _WITHIN
+            bounds = (mean - 100 * _WITHIN, mean + 100 * _WITHIN)
         figure = f"{RIGHT}, where {low:g} to {high:g} is {STATED}"
-        sure = (100.0 * hits / count, 100.0 * least_right, 100.0 * most_right)
-        yield ConfidenceRow("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
+        value, least, most = (100.0 * share for share in (hits / count, *share_interval(hits, count)))
+        yield ConfidenceRow("reliability", probe, case, figure, "%", count, value, least, most, *bounds, mean)
 
 
 def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
@@ -302,3 +309,99 @@ def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterato
 
 def _chances(sizes: ConfidenceSizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
     return (np.random.default_rng((seed, *place, i)) for i in range(sizes.seeds))
+
+
+# ---- the page ----------------------------------------------------------------------------------------------
+
+_PICTURE = "reliability.png"
+_ABOUT = """Touches whose place is known, on exact surfaces or on a file's own mesh, located with default gates. An
+answer is *sure* if its reason is `ok` or `vertex`. Each figure is a mean over seeds, with the least and the most of
+them in brackets; figures in bold miss their bound. Noise is 0.05 N and 2 mN·m, filtered 0.18 times as much.
+
+An answer of the reliability is right if it is within 5 mm or 4.5 standard deviations. Its brackets are 95 % intervals,
+and a bin of at least 20 answers misses its bound if its interval lies outside of it. The ellipse is asked of sure
+answers that are within 10 mm; the share of all others is in the column *left out*. The ellipse allows for the model's
+error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it. The errors beside
+the wrench axis are those of touches where both give a point."""
+_SAID = {_PICTURE: "Stated confidence against the share of right answers, with 95 % intervals."}
+
+
+def make(results: Results, folder: Path) -> str:
+    """
+    Write the diagram into the folder and return the chapter, Markdown.
+
+    Parameters
+    ----------
+    results : Results
+        Of kind ``confidence``.
+    """
+    known = [field.name for field in fields(ConfidenceRow)]
+    rows = [ConfidenceRow(**{name: row[name] for name in known}) for row in results.rows]
+    lines = [
+        f"- {row.probe}, {row.case}, {row.figure}: {row.words}, {row.bound}: {row.verdict}"
+        for row in rows
+        if row.verdict is not FigureVerdict.MET
+    ]
+    verdict = "\n".join(["Bounds that are missed or open:", "", *lines]) if lines else "Every bound is kept."
+    probes = sorted({row.probe for row in rows if row.part == "one touch"})
+    files = (
+        "" if set(probes) - set(PROBE_NAMES) else " No probe from a file was measured: `--probe` takes one."
+    )
+    about = f"{_ABOUT}\n\nProbes: {', '.join(probes)}.{files}\n\n{verdict}"
+    return chapter("Confidence", about, tables(rows), {_PICTURE: _diagram(rows)}, _SAID, folder) + "\n"
+
+
+def tables(rows: Sequence[ConfidenceRow]) -> list[tuple[str, str]]:
+    """Return a title and a table, Markdown, for each part: a line for each case, a column for each figure."""
+    return [(title, _table([row for row in rows if row.part == part])) for part, title in PARTS.items()]
+
+
+def _table(rows: Sequence[ConfidenceRow]) -> str:
+    if rows and rows[0].stated is not None:
+        columns = ["probe", "case", "answers", "stated", "right", "bound"]
+        lines = [
+            [row.probe, row.case, f"{row.tries:,}", f"{number(row.stated)} %", _marked(row), row.bound]
+            for row in rows
+        ]
+        return table(columns, lines)
+    figures = list(dict.fromkeys(row.figure for row in rows))
+    bounds = {row.figure: row.bound for row in rows if row.bound and row.probe != "t-shape"}
+    cells: dict[tuple[str, str], dict[str, str]] = {}
+    for row in rows:
+        cells.setdefault((row.probe, row.case), {})[row.figure] = _marked(row)
+    heads = [f"{name} ({bounds[name]})" if name in bounds else name for name in figures]
+    return table(
+        ["probe", "case", *heads], [[*at, *(own.get(f, "–") for f in figures)] for at, own in cells.items()]
+    )
+
+
+def _marked(row: ConfidenceRow) -> str:
+    return row.words if row.verdict is FigureVerdict.MET else f"**{row.words}**"
+
+
+def _diagram(rows: Sequence[ConfidenceRow]) -> bytes:
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    found: dict[tuple[str, str], list[ConfidenceRow]] = {}
+    for row in rows:
+        if row.stated is not None:
+            found.setdefault((row.probe, row.case), []).append(row)
+    with mpl.rc_context(STYLE):
+        drawn = Figure(figsize=(5.0, 4.2), dpi=120, layout="constrained")
+        axes = drawn.subplots()
+        axes.plot([0, 100], [0, 100], color="#888888", linewidth=0.8)
+        probes = list(dict.fromkeys(probe for probe, _ in found))
+        for (probe, case), own in found.items():
+            axes.errorbar(
+                [float(r.stated or 0.0) for r in own],
+                [r.value for r in own],
+                [[r.value - r.low for r in own], [r.high - r.value for r in own]],
+                fmt="s" if "declared" in case else "o",
+                color=COLOURS[probes.index(probe) % len(COLOURS)],
+                elinewidth=0.8,
+                label=f"{probe}, {case}",
+            )
+        axes.set(xlabel="stated confidence, %", ylabel="right, %", xlim=(0, 101), ylim=(0, 101))
+        axes.legend(fontsize=7)
+        return png(drawn)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import zlib
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -15,10 +13,10 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.study.marker_touches import model_of
+from contactbench.pipeline.simulation.marker_touches import model_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
 
 _ABOVE_M = 0.02  # of a bundled probe: what is nearer to the flange is not touched
 _KEPT = 8  # meshes of a process
-_SHOWN = 1_500  # facets of a picture
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,20 +73,6 @@ def mesh_of(name: str, facets: int) -> Probe:
 
     probe = _file(name)
     return probe if facets >= len(probe.faces) else simplify(probe, Count(facets)).probe
-
-
-def packed_mesh(name: str) -> dict[str, str]:
-    """Return a coarse mesh of a probe as text, small enough to lie beside the results; InputError."""
-    mesh = mesh_of(name, _SHOWN)
-    arrays = {"vertices": mesh.vertices.astype("<f4"), "faces": mesh.faces.astype("<i4")}
-    return {key: base64.b64encode(zlib.compress(a.tobytes(), 9)).decode() for key, a in arrays.items()}
-
-
-def unpacked_mesh(packed: Mapping[str, str]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return vertices (n, 3), S, m, and faces (m, 3) of a packed mesh; ValueError if it is none."""
-    parts = {key: zlib.decompress(base64.b64decode(text)) for key, text in packed.items()}
-    vertices = np.frombuffer(parts["vertices"], "<f4").reshape(-1, 3).astype(np.float64)
-    return vertices, np.frombuffer(parts["faces"], "<i4").reshape(-1, 3).astype(np.int32)
 
 
 def file_facets(name: str) -> int | None:

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
 
+    Kind = tuple[str, str, int]  # method, probe, facets: what cells are alike in that cost the same
+
 _T = TypeVar("_T")
 _MOST, _FEWER = 1_000, 4  # touches that a cell is measured with, and with a quarter of them
 _TOUCH_BYTES = 2_000  # of memory, for each touch of a cell: wrenches, answers and what they are judged by
@@ -69,31 +71,35 @@ def estimate(
     cells, _ = distinct(plan)
     count = workers or cores()
     tasks = tasks_of(cells, count)
-    alike: dict[tuple[str, str, int], list[Cell]] = {}
-    for cell in cells:
-        alike.setdefault((cell.method, cell.probe, cell.facets), []).append(cell)
-    making: dict[tuple[str, str, int], float] = {}
+    some = {_kind(cell): cell for cell in reversed(cells)}  # of each kind the first
+    most = min(plan.touches, _MOST)
+    making: dict[Kind, float] = {}
+    costs: dict[Kind, float] = {}
     drawing: dict[str, float] = {}  # of all touches of a cell, for each probe
-    costs: dict[tuple[str, str, int], float] = {}
     line = 0
-    for number, (kind, group) in enumerate(alike.items(), 1):
-        most = min(plan.touches, _MOST)
-        few = replace(group[0], touches=max(most // _FEWER, 10))
+    for number, (kind, cell) in enumerate(sorted(some.items(), key=lambda each: cells.index(each[1])), 1):
+        few, many = (replace(cell, touches=touches) for touches in (max(most // _FEWER, 10), most))
         cells_module.touches_of(few)  # drawn before, as by the method that had its turn before
         first, _ = _seconds(cells_module.run_cell, few, clock)
         again, _ = _seconds(cells_module.run_cell, few, clock)
-        many = replace(group[0], touches=most)
         drawn, _ = _seconds(cells_module.touches_of, many, clock)
         full, row = _seconds(cells_module.run_cell, many, clock)
-        drawing[group[0].probe] = drawn * plan.touches / most
+        drawing[cell.probe] = drawn * plan.touches / most
         each = max(full - again, 0.0) / max(most - few.touches, 1)
         making[kind] = max(first - again, 0.0)
         costs[kind] = full + each * (plan.touches - most)
         line = max(line, len(json.dumps(row)))
         if progress is not None:
-            progress(number, len(alike))
+            progress(number, len(some))
     cells_module.forget()
-    by_task = [_task(task, making, drawing, costs) for task in tasks]
+
+    def taken(task: list[Cell]) -> float:
+        # Methods take turns on the same touches.
+        drawn = [probe for (probe, _), _ in groupby(task, lambda cell: (cell.probe, cell.touch_seed))]
+        made = sum(making[kind] for kind in set(map(_kind, task)))
+        return made + sum(costs[_kind(cell)] for cell in task) + sum(drawing[probe] for probe in drawn)
+
+    by_task = [taken(task) for task in tasks]
     # Nobody ends before the longest task does.
     seconds = max(sum(by_task) / count, max(by_task, default=0.0))
     peak = _peak_bytes()
@@ -101,7 +107,7 @@ def estimate(
         cells=len(cells),
         touches=len(cells) * plan.touches,
         tasks=len(tasks),
-        measured=len(alike),
+        measured=len(some),
         core_hours=sum(by_task) / 3600,
         workers=count,
         hours=seconds / 3600,
@@ -110,26 +116,14 @@ def estimate(
     )
 
 
+def _kind(cell: Cell) -> Kind:
+    return cell.method, cell.probe, cell.facets
+
+
 def _seconds(work: Callable[[Cell], _T], cell: Cell, clock: Callable[[], float]) -> tuple[float, _T]:
     begin = clock()
     made = work(cell)
     return clock() - begin, made
-
-
-def _task(
-    task: list[Cell],
-    making: dict[tuple[str, str, int], float],
-    drawing: dict[str, float],
-    costs: dict[tuple[str, str, int], float],
-) -> float:
-    kinds = [(cell.method, cell.probe, cell.facets) for cell in task]
-    # Methods take turns on the same touches.
-    drawn = [probe for (probe, _), _ in groupby(task, lambda cell: (cell.probe, cell.touch_seed))]
-    return (
-        sum(making[kind] for kind in set(kinds))
-        + sum(costs[kind] for kind in kinds)
-        + sum(drawing[probe] for probe in drawn)
-    )
 
 
 def _peak_bytes() -> int | None:

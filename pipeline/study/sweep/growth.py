@@ -21,17 +21,22 @@ _BENT = 0.1  # of the squares that a power leaves: with less left than this a fl
 _FALLS = 3.0  # a figure that falls less than this has no power to tell
 
 
+def each_of(rows: Iterable[Row], *by: str) -> Iterable[tuple[Any, list[Row]]]:
+    """Return the rows of each combination of `by`, a tuple, as they first come."""
+    groups: dict[tuple[Any, ...], list[Row]] = {}
+    for row in rows:
+        groups.setdefault(tuple(row[name] for name in by), []).append(row)
+    return groups.items()
+
+
 def merged(rows: Iterable[Row], by: Sequence[str]) -> list[Row]:
     """
     Return one row for each combination of `by`: times as medians, shares and mean errors as means, the rest as RMS.
 
     Rows that failed are left out.
     """
-    groups: dict[tuple[Any, ...], list[Row]] = {}
-    for row in rows:
-        if not row.get("failed"):
-            groups.setdefault(tuple(row[name] for name in by), []).append(row)
-    return [dict(zip(by, key, strict=True)) | _summary(group) for key, group in groups.items()]
+    done = [row for row in rows if not row.get("failed")]
+    return [dict(zip(by, key, strict=True)) | _summary(group) for key, group in each_of(done, *by)]
 
 
 def _summary(group: list[Row]) -> Row:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_file
-from contactbench.pipeline.study.sweep.pictures import astray, draw
 from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import faults_of
 from contactbench.pipeline.study.sweep.tables import speed_table, tables
@@ -34,8 +33,6 @@ _SAID = {
     "The local torque: solved for, or taken for zero": "Sure answers on the right part of the probe, up to 45 degrees,"
     " finest mesh. Below 1 a method is better than any without a bias can be: it knows something of the torque"
     " beforehand.",
-    "astray.png": "The worst touches that were located on another part of the probe: true point green, located point"
-    " orange, force blue. A line for each method that has any; sure answers before doubtful ones.",
 }
 
 
@@ -57,14 +54,13 @@ def make(results: Results, folder: Path) -> str:
 
     rows = list(results.rows)
     plan = SweepPlan.of(dict(results.about.get("plan", {})), "results")
-    pictures = plots(rows) | {"astray.png": draw(astray(rows, results.about.get("meshes", {})))}
+    pictures = plots(rows)
     parts = [f"## Sweep: {plan.name}", _about(plan, len(rows))]
     for title, text in tables(rows):
         parts += [f"### {title}", text, *([_SAID[title]] if title in _SAID else [])]
     for name, data in pictures.items():
-        if data:
-            write_file(folder / name, data)
-            parts.append(f"![{name.removesuffix('.png')}]({name})\n\n{_SAID[name]}")
+        write_file(folder / name, data)
+        parts.append(f"![{name.removesuffix('.png')}]({name})\n\n{_SAID[name]}")
     noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
     parts.append(
         f"<details><summary>Every method on every mesh</summary>\n\n{speed_table(usual(noisy or rows))}\n\n</details>"

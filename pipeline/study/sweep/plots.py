@@ -9,12 +9,14 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from contactbench.pipeline.study.pages import STYLE, png
-from contactbench.pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
+from contactbench.pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, each_of, front, knee, merged
 from contactbench.pipeline.study.sweep.tables import exponents
 from contactbench.pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    Value = str | Callable[[Row], float]  # of a row: a column, or what is made of several
 
 # Okabe and Ito: everybody can tell them apart.
 _LOOK = {
@@ -25,6 +27,7 @@ _LOOK = {
     "scan": ("#56b4e9", "v"),
 }
 _PANEL, _HEIGHT, _DPI = 3.1, 2.9, 90  # inches
+_DARK = "#222222"
 
 
 def plots(rows: Sequence[Row]) -> dict[str, bytes]:
@@ -41,30 +44,18 @@ def _pareto(rows: Sequence[Row]) -> bytes:
     if len(points) < 3:
         return b""
 
-    def draw(axes: Any, probe: str) -> None:
-        here = [row for row in points if row["probe"] == probe]
-        for method in dict.fromkeys(row["method"] for row in here):
-            line = [row for row in here if row["method"] == method]
-            colour, mark = _LOOK[method]
-            axes.plot(
-                [row[TIME] / 1e3 for row in line],
-                [row[ERROR] for row in line],
-                mark + "-",
-                c=colour,
-                label=method,
-            )
+    def draw(axes: Any, here: Sequence[Row]) -> None:
+        for [method], line in each_of(here, "method"):
+            _line(axes, line, _python_us, ERROR, method)
             for row in (line[0], line[-1]):
-                at = (row[TIME] / 1e3, row[ERROR])
+                at, colour = (_python_us(row), row[ERROR]), _LOOK[method][0]
                 axes.annotate(
                     _short(row["facets"]), at, (3, 3), textcoords="offset points", fontsize=6.5, c=colour
                 )
         best = front(here)
-        axes.plot(
-            [row[TIME] / 1e3 for row in best], [row[ERROR] for row in best], c="#222222", lw=0.7, ls=":"
-        )
-        bend = knee(here)
-        if bend is not None:
-            axes.plot(bend[TIME] / 1e3, bend[ERROR], "o", ms=11, mfc="none", mec="#222222")
+        axes.plot([_python_us(row) for row in best], [row[ERROR] for row in best], c=_DARK, lw=0.7, ls=":")
+        if bend := knee(here):
+            axes.plot(_python_us(bend), bend[ERROR], "o", ms=11, mfc="none", mec=_DARK)
         axes.set(xscale="log", yscale="log", xlabel="µs a solve, from Python")
 
     return _panels(points, draw, "mean error, mm")
@@ -78,101 +69,96 @@ def _growth(rows: Sequence[Row]) -> bytes:
     bounds = merged([row for row in rows if is_noisy(row) and row["method"] == OURS], ("probe", "force"))
     laws = exponents(rows)
     probes = list(dict.fromkeys(row["probe"] for row in rows))
-    halves: list[tuple[str | Callable[[Row], float], list[Row], str, int]] = [
-        (_time, times, "µs a solve, compiled (dashed: from Python)", 0),
-        ("rms_near_mm", quiet, "error without noise, mm", 1),
+    halves = [
+        (points, y, said, which)
+        for points, y, said, which in (
+            (times, _us, "µs a solve, compiled (dashed: from Python)", 0),
+            (quiet, "rms_near_mm", "error without noise, mm", 1),
+        )
+        if points
     ]
-    halves = [half for half in halves if half[1]]
     if not halves:
         return b""
     with rc_context(STYLE):
         figure, grid = _grid(len(halves), len(probes))
-        for (name, points, said, which), line in zip(halves, grid, strict=True):
+        for (points, y, said, which), line in zip(halves, grid, strict=True):
             for axes, probe in zip(line, probes, strict=True):
                 here = [row for row in points if row["probe"] == probe]
-                for method in dict.fromkeys(row["method"] for row in here):
-                    own = [row for row in here if row["method"] == method]
+                for [method], own in each_of(here, "method"):
                     law = laws[probe, method][which]
+                    dashed = not which and not np.isfinite(own[0][COMPILED])
                     tail = f" {law.exponent:+.2f}" if law else ""
-                    _draw_line(axes, own, name, method, tail)
-                if which:
-                    for row in (row for row in bounds if row["probe"] == probe):
-                        axes.axhline(row["bound_mm"], c="#888888", lw=0.7, ls="--")
-                        axes.text(
-                            1,
-                            row["bound_mm"],
-                            f"noise, {row['force']:g} N",
-                            fontsize=6,
-                            c="#666666",
-                            ha="right",
-                            va="bottom",
-                            transform=axes.get_yaxis_transform(),
-                        )
+                    _line(axes, own, "facets_found", y, method, "--" if dashed else "-", tail)
+                for row in bounds if which else ():
+                    if row["probe"] == probe:
+                        _level(axes, row["bound_mm"], f"noise, {row['force']:g} N")
                 axes.set(xscale="log", yscale="log", xlabel="facets", title=plain(probe))
                 axes.legend(fontsize=6.5)
             line[0].set_ylabel(said)
         return png(figure)
 
 
-def _time(row: Row) -> float:
-    return float(row[COMPILED] if np.isfinite(row[COMPILED]) else row[TIME]) / 1e3
-
-
-def _draw_line(
-    axes: Any, rows: Sequence[Row], name: str | Callable[[Row], float], method: str, tail: str
-) -> None:
-    colour, mark = _LOOK[method]
-    y = [name(row) if callable(name) else row[name] for row in rows]
-    ls = "--" if callable(name) and not np.isfinite(rows[0][COMPILED]) else "-"
-    x = [row["facets_found"] for row in rows]
-    axes.plot(x, y, marker=mark, ls=ls, c=colour, label=method + tail)
-
-
 def _against(rows: Sequence[Row], name: str) -> bytes:
     """Draw the errors of sure answers against a condition, with the bound: on each method's finest mesh."""
     if len({row[name] for row in rows}) < 3:
         return b""
-    finest: dict[tuple[str, str], int] = {}
-    for row in rows:
-        key = row["probe"], row["method"]
-        finest[key] = max(finest.get(key, 0), row["facets"])
     least = min(row["torsion"] for row in rows)
+    finest = {key: max(row["facets"] for row in own) for key, own in each_of(rows, "probe", "method")}
     chosen = [
         row
         for row in rows
         if row["facets"] == finest[row["probe"], row["method"]] and row["torsion"] == least
     ]
-    said = "RMS of sure answers, mm"
+    said, scale, unit = "RMS of sure answers, mm", "log", "force, N"
     if name == "force":
         chosen = usual(chosen)
     else:  # the smallest force would hide the others
         forces = sorted({row["force"] for row in rows})
         middle = forces[len(forces) // 2]
         chosen, said = [row for row in chosen if row["force"] == middle], f"{said}, {middle:g} N"
+        scale, unit = "linear", "angle between force and normal, degrees"
     points = merged(chosen, ("probe", "method", name))
 
-    def draw(axes: Any, probe: str) -> None:
-        here = [row for row in points if row["probe"] == probe]
-        for method in dict.fromkeys(row["method"] for row in here):
-            line = sorted((row for row in here if row["method"] == method), key=lambda row: float(row[name]))
-            x = [row[name] for row in line]
-            colour, mark = _LOOK[method]
-            axes.plot(x, [row["rms_sure_mm"] for row in line], mark + "-", c=colour, label=method)
+    def draw(axes: Any, here: Sequence[Row]) -> None:
+        for [method], own in each_of(here, "method"):
+            line = sorted(own, key=lambda row: float(row[name]))
+            _line(axes, line, name, "rms_sure_mm", method)
             if method == OURS:
-                axes.plot(x, [row["bound_mm"] for row in line], "--", c="#222222", label="noise bound")
-        scale = "log" if name == "force" else "linear"
-        unit = "force, N" if name == "force" else "angle between force and normal, degrees"
+                x, y = ([row[each] for row in line] for each in (name, "bound_mm"))
+                axes.plot(x, y, "--", c=_DARK, label="noise bound")
         axes.set(xscale=scale, yscale="log", xlabel=unit)
 
     return _panels(points, draw, said)
 
 
-def _panels(points: Sequence[Row], draw: Callable[[Any, str], None], said: str) -> bytes:
-    probes = list(dict.fromkeys(row["probe"] for row in points))
+def _line(
+    axes: Any, rows: Sequence[Row], x: Value, y: Value, method: str, style: str = "-", tail: str = ""
+) -> None:
+    colour, mark = _LOOK[method]
+    xs, ys = ([each(row) if callable(each) else row[each] for row in rows] for each in (x, y))
+    axes.plot(xs, ys, marker=mark, ls=style, c=colour, label=method + tail)
+
+
+def _level(axes: Any, height: float, said: str) -> None:
+    axes.axhline(height, c="#888888", lw=0.7, ls="--")
+    look: dict[str, Any] = {"fontsize": 6, "c": "#666666", "ha": "right", "va": "bottom"}
+    axes.text(1, height, said, transform=axes.get_yaxis_transform(), **look)
+
+
+def _python_us(row: Row) -> float:
+    return float(row[TIME]) / 1e3
+
+
+def _us(row: Row) -> float:
+    return float(row[COMPILED] if np.isfinite(row[COMPILED]) else row[TIME]) / 1e3
+
+
+def _panels(points: Sequence[Row], draw: Callable[[Any, Sequence[Row]], None], said: str) -> bytes:
+    by_probe = dict(each_of(points, "probe"))
     with rc_context(STYLE):
-        figure, [line] = _grid(1, len(probes))
-        for axes, probe in zip(line, probes, strict=True):
-            draw(axes, probe)
+        figure, [line] = _grid(1, len(by_probe))
+        for axes, ([probe], here) in zip(line, by_probe.items(), strict=True):
+            draw(axes, here)
             axes.set_title(plain(probe))
         line[0].set_ylabel(said)
         line[0].legend(fontsize=6.5)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.results import cores, environment, write_results
-from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of, packed_mesh
+from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
 from contactbench.pipeline.study.sweep.plan import identity, label
 from contactbench.pipeline.study.sweep.store import Store
@@ -104,7 +104,9 @@ def run(
     if len(rows) < len(cells):
         return Swept(None, len(cells), computed, failed, left_out, faults, tuple(_strange(store, told)))
     known = environment(**facts, machines=store.machines(cell.key for cell in cells))
-    file = write_results(out, KIND, command, rows, known, _about(plan) | {"left_out": list(left_out)})
+    named = plan.model_copy(update={"probes": tuple(map(label, plan.probes))})  # without paths
+    about = {"plan": named.model_dump(mode="json"), "left_out": list(left_out)}
+    file = write_results(out, KIND, command, rows, known, about)
     return Swept(file, len(cells), computed, failed, left_out, faults)
 
 
@@ -155,13 +157,6 @@ def distinct(plan: SweepPlan) -> tuple[list[Cell], tuple[str, ...]]:
                 break
         some[probe] = coarsest, finest
     return [c for c in plan.cells() if some[c.probe][0] <= c.facets <= some[c.probe][1]], tuple(left_out)
-
-
-def _about(plan: SweepPlan) -> dict[str, Any]:
-    """Return the plan without paths, and what the probes look like: pictures are made of the results alone."""
-    named = plan.model_copy(update={"probes": tuple(map(label, plan.probes))})
-    meshes = {label(probe): packed_mesh(probe) for probe in plan.probes}
-    return {"plan": named.model_dump(mode="json"), "meshes": meshes}
 
 
 def share(cells: list[Cell], part: int, of: int) -> list[Cell]:

@@ -1,4 +1,4 @@
-"""What answers are worth: errors against the truth, as multiples of the noise bound, reasons, and the worst of them."""
+"""What answers are worth: errors against the truth, as multiples of the noise bound, and reasons."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 _ACCEPTED = (Reason.OK, Reason.VERTEX)
 # An answer on another part of the probe: further off than noise and a coarse mesh explain.
 _ASTRAY_M, _ASTRAY_SIGMAS = 0.005, 5.0
-_WORST = 3
 
 
 def bound_of(touches: Touches, sigmas: Float) -> Float:
@@ -61,8 +60,8 @@ def judged(batch: Batch, touches: Touches, bound: Float) -> dict[str, Any]:
     -------
     dict
         Plain values: shares that are answered, sure (accepted without doubt), of each reason, and astray (on another
-        part of the probe), errors in mm, root mean squares of the sure ones, of those not astray (near), and of the
-        bound, and the worst touches that are astray: lists of points and forces, S, m and N, one after the other.
+        part of the probe), errors in mm, and root mean squares of the sure ones, of those not astray (near), and of
+        the bound.
     """
     error = np.linalg.norm(batch.points - touches.points, axis=1)
     answered = np.isfinite(error)
@@ -73,7 +72,6 @@ def judged(batch: Batch, touches: Touches, bound: Float) -> dict[str, Any]:
     return {
         **{name: float(np.mean(chosen)) for name, chosen in (shares | reasons).items()},
         **_errors(error[answered], error[sure], error[sure & ~astray], bound[sure]),
-        **_worst(batch, touches, np.where(astray, error, 0.0) + np.where(astray & sure, 1.0, 0.0)),
     }
 
 
@@ -91,18 +89,6 @@ def _errors(all_m: Float, sure_m: Float, near_m: Float, bound: Float) -> dict[st
         "max_sure_mm": _of(sure, np.max),
         "bound_mm": rms_bound,
         "over_bound": rms_sure / rms_bound if rms_bound > 0 else float("nan"),
-    }
-
-
-def _worst(batch: Batch, touches: Touches, badness: Float) -> dict[str, Any]:
-    """Return the touches that are furthest astray, sure ones (more than a metre bad) before doubtful ones."""
-    order = np.argsort(-badness, kind="stable")[:_WORST]
-    chosen = order[badness[order] > 0]
-    return {
-        "worst_true": touches.points[chosen].ravel().tolist(),
-        "worst_found": batch.points[chosen].ravel().tolist(),
-        "worst_force": touches.wrenches[chosen, :3].ravel().tolist(),
-        "worst_reason": [Reason(batch.reasons[i]).name.lower() for i in chosen],
     }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from contactbench.pipeline.study.sweep.growth import (
     ERROR,
     TIME,
     Row,
+    each_of,
     front,
     knee,
     merged,
@@ -31,12 +32,27 @@ from contactbench.pipeline.study.sweep.targets import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from contactbench.pipeline.study.sweep.growth import Power
 
 _AXIS = "wrench_axis"
 _REASONS = ("ok", "vertex", "ambiguous", "implausible", "off_surface", "tangential", "low_force")
+_Column = tuple[str, "Callable[[Row], str]"]  # heading, and what a row has in it
+
+
+def _table(rows: Iterable[Row], *columns: _Column) -> str:
+    """Return a table of rows; empty without any."""
+    shown = [[cell(row) for _, cell in columns] for row in rows]
+    return table([heading for heading, _ in columns], shown) if shown else ""
+
+
+def _figure(heading: str, name: str, digits: str = ".2f", times: float = 1.0) -> _Column:
+    return heading, lambda row: number(times * row[name], digits)
+
+
+_PROBE: _Column = ("probe", lambda row: plain(row["probe"]))
+_METHOD: _Column = ("method", lambda row: str(row["method"]))
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
@@ -56,9 +72,8 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
 
 def target_table(rows: Sequence[Row]) -> str:
     """Return the targets; empty if the rows tell about none."""
-    found = targets(rows)
-    shown = [[each.what, each.measured, "met" if each.met else "**missed**"] for each in found]
-    return table(("target", "measured", ""), shown) if shown else ""
+    found = [[each.what, each.measured, "met" if each.met else "**missed**"] for each in targets(rows)]
+    return table(("target", "measured", ""), found) if found else ""
 
 
 def knee_table(rows: Sequence[Row]) -> str:
@@ -67,14 +82,11 @@ def knee_table(rows: Sequence[Row]) -> str:
     if not any(np.isfinite(row[TIME]) for row in points):
         return ""
     shown = []
-    for probe in dict.fromkeys(row["probe"] for row in points):
-        here = [row for row in points if row["probe"] == probe]
-        best = knee(here)
-        if best is not None:
-            ours = knee([row for row in here if row["method"] == OURS])
-            shown.append([plain(probe), _knee(best), _knee(ours), _in_short(front(here))])
-    columns = ("probe", "knee of all methods", f"knee of {OURS}", "the front, fastest first")
-    return table(columns, shown)
+    for [probe], here in each_of(points, "probe"):
+        ours = [row for row in here if row["method"] == OURS]
+        if best := knee(here):
+            shown.append([plain(probe), _knee(best), _knee(knee(ours)), _in_short(front(here))])
+    return table(("probe", "knee of all methods", f"knee of {OURS}", "the front, fastest first"), shown)
 
 
 def _in_short(line: Sequence[Row]) -> str:
@@ -90,97 +102,82 @@ def _in_short(line: Sequence[Row]) -> str:
 def _knee(row: Row | None) -> str:
     if row is None:
         return "–"
-    return (
-        f"**{row['method']}, {row['facets']:,} facets**: {_us(row[TIME])} µs, {number(row[ERROR], '.2f')} mm"
-    )
+    where = f"**{row['method']}, {row['facets']:,} facets**"
+    return f"{where}: {number(row[TIME] / 1e3)} µs, {number(row[ERROR], '.2f')} mm"
 
 
 def steep_table(rows: Sequence[Row]) -> str:
     """Return how far all answers and sure ones are off, by angle, without noise; empty without steep angles."""
-    quiet = [row for row in rows if not is_noisy(row)]
-    points = merged(quiet, ("angle", "method"))
+    points = merged([row for row in rows if not is_noisy(row)], ("angle", "method"))
     if not any(row["angle"] > STEEP_DEG for row in points):
         return ""
-    shown = []
-    for row in sorted(points, key=lambda row: (row["angle"], row["method"])):
-        figures = [number(row[name], ".2f") for name in (ERROR, "mean_sure_mm")]
-        figures += [number(100 * row[name], ".2f") for name in ("sure", "astray", "astray_sure")]
-        shown.append([f"{row['angle']:g}°", row["method"], *figures])
-    columns = (
-        "angle",
-        "method",
-        "mean of all, mm",
-        "mean of sure ones, mm",
-        "sure %",
-        "astray %",
-        "astray, yet sure %",
+    return _table(
+        sorted(points, key=lambda row: (row["angle"], row["method"])),
+        ("angle", lambda row: f"{row['angle']:g}°"),
+        _METHOD,
+        _figure("mean of all, mm", ERROR),
+        _figure("mean of sure ones, mm", "mean_sure_mm"),
+        _figure("sure %", "sure", times=100),
+        _figure("astray %", "astray", times=100),
+        _figure("astray, yet sure %", "astray_sure", times=100),
     )
-    return table(columns, shown)
 
 
 def torque_table(rows: Sequence[Row]) -> str:
     """Return, by force and torsion, what it brings to solve for the local torque; empty with one torsion or method."""
     noisy = [row for row in usual(rows) if is_noisy(row) and not row["failed"]]
-    torsions = sorted({row["torsion"] for row in noisy})
     most = max((row["facets"] for row in noisy), default=0)
     finest = [row for row in noisy if row["facets"] == most]
     points = {
         (r["force"], r["torsion"], r["method"]): r for r in merged(finest, ("force", "torsion", "method"))
     }
-    both = [OURS, _AXIS]
-    if len(torsions) < 2 or not all(any(key[2] == method for key in points) for method in both):
+    torsions = sorted({row["torsion"] for row in noisy})
+    if len(torsions) < 2 or not {OURS, _AXIS} <= {method for *_, method in points}:
         return ""
+    both = [(torsion, method) for torsion in torsions for method in (OURS, _AXIS)]
     shown = []
     for force in sorted({key[0] for key in points}):
-        found = [points[force, torsion, method] for torsion in torsions for method in both]
+        found = (points[force, *key] for key in both)
         shown.append(
             [f"{force:g} N", *(number(row["rms_near_mm"] / row["bound_mm"], ".2f") for row in found)]
         )
-    columns = [f"{method}, torsion {1e3 * torsion:g} mm" for torsion in torsions for method in both]
+    columns = [f"{method}, torsion {1e3 * torsion:g} mm" for torsion, method in both]
     return table(("RMS error over the bound", *columns), shown)
 
 
 def speed_table(rows: Sequence[Row]) -> str:
     """Return every method on every mesh: times and errors over all noisy conditions."""
     points = merged(rows, ("probe", "facets", "method"))
-    best = {
-        id(row)
-        for probe in {r["probe"] for r in points}
-        for row in front([r for r in points if r["probe"] == probe])
-    }
-    shown = [
-        [
-            plain(row["probe"]),
-            f"{row['facets']:,}",
-            f"**{row['method']}**" if id(row) in best else row["method"],
-        ]
-        + [_us(row[name]) for name in (COMPILED, "compiled_p99_ns", TIME, "python_p99_ns")]
-        + [number(row[name], ".2f") for name in (ERROR, "p95_mm")]
-        + [number(row["max_mm"], ".0f"), number(row["over_bound"], ".2f")]
-        + [number(100 * row[name], ".2f") for name in ("sure", "astray_sure")]
-        for row in points
-    ]
-    columns = (
-        "probe",
-        "facets",
-        "method",
-        "C++ µs",
-        "p99",
-        "Python µs",
-        "p99",
-        "mean mm",
-        "95 % mm",
-        "max mm",
+    best = {id(row) for _, here in each_of(points, "probe") for row in front(here)}
+
+    def method(row: Row) -> str:
+        return f"**{row['method']}**" if id(row) in best else str(row["method"])
+
+    return _table(
+        points,
+        _PROBE,
+        ("facets", lambda row: f"{row['facets']:,}"),
+        ("method", method),
+        _figure("C++ µs", COMPILED, ".3g", 1e-3),
+        _figure("p99", "compiled_p99_ns", ".3g", 1e-3),
+        _figure("Python µs", TIME, ".3g", 1e-3),
+        _figure("p99", "python_p99_ns", ".3g", 1e-3),
+        _figure("mean mm", ERROR),
+        _figure("95 % mm", "p95_mm"),
+        _figure("max mm", "max_mm", ".0f"),
+        _figure("sure RMS / bound", "over_bound"),
+        _figure("sure %", "sure", times=100),
+        _figure("sure, yet astray %", "astray_sure", times=100),
     )
-    return table((*columns, "sure RMS / bound", "sure %", "sure, yet astray %"), shown)
 
 
 def growth_table(rows: Sequence[Row]) -> str:
     """Return how time and error grow as powers of the facets; empty with fewer than three meshes."""
-    shown = []
-    for (probe, method), (time, error) in exponents(rows).items():
-        if time or error:
-            shown.append([plain(probe), method, _power(time), _power(error)])
+    shown = [
+        [plain(probe), method, _power(time), _power(error)]
+        for (probe, method), (time, error) in exponents(rows).items()
+        if time or error
+    ]
     columns = ("probe", "method", "time grows as facets to the power", "error without noise, to the power")
     return table(columns, shown) if shown else ""
 
@@ -192,49 +189,47 @@ def exponents(rows: Sequence[Row]) -> dict[tuple[str, str], tuple[Power | None, 
     Time is that of the compiled solve where there is one. The error is that of sure answers on the right part of the
     probe, without noise: that of the mesh, and of the method.
     """
-    times = merged(rows, ("probe", "method", "facets"))
-    quiet = merged(of_meshes(rows), ("probe", "method", "facets"))
+    quiet = dict(each_of(merged(of_meshes(rows), ("probe", "method", "facets")), "probe", "method"))
     found = {}
-    for probe, method in dict.fromkeys((row["probe"], row["method"]) for row in times):
-        mine, own = (
-            [r for r in each if (r["probe"], r["method"]) == (probe, method)] for each in (times, quiet)
-        )
-        facets = [row["facets_found"] for row in mine]
+    for key, mine in each_of(merged(rows, ("probe", "method", "facets")), "probe", "method"):
+        facets, own = [row["facets_found"] for row in mine], quiet.get(key, [])
         time = power(facets, [row[COMPILED] for row in mine]) or power(facets, [row[TIME] for row in mine])
         error = settling([row["facets_found"] for row in own], [row["rms_near_mm"] for row in own])
-        found[probe, method] = time, error
+        found[key] = time, error
     return found
 
 
 def needed_table(rows: Sequence[Row]) -> str:
     """Return the facets at which the mesh adds 1 % to the noise, by probe and force; empty if not told."""
-    found = needed_facets(rows)
-    if not found:
-        return ""
-    forces = sorted({force for _, force, _, _ in found})
-    shown = []
-    for probe in dict.fromkeys(each[0] for each in found):
-        by_force = {force: (enough, least) for name, force, enough, least in found if name == probe}
-        shown.append([plain(probe)] + [_facets(*by_force.get(force, (None, 0.0))) for force in forces])
-    return table(("probe", *(f"{force:g} N" for force in forces)), shown)
+    found = {(probe, force): rest for probe, force, *rest in needed_facets(rows)}
+    forces = sorted({force for _, force in found})
+    shown = [
+        [plain(probe), *(_facets(*found.get((probe, force), (None, 0.0))) for force in forces)]
+        for probe in dict.fromkeys(probe for probe, _ in found)
+    ]
+    return table(("probe", *(f"{force:g} N" for force in forces)), shown) if shown else ""
 
 
 def reason_table(rows: Sequence[Row]) -> str:
     """Return the share of each reason, and where a method goes astray most."""
-    shown = []
-    for probe, method in dict.fromkeys((row["probe"], row["method"]) for row in rows):
-        here = [row for row in rows if (row["probe"], row["method"]) == (probe, method) and not row["failed"]]
-        if not here:
-            continue
-        worst = max(here, key=lambda row: float(row["astray_sure"]))
-        shares = [
-            number(100 * float(np.mean([row[f"reason_{name}"] for row in here])), ".2f") for name in _REASONS
-        ]
-        where = "nowhere" if not worst["astray_sure"] else _condition(worst)
-        astray = [100 * float(np.mean([row[name] for row in here])) for name in ("astray", "astray_sure")]
-        shown.append([plain(probe), method, *shares, *(number(x, ".2f") for x in astray), where])
-    columns = ("probe", "method, %", *(name.replace("_", " ") for name in _REASONS))
-    return table((*columns, "astray", "astray, yet sure", "most of these at"), shown) if shown else ""
+
+    def mean(name: str) -> Callable[[Row], str]:
+        return lambda row: number(100 * float(np.mean([one[name] for one in row["all"]])), ".2f")
+
+    def where(row: Row) -> str:
+        worst = max(row["all"], key=lambda one: float(one["astray_sure"]))
+        return _condition(worst) if worst["astray_sure"] else "nowhere"
+
+    done = [row for row in rows if not row["failed"]]
+    return _table(
+        [{"probe": key[0], "method": key[1], "all": own} for key, own in each_of(done, "probe", "method")],
+        _PROBE,
+        ("method, %", _METHOD[1]),
+        *((name.replace("_", " "), mean(f"reason_{name}")) for name in _REASONS),
+        ("astray", mean("astray")),
+        ("astray, yet sure", mean("astray_sure")),
+        ("most of these at", where),
+    )
 
 
 def _condition(row: Row) -> str:
@@ -244,7 +239,7 @@ def _condition(row: Row) -> str:
     )
 
 
-def _facets(enough: float | None, least: float) -> str:
+def _facets(enough: Any, least: Any) -> str:
     if enough is None:
         return "more than tried" if least else "–"
     return f"under {least:,.0f}" if enough <= least else f"{float(f'{enough:.2g}'):,.0f}"
@@ -255,7 +250,3 @@ def _power(found: Power | None) -> str:
         return "–"
     floor = f", down to {found.floor:.2g} mm" if found.floor else ""
     return f"{found.exponent:.2f} ± {found.sigma:.2f}{floor}"
-
-
-def _us(ns: float) -> str:
-    return number(ns / 1e3)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
-from contactbench.pipeline.study.sweep.growth import Row, beaten, enough_facets, merged
+from contactbench.pipeline.study.sweep.growth import Row, beaten, each_of, enough_facets, merged
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -71,26 +71,22 @@ def over_bound(rows: Iterable[Row]) -> list[SweepTarget]:
         and row["torsion"] <= _TWISTED_M
     ]
     found = []
-    for probe in dict.fromkeys(row["probe"] for row in wanted):
-        cells = merged([row for row in wanted if row["probe"] == probe], ("force", "angle"))
-        chance = [_off(cell) for cell in cells]
-        worst, sigma = max(zip(cells, chance, strict=True), key=lambda pair: pair[0]["over_bound"])
-        [whole] = merged([row for row in wanted if row["probe"] == probe], ())
+    for [probe], own in each_of(wanted, "probe"):
+        cells = merged(own, ("force", "angle"))
+        worst = max(cells, key=lambda cell: float(cell["over_bound"]))
+        [whole] = merged(own, ())
         # The worst of many is too high by chance alone.
         met = all(
             verdict_of(ratio, (ratio - 2 * off, ratio + 2 * off), most=MOST_OVER_BOUND)
             is not FigureVerdict.MISSED
-            for ratio, off in ((whole["over_bound"], _off(whole)), (worst["over_bound"], sigma))
+            for ratio, off in ((each["over_bound"], _off(each)) for each in (whole, worst))
         )
-        found.append(
-            SweepTarget(
-                f"{plain(probe)}: error over the noise bound at most {MOST_OVER_BOUND}"
-                " (2-20 N, within 60°, 20,000 facets)",
-                f"{whole['over_bound']:.3f} of all; worst {worst['over_bound']:.3f} ± {sigma:.3f}"
-                f" at {worst['force']:g} N, {worst['angle']:g}°",
-                bool(met),
-            )
+        what = f"error over the noise bound at most {MOST_OVER_BOUND} (2-20 N, within 60°, 20,000 facets)"
+        measured = (
+            f"{whole['over_bound']:.3f} of all; worst {worst['over_bound']:.3f} ± {_off(worst):.3f}"
+            f" at {worst['force']:g} N, {worst['angle']:g}°"
         )
+        found.append(SweepTarget(f"{plain(probe)}: {what}", measured, met))
     return found
 
 
@@ -102,13 +98,13 @@ def on_front(rows: Iterable[Row], where: str = "") -> list[SweepTarget]:
     """Judge, for each probe, whether at any resolution a rival is both faster and more accurate; both from Python."""
     points = merged([row for row in rows if is_noisy(row)], ("probe", "facets", "method"))
     found = []
-    for probe in dict.fromkeys(row["probe"] for row in points):
-        here = [row for row in points if row["probe"] == probe]
+    for [probe], here in each_of(points, "probe"):
         ours = [row for row in here if row["method"] == OURS and np.isfinite(row["python_median_ns"])]
-        worse = []
-        for row in ours:
-            rivals = [each for each in here if each["facets"] == row["facets"] and each["method"] != OURS]
-            worse += [f"{row['facets']:,}: {each['method']}" for each in beaten(row, rivals)]
+        worse = [
+            f"{row['facets']:,}: {each['method']}"
+            for row in ours
+            for each in beaten(row, [r for r in here if r["facets"] == row["facets"] and r["method"] != OURS])
+        ]
         if ours and len({row["method"] for row in here}) > 1:
             what = f"{plain(probe)}: no rival is both faster and more accurate at the same resolution{where}"
             said = f"{len(ours)} of {len(ours)} resolutions" if not worse else "beaten at " + ", ".join(worse)
@@ -129,11 +125,10 @@ def needed_facets(rows: Iterable[Row]) -> list[tuple[str, float, float | None, f
         for row in usual(rows)
         if row["method"] == OURS and row["filter"] == "none" and row["torsion"] <= _TWISTED_M
     ]
-    meshes = merged(of_meshes(ours), ("probe", "facets"))
-    bounds = merged([row for row in ours if is_noisy(row)], ("probe", "force"))
+    meshes = dict(each_of(merged(of_meshes(ours), ("probe", "facets")), "probe"))
     found = []
-    for row in bounds:
-        here = [each for each in meshes if each["probe"] == row["probe"]]
+    for row in merged([row for row in ours if is_noisy(row)], ("probe", "force")):
+        here = meshes.get((row["probe"],), [])
         facets = [each["facets_found"] for each in here]
         if len(set(facets)) >= 3:
             enough = enough_facets(facets, [each["rms_near_mm"] for each in here], row["bound_mm"])

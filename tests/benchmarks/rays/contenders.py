@@ -12,8 +12,6 @@ from benchmarks.rays.compiled import CompiledHits, CompiledTouches, compile_hits
 
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis, WrenchAxis
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.rivals.rays import Open3DAxis
-from contactbench.pipeline.study.speed import every_hit
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -32,6 +30,8 @@ OURS, TRACKING, COVARIANCE = "contactbench", "contactbench, tracking", "contactb
 HEADERS, HEADERS_TRACKING = "contactbench, C++", "contactbench, C++, tracking"
 OPEN3D, EMBREEX, TRIMESH, BVH, FCPW = "Open3D", "embreex", "trimesh.ray", "madmann91/bvh, C++", "FCPW"
 FIRST, ALL = "first hit", "all hits"
+_NO_FACET = np.iinfo(np.uint32).max
+_PAST_M, _MISSED = 1e-6, 1e30  # behind a hit the next ray begins; Embree's distance of none is 1e37
 
 # What an answer holds.
 _TOUCH = "point, normal, facet, torsion, reason, confidence, number of rivals"
@@ -85,6 +85,48 @@ class _Untraced(WrenchAxis):
     def trace(self, origins: Single, directions: Single) -> NDArray[np.int32]:
         """See `WrenchAxis`."""
         raise NotImplementedError
+
+
+class Open3DAxis(WrenchAxis):
+    """The wrench axis traced by Open3D's RaycastingScene; ImportError where it cannot be had."""
+
+    def __init__(self, solver: ContactSolver) -> None:
+        self._open3d: Any = import_module("open3d")
+        super().__init__(solver)
+        vertices, faces = self._single
+        core = self._open3d.core
+        self.scene = self._open3d.t.geometry.RaycastingScene()
+        self.scene.add_triangles(core.Tensor(vertices), core.Tensor(faces.astype(np.uint32)))
+
+    def prepared(self, origins: Single, directions: Single) -> Any:
+        """Return rays as the library wants them."""
+        return self._open3d.core.Tensor(np.hstack([origins, directions]))
+
+    def trace(self, origins: Single, directions: Single) -> NDArray[np.int32]:
+        """Return the first facet that each ray enters; see `WrenchAxis`."""
+        hits = self.scene.cast_rays(self.prepared(origins, directions))["primitive_ids"].numpy()
+        return np.where(hits == _NO_FACET, -1, hits.astype(np.int64)).astype(np.int32)
+
+
+def every_hit(
+    axis: EmbreeAxis, origins: Single, directions: Single
+) -> tuple[NDArray[np.intp], NDArray[np.float32]]:
+    """
+    Return all places where rays (n, 3), (n, 3) meet the mesh: which ray (k,), and how far along it (k,), m.
+
+    Embree is asked again from behind each hit, all rays that are left in one call.
+    """
+    left, begun = np.arange(len(origins)), np.zeros(len(origins), np.float32)
+    rays, distances = [], []
+    while len(left):
+        start = origins[left] + begun[left, None] * directions[left]
+        met = axis.scene.run(start, directions[left], query="DISTANCE")
+        hit = met < _MISSED
+        left = left[hit]
+        begun[left] += met[hit] + np.float32(_PAST_M)
+        rays.append(left)
+        distances.append(begun[left])
+    return np.concatenate(rays), np.concatenate(distances)
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,6 +31,7 @@ from benchmarks.rays.contenders import (
     Contender,
     Field,
     Questions,
+    every_hit,
 )
 from benchmarks.rays.memory import bytes_per_facet
 
@@ -40,9 +41,8 @@ from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
-from contactbench.pipeline.study.marker_touches import check_bundled
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.study.speed import every_hit
 from contactbench.pipeline.study.sweep.scores import bound_of
 
 if TYPE_CHECKING:

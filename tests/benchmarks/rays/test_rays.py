@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from benchmarks.plane import _block
 from benchmarks.rays import contenders as who
 from benchmarks.rays import page
 from benchmarks.rays.contest import run
@@ -88,6 +89,16 @@ def test_rays_meet_the_mesh_where_the_axis_does(asked: who.Questions, tmp_path: 
     hits = np.bincount(rays, minlength=len(facets))
     # Into a closed mesh and out of it again, but for the few that graze it.
     assert (hits[facets >= 0] % 2 == 0).mean() > 0.98
+
+
+@needs_embree
+def test_every_hit_of_a_ray_through_a_box_is_found() -> None:
+    axis = EmbreeAxis(ContactSolver(_block()))
+    # About the box's middle: 0.1 m high.
+    origins = np.array([[0.001, 0.002, 1.0], [1.0, 0.0, 1.0]], np.float32)
+    rays, distances = who.every_hit(axis, origins, np.array([[0, 0, -1.0]] * 2, np.float32))
+    assert rays.tolist() == [0, 0]
+    assert distances == pytest.approx([0.95, 1.05], abs=1e-4)
 
 
 @needs_compiler

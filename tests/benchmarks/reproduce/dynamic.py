@@ -33,8 +33,8 @@ from benchmarks.reproduce.tilt_bound import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of
-from contactbench.pipeline.study.marker_touches import check_bundled
 from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport
 
 if TYPE_CHECKING:

@@ -16,10 +16,7 @@ from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
-from contactbench.pipeline.simulation.scenes.touch import STEP_S
-from contactbench.pipeline.study.control_rig import draw_sensor
-from contactbench.pipeline.study.marker_touches import (
+from contactbench.pipeline.simulation.marker_touches import (
     ANGLES,
     TRUE_FACETS,
     MarkerStation,
@@ -29,6 +26,9 @@ from contactbench.pipeline.study.marker_touches import (
     stack,
     truth_of,
 )
+from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
+from contactbench.pipeline.simulation.scenes.touch import STEP_S
+from contactbench.pipeline.study.control_rig import draw_sensor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -37,9 +37,9 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.contact.methods import ContactMethod
+    from contactbench.pipeline.simulation.marker_touches import Touched
     from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.study.control_rig import CalibratedSensor
-    from contactbench.pipeline.study.marker_touches import Touched
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,7 @@ from benchmarks.trials import rms
 
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.control_rig import POSES, draw_sensor
-from contactbench.pipeline.study.marker_touches import (
+from contactbench.pipeline.simulation.marker_touches import (
     ACROSS,
     ANGLES,
     IN_PLANE,
@@ -36,6 +34,8 @@ from contactbench.pipeline.study.marker_touches import (
     check_bundled,
     press_markers,
 )
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.control_rig import POSES, draw_sensor
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

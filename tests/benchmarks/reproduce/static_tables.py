@@ -8,7 +8,7 @@ import numpy as np
 from benchmarks.reproduce.located import OURS, distances_mm
 from benchmarks.trials import canvas, png
 
-from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
+from contactbench.pipeline.simulation.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 from contactbench.pipeline.study.report import Sheet
 
 if TYPE_CHECKING:

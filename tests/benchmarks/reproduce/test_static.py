@@ -21,9 +21,7 @@ from benchmarks.reproduce.readings import filtered_noise, read_touches
 from benchmarks.reproduce.static import StaticResult, judged, report_of
 
 from contactbench.pipeline.contact import Reason
-from contactbench.pipeline.simulation.virtual.markers import markers
-from contactbench.pipeline.study.control_rig import draw_sensor
-from contactbench.pipeline.study.marker_touches import (
+from contactbench.pipeline.simulation.marker_touches import (
     ACROSS,
     ANGLES,
     IN_PLANE,
@@ -31,6 +29,8 @@ from contactbench.pipeline.study.marker_touches import (
     held,
     press_markers,
 )
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.control_rig import draw_sensor
 from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport
 
 CAUSES = [

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable

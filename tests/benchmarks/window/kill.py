@@ -16,8 +16,8 @@ from benchmarks.window.driver import load, loaded, own_home
 
 from contactbench.app.opening import VIRTUAL_BENCH
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

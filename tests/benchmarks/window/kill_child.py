@@ -22,8 +22,8 @@ from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.probe_draft import DRAFT
-from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

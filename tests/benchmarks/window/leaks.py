@@ -16,8 +16,8 @@ from benchmarks.window.driver import load, loaded, opened, own_home, rest, shown
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -20,7 +20,7 @@ from contactbench.app.translation import load
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.theme import dress, use_theme
 
 if TYPE_CHECKING:

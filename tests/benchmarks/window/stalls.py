@@ -15,9 +15,9 @@ from PySide6.QtCore import QObject, QTimer
 
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.steps import Step
 from contactbench.pipeline.study.report import Figure, StudyReport
 from contactbench.pipeline.workbench.live import Ring
-from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene.views import turned
 
 if TYPE_CHECKING:

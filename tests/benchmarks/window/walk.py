@@ -23,7 +23,7 @@ from contactbench.app.application import prepared
 from contactbench.app.settings import WindowSettings
 from contactbench.app.translation import LANGUAGES, load
 from contactbench.app.window import MainWindow
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.theme import use_theme
 
 SIZES = ((640, 340), (1024, 700), (1366, 728), (1920, 1040))

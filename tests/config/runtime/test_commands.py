@@ -28,7 +28,7 @@ from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.settings import PayloadSettings
-from contactbench.pipeline.workbench.payload import payload_text
+from contactbench.pipeline.workbench.export import payload_text
 
 RATE = ("--rate", 1000)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.marker_touches import truth_of
 from contactbench.pipeline.simulation.scenes import PlatformScene, Tissue, TissueCourse
-from contactbench.pipeline.study.marker_touches import truth_of
 
 QUICK = {"step": 0.002, "places": 40}
 

@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import ContactSolver, Reason
 from contactbench.pipeline.study.confidence import cases, study
-from contactbench.pipeline.study.confidence.page import tables
 from contactbench.pipeline.study.pages import make_page, publish
 
 TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
@@ -105,7 +104,7 @@ def test_the_page_is_made_from_the_file_alone(report, tmp_path):
     first = page.read_text(encoding="utf-8")
     assert make_page(tmp_path) == first
     assert (tmp_path / "reliability.png").stat().st_size > 1_000
-    for title, text in tables(report.rows):
+    for title, text in study.tables(report.rows):
         assert title in first
         assert text in first
     assert "No probe from a file was measured" in first
@@ -135,7 +134,11 @@ def test_the_command_prints_one_object():
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [(["--probe", "banana"], "banana"), (["--seed", "-1"], "seed: -1"), (["--touches", "5"], "100")],
+    [
+        (["--probe", "banana"], "banana"),
+        (["--seed", "-1"], "--seed: Input should be greater"),
+        (["--touches", "5"], "100"),
+    ],
 )
 def test_wrong_options_are_named(arguments, said):
     result = CliRunner().invoke(app, ["study", "confidence", "--quick", *arguments])

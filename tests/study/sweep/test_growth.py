@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.study.sweep.compare import compare
 from contactbench.pipeline.study.sweep.growth import (
     beaten,
     enough_facets,
@@ -135,24 +134,3 @@ def test_what_the_local_torque_brings_is_shown_by_force_and_torsion():
     assert "contactbench, torsion 0.3 mm | wrench_axis, torsion 0.3 mm | contactbench, torsion 3 mm" in shown
     assert "| 2 N | 1.00 | 3.00 | 1.00 | 3.00 |" in shown
     assert torque_table(rows[:1]) == torque_table([]) == ""
-
-
-def _sweep(exponent=-0.9, swap=1.0):
-    rows = []
-    for facets in (200, 1_000, 5_000):
-        rows += [_row(facets=facets, time=1_000, error=0.5), _row("scan", facets, 0.5 * 3 * swap, 9_000)]
-        rows.append(_row(facets=facets, noise="none", error=facets**exponent, bound_mm=0.0))
-    return rows
-
-
-def test_two_sweeps_are_compared_by_order_and_exponent():
-    assert all(each.same for each in compare(_sweep(), _sweep(-0.85)))
-    steeper = [each for each in compare(_sweep(), _sweep(-0.7)) if not each.same]
-    assert [each.what for each in steeper] == ["exponent of error of the mesh: linear, contactbench"]
-    swapped = [each.what for each in compare(_sweep(), _sweep(swap=0.1)) if not each.same]
-    assert [what for what in swapped if what.startswith("error")] == [
-        f"error: linear, {facets} facets" for facets in ("200", "1,000", "5,000")
-    ]
-    # Nearly equal is no order.
-    near = [each for each in compare(_sweep(swap=0.32), _sweep(swap=0.345)) if not each.same]
-    assert near == []

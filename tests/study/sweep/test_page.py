@@ -11,7 +11,6 @@ from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.pages import PAGE, gather, make_page
 from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
-from contactbench.pipeline.study.sweep.pictures import astray, draw
 from contactbench.pipeline.study.sweep.plan import preset_plan
 from contactbench.pipeline.study.sweep.tables import tables
 
@@ -63,7 +62,7 @@ def test_tables_say_what_the_rows_say(rows):
 
 def test_pages_of_several_studies_go_into_one_folder(small, tmp_path):
     results = read_results(small)
-    rows = [row | {"worst_reason": []} for row in results.rows if row["angle"] == 0]  # no pictures of touches
+    rows = [row for row in results.rows if row["angle"] == 0]
     folders = [tmp_path / "moved", tmp_path / "other"]
     for folder in folders:
         folder.mkdir()
@@ -93,15 +92,7 @@ def test_unknown_and_missing_studies_are_named(tmp_path):
         read_results(tmp_path)
 
 
-def test_touches_that_went_astray_are_drawn(rows, small):
-    lines = astray(rows, read_results(small).about["meshes"])
-    assert lines, "some answer on 300 facets is astray"
-    assert all(panel.title.startswith(("contactbench", "wrench_axis")) for line in lines for panel in line)
-    assert draw(lines).startswith(b"\x89PNG")
-    assert draw([]) == b""
-
-
-def test_the_commands_run_compare_and_page(tmp_path, small):
+def test_the_commands_run_and_page(tmp_path):
     out = tmp_path / "quick"
     words = ("--preset", "quick", "--probe", "linear", "--touches", "100", "--workers", "1", "--out", out)
     done = _invoke("run", *words, "--json")
@@ -113,28 +104,11 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
     )
     assert read_results(out).command == "contactbench study run --preset quick --probe linear --touches 100"
     assert json.loads(_invoke("run", *words, "--json").stdout)["computed"] == 0
-    same = _invoke("compare", out, out, "--json")
-    assert same.exit_code == 0
-    assert json.loads(same.stdout)["same"] is True
-    other = _invoke("compare", out, small)
-    assert other.exit_code in (0, 1)
-    assert "exponent of error of the mesh" in other.stderr
     paged = _invoke("page", out, "--json")
     assert paged.exit_code in (0, 1)
     told = json.loads(paged.stdout)
     assert told["pages"] == [str(out / PAGE)]
     assert bool(told["missed"]) == (paged.exit_code == 1)
-
-
-@pytest.mark.parametrize(
-    ("kind", "name"), [("hard", "stability"), ("ablation", "ablation"), ("rivals", "rivals")]
-)
-def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind, name):
-    asked = {}
-    monkeypatch.setattr(f"contactbench.pipeline.study.commands.{name}", lambda **values: asked.update(values))
-    done = _invoke("run", "--preset", kind, "--seed", "4", "--out", tmp_path / "it")
-    assert done.exit_code == 0, done.stderr
-    assert (asked["seed"], asked["out"]) == (4, tmp_path / "it")
 
 
 @pytest.mark.parametrize(
@@ -146,13 +120,8 @@ def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind,
         (("run", "--preset", "slow"), "choose one of paper"),
         (("run", "--preset", "quick", "--probe", "banana"), "banana: the probe cannot be read"),
         (("run", "--preset", "quick", "--touches", "1"), "touches: Input should be greater"),
-        (("run", "--preset", "hard", "--workers", "2"), "--preset hard: --workers is not available"),
-        (
-            ("run", "--preset", "ablation", "--touches", "9", "--workers", "2"),
-            "--workers, --touches is not available",
-        ),
+        (("run", "--preset", "quick", "--part", "9/8"), "--part 9/8: give which of how many"),
         (("page", "nowhere"), "no results of a study"),
-        (("compare", "nowhere", "nowhere"), "no results of a study"),
     ],
 )
 def test_wrong_input_is_named(tmp_path, monkeypatch, words, said):

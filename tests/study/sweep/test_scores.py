@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
-from contactbench.pipeline.study.sweep.bodies import mesh_of, packed_mesh, unpacked_mesh
+from contactbench.pipeline.study.sweep.bodies import mesh_of
 from contactbench.pipeline.study.sweep.cell import gates_for, touches_of
 from contactbench.pipeline.study.sweep.noise import FILTERS, believed, deviations
 from contactbench.pipeline.study.sweep.plan import SweepPlan
@@ -42,7 +42,7 @@ def _answers(off_mm, reasons):
     return SimpleNamespace(points=points, reasons=np.array([r.value for r in reasons])), truth
 
 
-def test_who_is_off_by_more_than_noise_explains_is_astray_and_the_sure_ones_come_first():
+def test_who_is_off_by_more_than_noise_explains_is_astray():
     batch, truth = _answers(
         [0.5, 60.0, 80.0, np.nan, 4.0],
         [Reason.OK, Reason.OK, Reason.AMBIGUOUS, Reason.OFF_SURFACE, Reason.VERTEX],
@@ -50,8 +50,6 @@ def test_who_is_off_by_more_than_noise_explains_is_astray_and_the_sure_ones_come
     row = judged(batch, truth, np.full(5, 1e-6))
     assert (row["answered"], row["sure"], row["astray"], row["astray_sure"]) == (0.8, 0.6, 0.4, 0.2)
     assert row["reason_ambiguous"] == row["reason_vertex"] == 0.2
-    assert row["worst_reason"] == ["ok", "ambiguous"]
-    assert np.allclose(row["worst_found"], [0.06, 0, 0, 0.08, 0, 0])
     assert np.isclose(row["rms_sure_mm"], np.sqrt((0.25 + 3600 + 16) / 3))
     assert np.isclose(row["rms_near_mm"], np.sqrt((0.25 + 16) / 2))
     assert np.isclose(row["mean_mm"], (0.5 + 60 + 80 + 4) / 4)
@@ -71,10 +69,3 @@ def test_gates_allow_for_the_steepest_touch_and_are_the_usual_ones_otherwise():
     assert gates_for(0.0) == gates_for(60.0) == Gates()
     assert gates_for(70.0) == Gates(friction_angle=85.0)
     assert gates_for(88.0).friction_angle == 89.0
-
-
-def test_a_packed_mesh_is_the_mesh():
-    vertices, faces = unpacked_mesh(packed_mesh("linear"))
-    mesh = mesh_of("linear", 1_500)
-    assert np.allclose(vertices, mesh.vertices, atol=1e-7)
-    assert (faces == mesh.faces).all()

@@ -1,0 +1,87 @@
+"""A file to read: a path, or the place of a file that people know by another name."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, Literal, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from io import BufferedReader
+
+
+@dataclass(frozen=True)
+class NamedFile:
+    """
+    A file that is read where it lies, under the name that its user gave it.
+
+    Readers take it as they take a path: its name decides the format and stands in messages and in what is computed,
+    its place is what is opened.
+    """
+
+    path: Path
+    name: str
+    # Name -> path of the files that belong to it
+    beside: Mapping[str, Path] = field(default_factory=dict, compare=False)
+
+    def __str__(self) -> str:
+        """Return the name: messages are for its user."""
+        return self.name
+
+    def __fspath__(self) -> str:
+        """Return where it lies."""
+        return str(self.path)
+
+    @property
+    def suffix(self) -> str:
+        """Ending of its name."""
+        return PurePath(self.name).suffix
+
+    @property
+    def stem(self) -> str:
+        """Its name without the ending."""
+        return PurePath(self.name).stem
+
+    def open(self, mode: Literal["rb"]) -> BufferedReader:
+        """Open it for reading."""
+        return self.path.open(mode)
+
+    def read_bytes(self) -> bytes:
+        """Return its content."""
+        return self.path.read_bytes()
+
+    def stat(self) -> os.stat_result:
+        """Return what the file system knows about it."""
+        return self.path.stat()
+
+    def exists(self) -> bool:
+        """Tell whether it is there."""
+        return self.path.exists()
+
+    def is_file(self) -> bool:
+        """Tell whether it is there, and a regular file."""
+        return self.path.is_file()
+
+    def with_suffix(self, suffix: str) -> NamedFile:
+        """Return the file beside it whose name has another ending; one that does not exist if there is none."""
+        name = PurePath(self.name).with_suffix(suffix).name
+        return NamedFile(self.beside.get(name, self.path / name), name, self.beside)
+
+
+File = Path | NamedFile
+AnyFile = TypeVar("AnyFile", Path, NamedFile, File)
+
+
+def as_file(path: str | os.PathLike[str]) -> File:
+    """Return a file as it was named, or a path."""
+    return path if isinstance(path, NamedFile) else Path(path)
+
+
+def files_beside(file: File, ending: str) -> Sequence[File]:
+    """Return the files that belong to a named one, or all in the folder of a path, that end so; by name."""
+    if isinstance(file, Path):
+        return sorted(file.parent.glob(f"*{ending}"))
+    found = sorted(each for each in file.beside.items() if each[0].endswith(ending))
+    return [NamedFile(path, name, file.beside) for name, path in found]

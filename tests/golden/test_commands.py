@@ -1,0 +1,25 @@
+"""What commands print and write, byte for byte, from sample data to a session and a bundle."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from golden.recorder import COMMANDS
+
+
+@pytest.fixture(scope="module")
+def said(tmp_path_factory):
+    pytest.importorskip("mujoco", reason="the sample data comes from the virtual bench (extra sim)")
+    folder = tmp_path_factory.mktemp("golden") / "work"
+    recorder = Path(__file__).with_name("recorder.py")
+    subprocess.run([sys.executable, recorder, folder], check=True, env=os.environ, timeout=500)
+    return folder.with_name("work.said")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_command_gives_what_it_gave(said, pin, name):
+    pin(name, (said / f"{name}.txt").read_text(encoding="utf-8"))

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from contactbench.app.window_pages import page_class
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.archive import import_archive
-from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.steps import Step
 from contactbench.widgets.scene import Scene
 
 from ..app.page_window import PageWindow

@@ -22,6 +22,8 @@ _OPEN, _CLOSE, _FILL, _FILLED = "\ufdd0", "\ufdd1", "\ufdd2", "\ufdd3"
 _CAPITAL, _STRIP = "\ufdd4", "\ufdd5"
 _MARK = re.compile("([\ufdd0-\ufdd5])")
 _FIELD = re.compile(r"\{(\d+)\}")
+_LATELY: dict[str, str] = {}  # texts said lately -> with marks: files and Qt keep the text alone
+_MOST_LATELY = 10_000
 
 
 class Message(str):
@@ -34,6 +36,9 @@ class Message(str):
         """Take a text with its marks."""
         made = super().__new__(cls, _said(marked, str))
         made._marked = marked
+        _LATELY[made[:]] = marked
+        while len(_LATELY) > _MOST_LATELY:
+            _LATELY.pop(next(iter(_LATELY)), None)
         return made
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[type[Message], tuple[str]]:
@@ -103,6 +108,11 @@ def message(text: str) -> str:
 def arg(value: object) -> _Argument:
     """Return a value for use in the f-string of a message; an own message keeps what it knows."""
     return _Argument(value)
+
+
+def said_lately(text: str) -> str:
+    """Return a text that came back from a file or from Qt as the message that it was, if it was said lately."""
+    return Message(_LATELY[text]) if text in _LATELY and not isinstance(text, Message) else text
 
 
 def join(separator: str, parts: Iterable[str]) -> str:

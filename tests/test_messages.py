@@ -1,7 +1,7 @@
 import copy
 import json
 
-from contactbench.pipeline.errors import InputError, arg, capitalised, join, message
+from contactbench.pipeline.errors import InputError, arg, capitalised, join, message, said_lately
 
 GERMAN = {
     "{0}: row {1} is {2} mm off{3}.": "{0}: {2} mm daneben in Zeile {1}{3}.",
@@ -88,3 +88,10 @@ def test_copies_keep_the_template():
     for other in (copy.copy(said), copy.deepcopy([said])[0]):
         assert other == said
         assert other.translated(german) == said.translated(german)
+
+
+def test_a_text_that_went_through_a_file_is_the_message_that_it_was():
+    said = off("b.csv")
+    back = json.loads(json.dumps([said]))[0]
+    assert said_lately(back).translated(german) == "b.csv: 0.3 mm daneben in Zeile 7."
+    assert said_lately("never said") == "never said"

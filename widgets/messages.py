@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication
 
-from contactbench.pipeline.errors import Message
+from contactbench.pipeline.errors import Message, said_lately
 from contactbench.widgets.numbers import local_numbers
 
 CONTEXT = "pipeline"
@@ -13,7 +13,7 @@ CONTEXT = "pipeline"
 
 def translated(said: object) -> str:
     """Return a message, the text of an error, or a plain text where a language has it; others stay English."""
-    text = str(said)
+    text = said_lately(str(said))
     return local_numbers(text.translated(_known) if isinstance(text, Message) else _known(text))
 
 

@@ -388,7 +388,7 @@ class GravityRun(QObject):
         moments = [row.time for row in rows if row.changeable]
         if not moments:
             return
-        names = ", ".join(row.name for row in rows)
+        names = ", ".join(translated(row.name) for row in rows)
         text = self.tr("leave out {poses}") if left_out else self.tr("restore {poses}")
         before, after = ((moments, each) for each in (not left_out, left_out))
         self.bench.undo.push(

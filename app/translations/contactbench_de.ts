@@ -5503,10 +5503,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>1 zu {0}</translation>
     </message>
     <message>
-        <source>30° in plane</source>
-        <translation>30° in der Ebene</translation>
-    </message>
-    <message>
         <source>95th percentile</source>
         <translation>95. Perzentil</translation>
     </message>
@@ -12691,6 +12687,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} ({1} kg)</translation>
     </message>
     <message>
+        <source>{0} ({1} of {2})</source>
+        <translation>{0} ({1} von {2})</translation>
+    </message>
+    <message>
+        <source>{0} ({1} to {2} N)</source>
+        <translation>{0} ({1} bis {2} N)</translation>
+    </message>
+    <message>
         <source>{0} ({1}) are slivers with an angle under 1°; the worst is {2} times longer than high. They are common in CAD exports, make normals uncertain and simplification worse.</source>
         <translation>Splitter mit einem Winkel unter 1°: {0} ({1}); der schlimmste ist {2}-mal so lang wie hoch. Sie sind in CAD-Exporten häufig; sie machen Normalen unsicher und die Vereinfachung schlechter.</translation>
     </message>
@@ -12781,6 +12785,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} appears twice</source>
         <translation>{0} kommt zweimal vor</translation>
+    </message>
+    <message>
+        <source>{0} at {1} {2}</source>
+        <translation>{0} bei {1} {2}</translation>
     </message>
     <message>
         <source>{0} axis reversed</source>
@@ -13365,6 +13373,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} to {1}</source>
         <translation>{0} bis {1}</translation>
+    </message>
+    <message>
+        <source>{0} to {1} N</source>
+        <translation>{0} bis {1} N</translation>
     </message>
     <message>
         <source>{0} took longer than {1} s for &apos;{2}&apos; and was stopped. Allow more time, or start with fewer facets.</source>
@@ -15153,6 +15165,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}° and {1} mm ({2})</source>
         <translation>{0}° und {1} mm ({2})</translation>
+    </message>
+    <message>
+        <source>{0}°, {1}{2} down</source>
+        <translation>{0}°, {1}{2} nach unten</translation>
     </message>
 </context>
 </TS>

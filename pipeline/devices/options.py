@@ -53,7 +53,7 @@ def numbers(fewest: int, most: int, largest: float) -> Callable[[str], tuple[flo
         except ValueError:
             values = ()
         if not fewest <= len(values) <= most or not all(abs(value) <= largest for value in values):
-            many = str(fewest) if fewest == most else f"{fewest} to {most}"
+            many = str(fewest) if fewest == most else message(f"{arg(fewest)} to {arg(most)}")
             raise ValueError(
                 message(f"give {arg(many)} numbers separated by commas, none beyond {arg(largest):g}")
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import FrozenDetector
 
 if TYPE_CHECKING:
@@ -93,7 +93,13 @@ class Readings:
             )
         at_end = [k for k in range(6) if self._at_end(k)]
         if at_end and self._last is not None:
-            which = ", ".join(f"{_CHANNELS[k]} at {self._last[k]:.4g} {_UNITS[k]}" for k in at_end)
+            which = join(
+                ", ",
+                (
+                    message(f"{arg(_CHANNELS[k])} at {arg(self._last[k]):.4g} {arg(_UNITS[k])}")
+                    for k in at_end
+                ),
+            )
             found["end"] = message(
                 f"{arg(which)}: exactly the same for {arg(min(self._same[k] for k in at_end))} samples, and"
                 " farther than ever before: this looks like the end of the range. Remove the"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot.clearance import ClearanceCheck
 from contactbench.pipeline.robot.description import RobotDescription
 
@@ -118,7 +118,10 @@ def _spread(
 
 def _complaint(conflicts: Counter[str]) -> str:
     tried = conflicts.total()
-    worst = ", ".join(f"{what} ({times} of {tried})" for what, times in conflicts.most_common(3))
+    worst = join(
+        ", ",
+        (message(f"{arg(what)} ({arg(times)} of {arg(tried)})") for what, times in conflicts.most_common(3)),
+    )
     return message(
         f"candidate_joints: none of {arg(tried)} configurations near the start is clear; too close:"
         f" {arg(worst)}. Move the arm away from there, allow the arm joints to move too, or correct the"

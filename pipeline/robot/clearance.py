@@ -180,7 +180,7 @@ class ClearanceCheck:
                 kinematics.model, kinematics.data, geoms[i], geoms[j], distmax, None
             )
             if not gap >= distance:  # so that NaN is a conflict
-                return f"{b.name} to {a.name}"
+                return message(f"{arg(b.name)} to {arg(a.name)}")
         return None
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
 from contactbench.pipeline.simulation.scenes.touch import along, draw_press
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.simulation.scenes import SceneMoment
 
 TRUE_FACETS = 20_000
-PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", message("30° in plane"), "30° across"
+PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
 ANGLES = {PERPENDICULAR: (0.0, 0.0), IN_PLANE: (30.0, 0.0), ACROSS: (30.0, 90.0)}
 
 

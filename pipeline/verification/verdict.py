@@ -124,7 +124,10 @@ def missing(
     counts = Counter((figure.marker, figure.window_N) for figure in figures if figure.accepted)
     short = [(name, window) for name in names for window in windows if counts[name, window] < wanted]
     several = len(windows) > 1
-    return tuple(f"{name} ({low:g} to {high:g} N)" if several else name for name, (low, high) in short)
+    return tuple(
+        message(f"{arg(name)} ({arg(low):g} to {arg(high):g} N)") if several else name
+        for name, (low, high) in short
+    )
 
 
 def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None, bool]:

@@ -397,7 +397,7 @@ def _angle_range(angle: float) -> str:
 
 
 def _span(window: tuple[float, float]) -> str:
-    return f"{window[0]:g} to {window[1]:g} N"
+    return message(f"{arg(window[0]):g} to {arg(window[1]):g} N")
 
 
 def _plain(settings: VerifySettings, placing: TouchLocator, rate: float | None) -> dict[str, Any]:

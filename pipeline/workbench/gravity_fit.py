@@ -356,7 +356,7 @@ def short_description(R_WS: NDArray[np.float64]) -> str:
     tilt = float(np.degrees(np.arccos(np.clip(-z_W[2], -1, 1))))
     down_S = -R_WS[2]
     side = int(np.argmax(np.abs(down_S)))
-    return f"{tilt:.0f}°, {'-' if down_S[side] < 0 else '+'}{'xyz'[side]} down"
+    return message(f"{arg(tilt):.0f}°, {arg('-' if down_S[side] < 0 else '+')}{arg('xyz'[side])} down")
 
 
 def middle(capture: Capture) -> float:

@@ -433,7 +433,7 @@ class Words:
 
     def _noise(self, case: HypothesisCase) -> str:
         force, torque = case.evidence.noise * self._context.sigmas[[0, 3]]
-        return f"{_force(force)} and {_torque(torque)}"
+        return message(f"{arg(_force(force))} and {arg(_torque(torque))}")
 
     def _residual(self, case: HypothesisCase, halves: NDArray[np.intp]) -> float:
         return self._context.residual(case, self._best, halves)

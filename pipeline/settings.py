@@ -89,7 +89,7 @@ def first_fault(error: ValidationError) -> tuple[str, str]:
     """Return the field that is wrong, and what is wrong with it."""
     first = error.errors(include_url=False)[0]
     raised = first.get("ctx", {}).get("error")  # of our own: its text is a message
-    what = first["msg"] if raised is None or isinstance(raised, str) else str(raised)
+    what = str(raised) if isinstance(raised, ValueError) else first["msg"]
     return ".".join(map(str, first["loc"])), what
 
 

@@ -164,7 +164,7 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
         elif hasattr(bare, "model_fields"):
             from contactbench.pipeline.setting_options import options_of  # not for those who need none
 
-            model, options = options_of(bare, *notes)
+            model, options = options_of(bare)
             models[parameter.name] = model, [each.name for each in options]
             parameters += options
         else:

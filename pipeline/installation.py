@@ -98,3 +98,16 @@ def component_folders(name: str) -> list[Path]:
     beside = Path(sys.executable).parent
     own = user_data_path("contactbench", appauthor=False)
     return [place / "components" / name for place in (beside, own)]
+
+
+def processor() -> str:
+    """Return the name of this machine's processor, as well as the system says it."""
+    import platform
+
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass  # not Linux
+    return platform.processor() or platform.machine() or "unknown"

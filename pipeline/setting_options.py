@@ -13,39 +13,44 @@ from pydantic import ValidationError
 
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.parameter_options import numbers
-from contactbench.pipeline.settings import first_fault
+from contactbench.pipeline.settings import first_fault, with_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pydantic.fields import FieldInfo
 
-    from contactbench.pipeline.settings import Only, Settings
+    from contactbench.pipeline.settings import Settings
 
 
-def options_of(
-    model: type[Settings], only: Only | None = None
-) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:
-    """Return what makes settings of options, and the options: of all fields that have a sentence, or of some."""
+def options_of(model: type[Settings]) -> tuple[Callable[..., Settings], list[inspect.Parameter]]:
+    """Return what makes settings of options, and the options: of all fields that have a sentence."""
     told = [name for name, field in model.model_fields.items() if field.description is not None]
-    names = told if only is None else only.names
-    return partial(_chosen, model), [_option(name, model.model_fields[name]) for name in names]
+    return partial(_chosen, model), [_option(model, name) for name in told]
 
 
-def _option(name: str, field: FieldInfo) -> inspect.Parameter:
+def _option(model: type[Settings], name: str) -> inspect.Parameter:
     """Return the option of one field: numbers are written between commas, and a choice by its name."""
+    field = model.model_fields[name]
     extra: Any = field.json_schema_extra
     kind, default = _kind_of(field), None if field.is_required() else field.default
-    if default == ():
+    otherwise = default_text(field) if extra["none"] or extra["unit"] or model.overlay else ""
+    if otherwise or model.overlay or default == ():
         default = None
     elif isinstance(default, tuple):
         default = ",".join(f"{number:g}" for number in default)
     elif get_origin(_bare(field)) is Literal:
         default = kind(default)
     # Without a name of its own, an option that is only given or not would also have a --no-name.
-    names = [_option_name(name, field)] if kind is bool or extra["option"] else []
+    names = (
+        (extra["option"] or option_name(name, field)).split(",") if kind is bool or extra["option"] else []
+    )
+    text = field.description or ""
     option = typer.Option(
-        *names, metavar=extra["metavar"] or None, help=field.description, hidden=extra["hidden"]
+        *names,
+        metavar=extra["metavar"] or None,
+        help=with_unit(text, extra["unit"], f" [{otherwise}]" if otherwise else ""),
+        hidden=extra["hidden"],
     )
     if field.is_required():
         default = inspect.Parameter.empty
@@ -54,6 +59,14 @@ def _option(name: str, field: FieldInfo) -> inspect.Parameter:
     return inspect.Parameter(
         name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
     )
+
+
+def default_text(field: FieldInfo) -> str:
+    """Return what holds where a field is left out, in its unit; empty: nothing, or it may not be left out."""
+    extra: Any = field.json_schema_extra
+    if extra["none"] or field.is_required() or field.default is None:
+        return str(extra["none"])
+    return f"{extra['scale'] * field.default:g}" if isinstance(field.default, float) else str(field.default)
 
 
 def _bare(field: FieldInfo) -> Any:
@@ -80,9 +93,10 @@ def _choice(kind: Any) -> Any:
     return StrEnum("Choice", {each: each for each in get_args(kind)})
 
 
-def _option_name(name: str, field: FieldInfo) -> str:
+def option_name(name: str, field: FieldInfo) -> str:
+    """Return what a field is called on the command line."""
     extra: Any = field.json_schema_extra
-    return extra["option"] or f"--{name.replace('_', '-')}"
+    return extra["option"].partition("/")[0] or f"--{name.replace('_', '-')}"
 
 
 def _chosen(model: type[Settings], **given: Any) -> Settings:
@@ -91,7 +105,10 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
     for name, value in given.items():
         field = model.model_fields[name]
         if isinstance(value, str) and get_origin(_bare(field)) is tuple:
-            values[name] = numbers(value, len(get_args(_bare(field))), _option_name(name, field))
+            values[name] = numbers(value, len(get_args(_bare(field))), option_name(name, field))
+        elif isinstance(value, float):
+            extra: Any = field.json_schema_extra
+            values[name] = value / extra["scale"]
         elif value is not None:
             values[name] = (
                 [getattr(each, "value", each) for each in value] if isinstance(value, list) else value
@@ -101,5 +118,5 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
     except ValidationError as error:
         where, what = first_fault(error)
         name = where.partition(".")[0]
-        option = _option_name(name, model.model_fields[name])
+        option = option_name(name, model.model_fields[name])
         raise InputError(f"{arg(option)}: {arg(what)}: correct it.") from None

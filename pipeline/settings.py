@@ -8,10 +8,9 @@ default, one sentence. Lengths are in mm and angles in degrees, as people say th
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from datetime import date
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
@@ -30,22 +29,23 @@ Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 Three = tuple[Number, Number, Number]
 
+# What is known of a touch if nobody says more: one sigma of its torsion over its force, and of the model error.
+TORSION_ARM_M, DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.001, 0.05, 0.001
 # How well orientations are known by what gives them, degrees: 1 sigma about each axis.
 ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
 
 
-@dataclass(frozen=True)
-class Only:
-    """Some fields of settings, as options of a command: the others keep their defaults."""
-
-    names: tuple[str, ...]
-
-    def __init__(self, *names: str) -> None:
-        object.__setattr__(self, "names", names)
-
-
 def knob(
-    default: Any = ..., text: str = "", *, metavar: str = "", option: str = "", hidden: bool = False
+    default: Any = ...,
+    text: str = "",
+    *,
+    unit: str = "",
+    scale: float = 1.0,
+    none: str = "",
+    why: str = "",
+    metavar: str = "",
+    option: str = "",
+    hidden: bool = False,
 ) -> Any:
     """
     Return a field that a command has as an option.
@@ -55,7 +55,15 @@ def knob(
     default
         Left out: it must be given.
     text : str
-        One sentence of help.
+        One sentence of help; the unit is put in where it ends.
+    unit : str
+        Of the number that a person reads and types.
+    scale : float
+        How many of that unit one of the field is: 1000 for a field in m that people give in mm.
+    none : str
+        What holds if the value is left out.
+    why : str
+        Why the default is what it is; for the documentation.
     metavar : str
         How a value is written on the command line, where that is not plain to see.
     option : str
@@ -66,14 +74,24 @@ def knob(
     return Field(
         default,
         description=text,
-        json_schema_extra={"metavar": metavar, "option": option, "hidden": hidden},
-    )
+        json_schema_extra={
+            "unit": unit, "scale": scale, "none": none, "why": why,
+            "metavar": metavar, "option": option, "hidden": hidden,
+        },
+    )  # fmt: skip
+
+
+def with_unit(text: str, unit: str, after: str = "") -> str:
+    """Return a sentence of help with the unit, and what comes after it, at the end of its first sentence."""
+    first, rest = (text.removesuffix("."), "") if ". " not in text else text.split(". ", 1)
+    return f"{first}{f', {unit}' if unit else ''}{after}.{f' {rest}' if rest else ''}"
 
 
 class Settings(BaseModel):
     """What is chosen for a step."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> Self:
@@ -165,14 +183,18 @@ class OrientationSettings(MountSettings):
     inverse: bool = knob(False, "Orientations turn world into sensor components (R_SW).")
 
 
-class PosesSettings(OrientationSettings):
-    """How orientations in a table are written, also as the joints of a robot."""
+class JointsSettings(Settings):
+    """Whose joints give an orientation."""
 
     robot: str | None = knob(
         None,
         "Orientation is that of a robot's flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.",
         metavar="NAME|FILE",
     )
+
+
+class PosesSettings(JointsSettings, OrientationSettings):
+    """How orientations in a table are written, also as the joints of a robot."""
 
 
 def _delay(value: object) -> object:
@@ -182,8 +204,8 @@ def _delay(value: object) -> object:
         raise ValueError(message("give seconds, or auto")) from None
 
 
-class CapturesSettings(PosesSettings):
-    """How still poses are found in a recording."""
+class DelaySettings(Settings):
+    """How a recording's wrenches are put beside its poses."""
 
     delay: Annotated[Number | Literal["auto"] | None, BeforeValidator(_delay)] = knob(
         None,
@@ -191,6 +213,30 @@ class CapturesSettings(PosesSettings):
         " motion. A doubtful estimate is reported but not applied [0].",
         metavar="SECONDS|auto",
     )
+
+
+class CapturesSettings(DelaySettings, PosesSettings):
+    """How still poses are found in a recording."""
+
+
+# ---- locating ------------------------------------------------------------------------------------
+
+
+class TouchModelSettings(Settings):
+    """What is known of a wrench and of a touch before one is located."""
+
+    noise_force: float = knob(0.05, "Standard deviation of a force.", unit="N")
+    noise_torque: float = knob(0.002, "Standard deviation of a torque.", unit="N·m")
+    torsion_arm: float = knob(
+        TORSION_ARM_M,
+        "Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.",
+        unit="mm",
+        scale=1000,
+    )
+    model_force: float = knob(
+        DEFAULT_FORCE_N, "Error that drift, cable and hysteresis leave in a force, 1 sigma.", unit="N"
+    )
+    model_torque: float = knob(DEFAULT_TORQUE_NM, "The same for a torque.", unit="mN·m", scale=1000)
 
 
 # ---- calibration -------------------------------------------------------------------------------
@@ -340,12 +386,17 @@ class ReportSettings(Settings):
 # ---- probe -------------------------------------------------------------------------------------
 
 
-class ProbeSettings(Settings):
-    """How a probe is made of a mesh file."""
+class MeshSettings(Settings):
+    """How a mesh file is read."""
 
     units: Literal["auto", "mm", "m", "cm", "in"] = knob(
         "auto", "Unit of the file's numbers; auto guesses it from the size and says why."
     )
+
+
+class ShellSettings(MeshSettings):
+    """How the closed outer surface of a mesh is made."""
+
     close: tuple[Literal["auto", "fair", "ruled", "hull", "open"], ...] = knob(
         (),
         "How to close the openings, largest first, one entry each; the last entry applies to all"
@@ -354,6 +405,11 @@ class ProbeSettings(Settings):
     )
     alpha: float | None = knob(None, "Size of the shell's facets, mm [1/190 of the size].")
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
+
+
+class PlaceSettings(Settings):
+    """Where a mesh is in the sensor's frame."""
+
     mount: tuple[Number, Number, Number, Number, Number, Number] | None = knob(
         None,
         "Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh stays in its"
@@ -361,8 +417,18 @@ class ProbeSettings(Settings):
         metavar="X,Y,Z,RX,RY,RZ",
         option="--place",
     )
+
+
+class FacetSettings(MeshSettings):
+    """How many facets are left."""
+
     facets: int | None = knob(None, "Facets to keep.")
     max_deviation: float | None = knob(None, "Or: as few as stay within this distance of the shell, mm.")
+
+
+class LadderSettings(MeshSettings):
+    """What fewer facets may do to contacts."""
+
     max_contact_error: float | None = knob(
         None, "Or: as few as move 95 % of contacts by less than this, mm [0.1]."
     )
@@ -371,3 +437,40 @@ class ProbeSettings(Settings):
         "auto", "From earlier versions; has no effect.", hidden=True
     )
     region_ratio: float = knob(1.0, "Facet density in regions relative to the rest.")
+
+
+class SimplifySettings(LadderSettings, FacetSettings):
+    """How a probe is given fewer facets."""
+
+
+class ProbeSettings(SimplifySettings, PlaceSettings, ShellSettings):
+    """How a probe is made of a mesh file."""
+
+
+# ---- heatmap -----------------------------------------------------------------------------------
+
+Quantity = Literal["density", "force", "peak", "error", "uncertainty"]
+Normalisation = Literal["contacts", "seconds", "rate"]
+
+
+class ReadingSettings(MountSettings):
+    """What a recording does not say itself."""
+
+    delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
+    min_force: float = knob(0.5, "In a recording, a touch is above this force, N.")
+
+
+class HeatmapSettings(ReadingSettings):
+    """What to show of contacts."""
+
+    quantity: Quantity = knob("density", "Quantity to show.")
+    bandwidth: float | None = knob(
+        None, "Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5]."
+    )
+    normalisation: Normalisation = knob("contacts", "Integral of a density over the surface.", option="--per")
+    marker_distance: float = knob(10.0, "A contact farther than this from every marker touched none, mm.")
+    start: float | None = knob(None, "Only contacts from here on, s after the first sample.", option="--from")
+    end: float | None = knob(None, "Only contacts up to here, s after the first sample.", option="--to")
+    least_force: float | None = knob(None, "Only contacts with this force or more, N.", option="--force-from")
+    most_force: float | None = knob(None, "Only contacts with this force or less, N.", option="--force-to")
+    by_confidence: bool = knob(False, "Weight each contact by the confidence of its place, 0 to 1.")

@@ -24,13 +24,13 @@ from contactbench.pipeline.commands.locate import MethodName
 from contactbench.pipeline.console import Bar
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import REASONS
-from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import _cpu
 from contactbench.pipeline.mesh import load_probe, save_probe
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.preparation.steps import align_step, import_mesh
+from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -171,7 +171,7 @@ def test_help_states_the_defaults_of_the_gates():
     assert f"mm [{1e3 * gates.ambiguity_distance:g}]" in text
     assert f"mm [{1e3 * gates.follow_distance:g}]" in text
     model = TouchModel()
-    assert f"1 to 5 [{1e3 * model.torsion_arm:g}]" in text
+    assert f"mm [{1e3 * model.torsion_arm:g}]" in text
     assert f"N [{DEFAULT_FORCE_N:g}]" in text
     assert f"mN·m [{1e3 * DEFAULT_TORQUE_NM:g}]" in text
 
@@ -485,7 +485,7 @@ def test_wrong_files(bench):
             "--patch works only with --method contactbench, not with scan",
         ),
         (["--track", "--method", "scan"], "--track works only with --method contactbench, not with scan"),
-        (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
+        (["--min-force", "-1"], "error: --min-force: Input should be greater than or equal to 0"),
         (["--torsion-arm", "-1"], "error: TouchModel.torsion_arm must be between 0 and 1000 m"),
         (["--model-torque", "-1"], "error: WrenchNoise.torque"),
         (["--torque-ratio", "2"], "No such option"),

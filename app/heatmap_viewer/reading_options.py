@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QCheckBox, QGroupBox, QWidget
 
+from contactbench.pipeline.settings import ReadingSettings
 from contactbench.widgets.controls import HIGH, form, named, row
 from contactbench.widgets.numbers import NumberBox
 
 _PATIENCE = 600  # ms without a change before recordings are read again
 
 
-@dataclass(frozen=True)
-class HowRead:
-    """What a recording does not say itself; as the options of ``contactbench heatmap draw``."""
-
-    # (3,) or None: How the sensor is turned against the flange: degrees about the fixed axes x, y, z.
-    # None: as a session says, not at all without one
-    mount: tuple[float, float, float] | None = None
-    delay: float = 0.0  # How much later a wrench is heard than its pose, s
-    min_force: float = 0.5  # Touches are above this, N
-
-
 class ReadingBox(QGroupBox):
     """Asks for the mount of the sensor, the delay of its wrenches, and the force of a touch."""
 
-    changed = Signal(object)  # HowRead, once nothing was changed for a moment
+    changed = Signal(object)  # ReadingSettings, once nothing was changed for a moment
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -50,7 +38,7 @@ class ReadingBox(QGroupBox):
             -1000.0, 1000.0, "", " ms", self.tr("Delay of the wrench relative to its pose, ms")
         )
         self.least = self._field(0.0, 100.0, "", " N", self.tr("Force above which a touch is counted, N"))
-        self.least.setValue(HowRead().min_force)
+        self.least.setValue(ReadingSettings().min_force)
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
         self._said = self.how()
         self._lay_out()
@@ -74,11 +62,13 @@ class ReadingBox(QGroupBox):
         rows.addRow(self.tr("Delay"), self.delay)
         rows.addRow(self.tr("Touch threshold"), self.least)
 
-    def how(self) -> HowRead:
+    def how(self) -> ReadingSettings:
         """Return what is chosen."""
         x, y, z = (field.value() for field in self.mount)
         own = self.own_mount.isChecked()
-        return HowRead((x, y, z) if own else None, self.delay.value() / 1e3, self.least.value())
+        return ReadingSettings(
+            mount=(x, y, z) if own else None, delay=self.delay.value() / 1e3, min_force=self.least.value()
+        )
 
     def _show_mount(self, own: bool) -> None:
         for field in self.mount:

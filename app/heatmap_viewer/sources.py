@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.app.heatmap_viewer.reading_options import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
@@ -24,7 +23,7 @@ from contactbench.pipeline.report.report_file import check_sources
 from contactbench.pipeline.report.verification_file import read_verification
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import inputs_of, mount_of, newest_inputs
-from contactbench.pipeline.settings import mount_rotation
+from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, mount_rotation
 from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:
@@ -37,8 +36,8 @@ if TYPE_CHECKING:
 _MESHES = (".ply", ".stl", ".obj", ".off", ".3mf", ".glb", ".gltf")
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
-_MARKER_DISTANCE = 0.010  # m: as the command has it
-_USUAL = HowRead()
+_MARKER_DISTANCE = HeatmapSettings().marker_distance / 1000  # m
+_USUAL = ReadingSettings()
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +179,7 @@ def _kind_of_json(path: Path) -> str:
 
 def open_files(
     files: HeatmapInputs,
-    how: HowRead = _USUAL,
+    how: ReadingSettings = _USUAL,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> OpenedFiles:
@@ -190,7 +189,7 @@ def open_files(
     Parameters
     ----------
     files : HeatmapInputs
-    how : HowRead
+    how : ReadingSettings
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
 
@@ -227,7 +226,7 @@ def open_files(
 
 def read_again(
     sources: Iterable[HeatmapSource],
-    how: HowRead,
+    how: ReadingSettings,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> OpenedFiles:
@@ -262,7 +261,7 @@ class _Read:
 
 
 def _of_file(
-    read: _Read, files: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], name: str = ""
+    read: _Read, files: HeatmapInputs, how: ReadingSettings, told: Callable[[int, int], None], name: str = ""
 ) -> HeatmapSource:
     file = read.file
     if read.probe is None:
@@ -291,7 +290,9 @@ def _of_file(
     return HeatmapSource(name or file.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
-def _of_recording(read: _Read, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]) -> Contacts:
+def _of_recording(
+    read: _Read, probe: ProbeFile, how: ReadingSettings, told: Callable[[int, int], None]
+) -> Contacts:
     if read.calibration is None:
         raise HeatmapError(
             f"{arg(read.file.name)}: give its calibration.json, too: the weight of the probe is in its readings."
@@ -316,7 +317,11 @@ def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
 
 
 def _of_session(
-    folder: Path, given: HeatmapInputs, how: HowRead, told: Callable[[int, int], None], problems: list[str]
+    folder: Path,
+    given: HeatmapInputs,
+    how: ReadingSettings,
+    told: Callable[[int, int], None],
+    problems: list[str],
 ) -> list[HeatmapSource]:
     """Return the newest recording of a session, and the touches of its verification."""
     found: list[HeatmapSource] = []

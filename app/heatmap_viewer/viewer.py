@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
-    from contactbench.app.heatmap_viewer.reading_options import HowRead
     from contactbench.app.heatmap_viewer.sources import HeatmapInputs, HeatmapSource, OpenedFiles
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import Selection
+    from contactbench.pipeline.settings import ReadingSettings
     from contactbench.widgets.scene import Pick
 
 # What computes takes seconds to import: that is done beside the window, when there is something to open.
@@ -208,7 +208,7 @@ class HeatmapViewer(QWidget):
         self.time.setEnabled(True)
         self._sources_changed()
 
-    def _read_again(self, how: HowRead) -> None:
+    def _read_again(self, how: ReadingSettings) -> None:
         """Read the recordings once more, in another way; what cannot be stays as it was."""
         before = tuple(self.sources)
         if not before:

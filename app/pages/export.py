@@ -254,7 +254,7 @@ class ExportPage(Page):
         try:
             before = ExportOptions.stored(settings)
             given = {name: value for name, value in values.items() if value is not None}
-            ExportOptions.stored(settings, given).settings()
+            ExportOptions.stored(settings, given)
         except InputError as error:
             self.bench.tell(Weight.WARNING, str(error))
             self._read_at = (-1, None)

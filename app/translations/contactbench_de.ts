@@ -5359,6 +5359,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>&apos;regions&apos; ist keine Liste von Namen und Farben: Berichtigen Sie das, oder entfernen Sie den Schlüssel.</translation>
     </message>
     <message>
+        <source>(no name)</source>
+        <translation>(kein Name)</translation>
+    </message>
+    <message>
         <source>(not given)</source>
         <translation>(nicht angegeben)</translation>
     </message>
@@ -6067,28 +6071,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Gefunden: {0}</translation>
     </message>
     <message>
-        <source>Gates.friction_angle must be between 0 and 90 degrees, not {0}</source>
-        <translation>Gates.friction_angle muss zwischen 0 und 90 Grad liegen, nicht bei {0}</translation>
-    </message>
-    <message>
-        <source>Gates.implausible_probability must be between 1e-9 and 0.5, not {0}</source>
-        <translation>Gates.implausible_probability muss zwischen 1e-9 und 0,5 liegen, nicht {0}</translation>
-    </message>
-    <message>
-        <source>Gates.recent_samples must be a whole number of at least 0, not {0}</source>
-        <translation>Gates.recent_samples muss eine ganze Zahl von mindestens 0 sein, nicht {0}</translation>
-    </message>
-    <message>
-        <source>Gates.saturation needs six positive limits (N, N·m), not {0}</source>
-        <translation>Gates.saturation braucht sechs positive Grenzen (N, N·m), nicht {0}</translation>
-    </message>
-    <message>
-        <source>Gates.{0} must be at least 0, not {1}</source>
-        <translation>Gates.{0} muss mindestens 0 sein, nicht {1}</translation>
-    </message>
-    <message>
-        <source>Gates.{0} must be between 1 and {1} to one, not {2}</source>
-        <translation>Gates.{0} muss zwischen 1 und {1} zu eins liegen, nicht {2}</translation>
+        <source>Gates.{0}: {1}: correct it.</source>
+        <translation>Gates.{0}: {1}: Korrigieren Sie das.</translation>
     </message>
     <message>
         <source>Gaussian of the distance along the surface, cut off at {0} bandwidths</source>

@@ -294,13 +294,13 @@ def emulate(
     rate
         Frames per second, until a command changes it.
     fault : FAULT
-        May be repeated.
+        Fault to inject; may be repeated.
     seconds
         How long to run.
     still
         Send a constant signal instead of one that swings.
     quirk : QUIRK
-        May be repeated.
+        Quirk to imitate; may be repeated.
     option : NAME=VALUE
         Option as in an address: profile=onrobot. May be repeated.
     seed

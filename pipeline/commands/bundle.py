@@ -14,15 +14,15 @@ from contactbench.pipeline.commands.options import (
     payload_told,
 )
 from contactbench.pipeline.console import Noun, answer, as_json, say, show_tables
-from contactbench.pipeline.parameter_options import numbers
+from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.settings import MountSettings, RobotMaker
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.config.runtime.bench import ExportSettings
     from contactbench.pipeline.config.runtime.differ import Differences
+    from contactbench.pipeline.config.runtime.options import ExportOptions
 
 bundle_app = Noun("Export, check and compare the bundle that a robot's runtime loads.")
 
@@ -36,7 +36,7 @@ BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder o
 @bundle_app.command(example="bundle export bench-1 --model M8128 --rate 1000 --out runtime.zip")
 def export(
     out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
-    turned: MountSettings,
+    chosen: ExportKnobs,
     session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
     calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate fit.")] = None,
     probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
@@ -44,71 +44,9 @@ def export(
     report: Annotated[Path | None, typer.Option(help="HTML report to include.")] = None,
     known_weight: Annotated[Path | None, typer.Option(help="JSON file of calibrate check weight.")] = None,
     known_touch: Annotated[Path | None, typer.Option(help="JSON file of calibrate check touch.")] = None,
-    model: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
-    serial: Annotated[
-        str | None, typer.Option(help="Serial number of the sensor [the one in the session].")
-    ] = None,
-    rate: Annotated[
-        float | None,
-        typer.Option(help="Readings per second, Hz [as verified, if the verification states it]."),
-    ] = None,
     settings_file: Annotated[
         Path | None,
         typer.Option("--settings", help="JSON file with any of: controller, limits, gates, filters."),
-    ] = None,
-    noise_force: Annotated[
-        float | None, typer.Option(help="Standard deviation of one reading, N [from the poses].")
-    ] = None,
-    noise_torque: Annotated[
-        float | None, typer.Option(help="The same for a torque, N·m; give both or neither.")
-    ] = None,
-    cutoff: Annotated[float | None, typer.Option(help="Low-pass of the contact point, Hz [none].")] = None,
-    no_filter: Annotated[
-        bool | None, typer.Option("--no-filter/--filter", help="Do not filter the wrench [filter].")
-    ] = None,
-    saturation: Annotated[
-        str | None,
-        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Saturation of the channels, N, N·m [none]."),
-    ] = None,
-    region_only: Annotated[
-        bool | None,
-        typer.Option("--region-only/--anywhere", help="Refuse contacts outside every region [anywhere]."),
-    ] = None,
-    accept_by_region: Annotated[
-        bool | None,
-        typer.Option(
-            "--accept-by-region/--not-by-region",
-            help="Refuse contacts whose place is certain only because of the regions [accept].",
-        ),
-    ] = None,
-    torsion_arm_mm: Annotated[
-        float | None,
-        typer.Option(help="Usual local torque over the force, mm: hard tip 0.3, soft tissue 1 to 5 [1]."),
-    ] = None,
-    max_force: Annotated[
-        float | None, typer.Option(help="Force that a controller must never exceed, N [30].")
-    ] = None,
-    max_torque: Annotated[
-        float | None, typer.Option(help="Torque that a controller must never exceed, N·m [3].")
-    ] = None,
-    sensor_frame: Annotated[
-        str | None, typer.Option(help="Name of frame S in the robot description [ft_sensor].")
-    ] = None,
-    world_frame: Annotated[
-        str | None, typer.Option(help="Name of frame W in the robot description [base_link].")
-    ] = None,
-    sensor_name: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help=(
-                "Name of the sensor in the robot description's ros2_control tag, for ros2.yaml [a"
-                " placeholder]."
-            ),
-        ),
-    ] = None,
-    operator: Annotated[
-        str | None, typer.Option(help="Responsible person [the author of the session's newest result].")
     ] = None,
     unverified: Annotated[
         bool,
@@ -129,18 +67,9 @@ def export(
     from contactbench.pipeline.config.runtime import UnverifiedError
     from contactbench.pipeline.config.runtime.bench import export_from_files
 
-    if rate is None and cutoff is not None and session is None:
+    if chosen.rate is None and chosen.cutoff is not None and session is None:
         raise typer.BadParameter("--cutoff needs --rate.")
-    given = {
-        "sensor": model, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
-        "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only,
-        "accept_by_region": accept_by_region, "torsion_arm_mm": torsion_arm_mm, "max_force": max_force,
-        "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame,
-        "sensor_name": sensor_name, "operator": operator,
-        "mount": turned.mount,
-        "saturation": None if saturation is None else numbers(saturation, 6, "--saturation"),
-    }  # fmt: skip
-    said = {name: value for name, value in given.items() if value is not None}
+    said = {name: getattr(chosen, name) for name in chosen.model_fields_set}
     try:
         if session is not None:
             made = _of_session(session, said, settings_file, unverified)
@@ -314,20 +243,20 @@ def _of_session(
 
 def _settings(
     stored: Mapping[str, Any], given: Mapping[str, Any], settings_file: Path | None
-) -> ExportSettings:
+) -> ExportOptions:
     """Return settings: what was given, else what a session says; parts of a file take the place of both."""
     from contactbench.pipeline.config.runtime.options import ExportOptions
     from contactbench.pipeline.config.runtime.settings_file import with_file
 
-    settings = ExportOptions.stored(stored, given).settings()
+    options = ExportOptions.stored(stored, given)
     if settings_file is None:
-        return settings
+        return options
     try:
         with settings_file.open("rb") as stream:
             data = stream.read(2**20 + 1)
     except (OSError, ValueError) as error:
         raise typer.BadParameter(f"--settings {settings_file}: the file cannot be read ({error}).") from None
-    return with_file(settings, data, str(settings_file))
+    return with_file(options, data, str(settings_file))
 
 
 def _standing(config: RuntimeConfig) -> str:

@@ -30,10 +30,11 @@ from contactbench.pipeline.parameter_options import numbers
 from contactbench.pipeline.settings import (
     CalibrationSettings,
     CapturesSettings,
+    DelaySettings,
     DownSettings,
+    JointsSettings,
     MountSettings,
     NoiseSettings,
-    Only,
     PosesSettings,
     ReportSettings,
     TaskSettings,
@@ -74,8 +75,6 @@ CalibrationArgument = Annotated[
     Path, typer.Argument(metavar="CALIBRATION", help="File written by contactbench calibrate fit.")
 ]
 
-Delay = Annotated[CapturesSettings, Only("delay")]
-
 
 @calibrate_app.command(
     example=(
@@ -88,7 +87,7 @@ def fit(
     /,
     out: Path,
     given: CalibrationSettings,
-    heard: Delay,
+    heard: DelaySettings,
     said_of: ReportSettings,
     report: Path | None = None,
     serial: SerialOption = None,
@@ -171,7 +170,7 @@ def fit(
 
 
 def _poses(
-    file: Path, given: PosesSettings, R_ES: Any, robot_poses: Path | None, heard: CapturesSettings
+    file: Path, given: PosesSettings, R_ES: Any, robot_poses: Path | None, heard: DelaySettings
 ) -> PoseTable:
     """Read poses or find them in a recording, and tell how, with what was left out."""
     convention = written(given)
@@ -477,14 +476,9 @@ def _calibration(file: Path, given: MountSettings) -> tuple[Calibration, Any]:
 _FEWEST_POSES = 3
 
 
-class ReachSettings(MountSettings):
+class ReachSettings(JointsSettings, MountSettings):
     """Which poses can be taken: what a robot reaches from where it is, or anything by hand."""
 
-    robot: str | None = knob(
-        None,
-        "Orientation is that of a robot's flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.",
-        metavar="NAME|FILE",
-    )
     joints: str | None = knob(None, "Current joints of the robot, degrees.", metavar="J1,...,J6")
     all_joints: bool = knob(False, "Move the arm as well as the wrist: longer moves.")
     tool_length: float = knob(200.0, "Distance from the flange to the tip of the tool, mm.")

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting, write_file, written
+from contactbench.pipeline.commands.options import (
+    CalibrationOption,
+    ProbeOption,
+    refuse_overwriting,
+    write_file,
+    written,
+)
 from contactbench.pipeline.console import Noun, answer, say
 from contactbench.pipeline.settings import TouchSettings, WeightSettings
 
@@ -22,7 +28,6 @@ check_app = Noun(
     " residuals cannot show."
 )
 
-CalibrationOption = Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")]
 OutOption = Annotated[
     Path | None,
     typer.Option(help="Also write the result to this file, JSON, for bundle export and a session."),
@@ -72,7 +77,7 @@ def weight(
 def touch(
     recording: Path,
     /,
-    probe: Path,
+    probe: ProbeOption,
     calibration: CalibrationOption,
     said: TouchSettings,
     point: tuple[float, float, float] | None = None,
@@ -93,8 +98,6 @@ def touch(
     ----------
     recording
         The press: .mcap or .csv.
-    probe
-        The probe, aligned with the sensor.
     point : X,Y,Z
         Pressed point, mm in the sensor frame, as the probe's mesh.
     markers

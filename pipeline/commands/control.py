@@ -224,7 +224,7 @@ def run(
     stiffness
         Stiffness of the phantom at the wanted force, N/m [soft tissue].
     friction
-        Motion of the phantom.
+        Coefficient of friction of the phantom.
     seed
         Seed of noise and of the calibration error.
     real_time

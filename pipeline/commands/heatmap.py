@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting, write_file
 from contactbench.pipeline.console import Bar, Noun, answer, say
-from contactbench.pipeline.settings import MountSettings, mount_rotation
+from contactbench.pipeline.settings import HeatmapSettings, ReadingSettings, metres, mount_rotation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -90,9 +89,7 @@ def found_contacts(
     files: HeatmapFiles,
     content: ProbeFile,
     wrenches: Path | None,
-    turned: MountSettings,
-    delay: float,
-    min_force: float,
+    given: ReadingSettings,
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
     from contactbench.pipeline.calibration.files.capture_file import is_recording
@@ -101,7 +98,7 @@ def found_contacts(
     if is_recording(files.contacts):
         if wrenches is not None:
             raise typer.BadParameter("--wrenches is for a CSV file of contacts; a recording contains them.")
-        return _located(files, content, turned, delay, min_force)
+        return _located(files, content, given)
     if files.calibration is not None:
         raise typer.BadParameter("--calibration is for a recording; these contacts are already located.")
     if not _is_json(files.contacts):
@@ -121,9 +118,7 @@ def found_contacts(
     return touches_of(verification)
 
 
-def _located(
-    files: HeatmapFiles, content: ProbeFile, turned: MountSettings, delay: float, min_force: float
-) -> Contacts:
+def _located(files: HeatmapFiles, content: ProbeFile, given: ReadingSettings) -> Contacts:
     if files.calibration is None:
         raise typer.BadParameter(
             "a recording needs --calibration because its readings include the weight of the probe."
@@ -133,15 +128,15 @@ def _located(
     from contactbench.pipeline.heatmap.contacts import locate_recording
 
     model = load_calibration(files.calibration).model
-    R_ES = mount_rotation(turned.mount or files.mount)
+    R_ES = mount_rotation(given.mount or files.mount)
     with Bar("reading") as bar:
         return locate_recording(
             files.contacts,
             content.probe,
             model,
-            gates=Gates(min_force=min_force),
+            gates=Gates(min_force=given.min_force),
             R_ES=R_ES,
-            delay=delay,
+            delay=given.delay,
             progress=bar,
         )
 
@@ -164,24 +159,6 @@ _PAGES = (".html", ".pdf")
 _FILMS = (".mp4", ".gif")
 
 
-class QuantityName(StrEnum):
-    """What to show."""
-
-    density = "density"
-    force = "force"
-    peak = "peak"
-    error = "error"
-    uncertainty = "uncertainty"
-
-
-class NormalisationName(StrEnum):
-    """What the integral of a density over the surface is."""
-
-    contacts = "contacts"
-    seconds = "seconds"
-    rate = "rate"
-
-
 @heatmap_app.command(
     example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"),
 )
@@ -189,32 +166,11 @@ def draw(
     contacts: Path,
     /,
     out: Path,
-    turned: MountSettings,
+    given: HeatmapSettings,
     probe: Path | None = None,
     calibration: Path | None = None,
-    quantity: QuantityName = QuantityName.density,
-    bandwidth: float | None = None,
-    normalisation: Annotated[
-        NormalisationName, typer.Option("--per", help="Integral of a density over the surface.")
-    ] = NormalisationName.contacts,
     wrenches: Path | None = None,
     markers: Path | None = None,
-    marker_distance: float = 10.0,
-    delay: float = 0.0,
-    min_force: float = 0.5,
-    start: Annotated[
-        float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
-    ] = None,
-    end: Annotated[
-        float | None, typer.Option("--to", help="Only contacts up to here, s after the first sample.")
-    ] = None,
-    least_force: Annotated[
-        float | None, typer.Option("--force-from", help="Only contacts with this force or more, N.")
-    ] = None,
-    most_force: Annotated[
-        float | None, typer.Option("--force-to", help="Only contacts with this force or less, N.")
-    ] = None,
-    by_confidence: bool = False,
     speed: float = 1.0,
     last: float | None = None,
 ) -> None:
@@ -239,22 +195,10 @@ def draw(
         Probe that contactbench prepared, .ply [in a session: its newest].
     calibration
         For a recording: what contactbench calibrate fit wrote.
-    quantity
-        Quantity to show.
-    bandwidth
-        Standard deviation of the Gaussian, mm [the contacts' own uncertainty, at least 1.5].
     wrenches
         For a CSV of contacts: the wrenches they were located from, for forces.
     markers
         For the error: CSV with x_mm,y_mm,z_mm of the touched points.
-    marker_distance
-        A contact farther than this from every marker touched none, mm.
-    delay
-        Delay of a wrench after its pose, s.
-    min_force
-        In a recording, a touch is above this force, N.
-    by_confidence
-        Weight each contact by the confidence of its place, 0 to 1.
     speed
         Film: seconds of contacts per second of film, 0.1 to 50.
     last
@@ -269,25 +213,31 @@ def draw(
         raise typer.BadParameter(
             "--last is for a film: name a file that ends in .mp4 or .gif, or give --from."
         )
-    judged = quantity is QuantityName.error and markers is None
-    given = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
-    refuse_overwriting(out, given)
+    judged = given.quantity == "error" and markers is None
+    read = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
+    refuse_overwriting(out, read)
     from contactbench.pipeline.heatmap.selection import Selection, windowed
 
-    metres = None if bandwidth is None else bandwidth / 1000
     selection = Selection(
-        quantity.value, normalisation.value, metres, start, end, least_force, most_force, by_confidence
+        given.quantity,
+        given.normalisation,
+        metres(given.bandwidth),
+        given.start,
+        given.end,
+        given.least_force,
+        given.most_force,
+        given.by_confidence,
     )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = probe_in_sensor_frame(files.probe)
-        found = found_contacts(files, content, wrenches, turned, delay, min_force)
+        found = found_contacts(files, content, wrenches, given)
         _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
-        made, left_out, notes = _made(part, content, selection, markers, marker_distance)
+        made, left_out, notes = _made(part, content, selection, markers, given.marker_distance)
     for sentence in notes:
         say(f"warning: {sentence}", "yellow")
     if kind in _FILMS:
-        _write_film(found, content, selection, markers, marker_distance, out, speed, last)
+        _write_film(found, content, selection, markers, given.marker_distance, out, speed, last)
     elif kind in _PAGES:
         _write_page(made, out, left_out, notes)
     else:
@@ -353,9 +303,9 @@ def _values(
     """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
     from contactbench.pipeline.heatmap.selection import shown
 
-    if selection.quantity in (QuantityName.force, QuantityName.peak) and found.forces is None:
+    if selection.quantity in ("force", "peak") and found.forces is None:
         raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
-    if selection.quantity == QuantityName.error:
+    if selection.quantity == "error":
         return _errors(found, markers, marker_distance, left_out, notes)
     values, use = shown(found, selection)
     _count(left_out, "uncertainty unknown", ~use)
@@ -380,7 +330,7 @@ def _write_film(
     from contactbench.pipeline.heatmap.playback import Playback
     from contactbench.pipeline.heatmap.selection import in_order
 
-    if selection.quantity == QuantityName.error:
+    if selection.quantity == "error":
         errors, use = _errors(found, markers, marker_distance, {}, [])
         found = replace(found, known_errors=np.where(use, errors, np.nan))
     playback = Playback(content.probe, in_order(found), selection.bandwidth)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import Any
 
 from contactbench import __version__
 from contactbench.pipeline.console import Noun, answer, as_json
+from contactbench.pipeline.installation import processor
 
 info_app = Noun()
 
@@ -57,7 +57,7 @@ def facts() -> dict[str, Any]:
         "python": platform.python_version(),
         **{name: _version(name) for name in ("numpy", "scipy", "manifold3d")},
         "platform": platform.platform(),
-        "cpu": _cpu_model(),
+        "cpu": processor(),
         "cpu_count": os.cpu_count(),
         "cpu_features": dict(import_module("contactbench.pipeline.kernel._cpu").features()),
         "kernel": kernel.variant,
@@ -77,18 +77,6 @@ def _version(*distributions: str) -> str:
         except PackageNotFoundError:
             continue
     return "unknown version"
-
-
-def _cpu_model() -> str:
-    import platform
-
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass  # not Linux
-    return platform.processor() or platform.machine() or "unknown"
 
 
 def _plain(value: object) -> str:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING
 
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
 from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
-from contactbench.pipeline.parameter_options import numbers
+from contactbench.pipeline.gates import GateSettings
+from contactbench.pipeline.settings import TouchModelSettings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,84 +47,19 @@ class MethodName(StrEnum):
     example=("locate --probe probe.stl --units mm --place 0,0,45,0,0,90 wrenches.csv --out contacts.csv"),
 )
 def locate(
-    wrenches: Annotated[Path, typer.Argument(metavar="WRENCHES", help="CSV file, or - for standard input.")],
-    probe: Annotated[
-        Path, typer.Option(help="Mesh of the probe: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
-    ],
-    out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
-    units: Annotated[
-        Units | None,
-        typer.Option(help="Unit of the mesh's numbers [as stated in the file, or guessed from its size]."),
-    ] = None,
-    place: Annotated[
-        str | None,
-        typer.Option(
-            metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: position in --units, or in the mesh's unit, rotations about the"
-            " fixed axes x, then y, then z, degrees. Left out: the mesh is in S.",
-        ),
-    ] = None,
-    method: Annotated[
-        MethodName, typer.Option(help="Method that locates the contact.")
-    ] = MethodName.contactbench,
-    track: Annotated[bool, typer.Option("--track", help="Follow the contact from row to row.")] = False,
-    noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
-    torsion_arm: Annotated[
-        float | None,
-        typer.Option(
-            help="Torsion that a touch may have, 1 sigma: local torque over force, mm. A hard tip has 0.3, soft"
-            " tissue 1 to 5 [1]."
-        ),
-    ] = None,
-    model_force: Annotated[
-        float | None,
-        typer.Option(help="Error that drift, cable and hysteresis leave in a force, 1 sigma, N [0.05]."),
-    ] = None,
-    model_torque: Annotated[float | None, typer.Option(help="The same for a torque, mN·m [1].")] = None,
-    min_force: Annotated[
-        float | None, typer.Option(help="Reason low_force below this force, N [0.5].")
-    ] = None,
-    friction_angle: Annotated[
-        float | None, typer.Option(help="Reason tangential beyond this angle to the normal, degrees [75].")
-    ] = None,
-    ambiguity_distance: Annotated[
-        float | None,
-        typer.Option(help="Reason ambiguous when another likely place is this far away, mm [5]."),
-    ] = None,
-    follow_distance: Annotated[
-        float | None, typer.Option(help="With --track: prefer places this near the last contact, mm [10].")
-    ] = None,
-    saturation: Annotated[
-        str | None,
-        typer.Option(
-            metavar="FX,FY,FZ,MX,MY,MZ", help="Reason saturated when a channel reaches this, N, N·m [none]."
-        ),
-    ] = None,
-    region_only: Annotated[
-        bool, typer.Option("--region-only", help="Refuse contacts outside every region of the mesh.")
-    ] = False,
-    accept_by_region: Annotated[
-        bool,
-        typer.Option(
-            "--accept-by-region/--no-accept-by-region",
-            help=(
-                "With --track: also follow contacts whose place is certain only because of the"
-                " regions of the mesh."
-            ),
-        ),
-    ] = True,
+    wrenches: Path,
+    /,
+    probe: Path,
+    out: Path,
+    gates: GateSettings,
+    known: TouchModelSettings,
+    units: Units | None = None,
+    place: tuple[float, float, float, float, float, float] | None = None,
+    method: MethodName = MethodName.contactbench,
+    track: bool = False,
     patch: PatchOption = None,
-    compensated: Annotated[
-        bool,
-        typer.Option(
-            "--compensated",
-            help="Accept a file with the columns of a raw recording: it is already compensated.",
-        ),
-    ] = False,
-    allow_nan: Annotated[
-        bool, typer.Option("--allow-nan", help="Answer NaN, infinity and empty cells with not_finite.")
-    ] = False,
+    compensated: bool = False,
+    allow_nan: bool = False,
 ) -> None:
     """Locate the contact of each wrench in a CSV file.
 
@@ -134,31 +70,41 @@ def locate(
     untouchable) and is written completely or not at all.
 
     Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named.
+
+    Parameters
+    ----------
+    wrenches
+        CSV file, or - for standard input.
+    probe
+        Mesh of the probe: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.
+    out
+        CSV file to write, or - for standard output.
+    units
+        Unit of the mesh's numbers [as stated in the file, or guessed from its size].
+    place : X,Y,Z,RX,RY,RZ
+        Pose of the mesh in S: position in --units, or in the mesh's unit, rotations about the fixed axes x, then y,
+        then z, degrees. Left out: the mesh is in S.
+    method
+        Method that locates the contact.
+    track
+        Follow the contact from row to row.
+    compensated
+        Accept a file with the columns of a raw recording: it is already compensated.
+    allow_nan
+        Answer NaN, infinity and empty cells with not_finite.
     """
     _check_usage(out, method, track, patch)
-    placed = None if place is None else numbers(place, 6, "--place")
-    limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
-    from contactbench.pipeline.contact import Gates, WrenchNoise
+    from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
     from contactbench.pipeline.contact.patch import Bed, PatchReader
     from contactbench.pipeline.contact.stream import locate_file, refuse_overwriting
 
     refuse_overwriting(out, probe)
-    given = {
-        "min_force": min_force,
-        "friction_angle": friction_angle,
-        "ambiguity_distance": None if ambiguity_distance is None else ambiguity_distance / 1000,
-        "follow_distance": None if follow_distance is None else follow_distance / 1000,
-        "saturation": limits,
-        "region_only": region_only,
-        "accept_by_region": accept_by_region,
-    }
-    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    gates, noise = Gates(**chosen), WrenchNoise(noise_force, noise_torque)
-    model = _model(torsion_arm, model_force, model_torque)
-    surface, warnings = _load(probe, units, placed)
+    noise = WrenchNoise(known.noise_force, known.noise_torque)
+    model = TouchModel(known.torsion_arm, WrenchNoise(known.model_force, known.model_torque))
+    surface, warnings = _load(probe, units, place)
     for sentence in warnings:
         say(f"warning: {sentence}", "yellow")
-    locator = _locator(method, surface, noise, gates, model)
+    locator = _locator(method, surface, noise, Gates(**dict(gates)), model)
     dash = Path("-")
     with Bar("locating") as bar:
         summary = locate_file(
@@ -214,19 +160,6 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
                 " `contactbench probe align`, or give --place."
             )
     return probe, [f"{path}: {sentence}" for sentence in sentences]
-
-
-def _model(torsion_arm: float | None, force: float | None, torque: float | None) -> TouchModel:
-    """Return what is known of a touch: mm, N and mN·m; None: the default."""
-    from contactbench.pipeline.contact import TouchModel, WrenchNoise
-    from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-
-    error = WrenchNoise(
-        DEFAULT_FORCE_N if force is None else force, DEFAULT_TORQUE_NM if torque is None else torque / 1000
-    )
-    if torsion_arm is None:
-        return TouchModel(model_error=error)
-    return TouchModel(torsion_arm / 1000, error)
 
 
 def _locator(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.commands.options import ProbeOption, refuse_overwriting
 from contactbench.pipeline.console import Noun, answer, say
 
 markers_app = Noun("Make markers for a probe, and move them onto its surface.")
@@ -57,15 +57,13 @@ def generate(
 
 
 @markers_app.command(example="probe markers snap measured.csv --probe probe.ply --out markers.csv")
-def snap(markers: Path, /, probe: Path, out: MarkersOut, limit: float = 5.0) -> None:
+def snap(markers: Path, /, probe: ProbeOption, out: MarkersOut, limit: float = 5.0) -> None:
     """Move markers to the nearest points of a probe's surface, and print how far each moved.
 
     Parameters
     ----------
     markers
         CSV file: name,x_mm,y_mm,z_mm.
-    probe
-        The probe, aligned with the sensor.
     limit
         Refuse markers farther from the surface, mm.
     """

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.payload import Payload
     from contactbench.pipeline.settings import OrientationSettings
 
+CalibrationOption = Annotated[Path, typer.Option(help="File written by contactbench calibrate fit.")]
+ProbeOption = Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")]
 RobotPosesOption = Annotated[
     Path | None,
     typer.Option(

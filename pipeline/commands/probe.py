@@ -13,7 +13,15 @@ from contactbench.pipeline.commands.options import refuse_overwriting, write_fil
 from contactbench.pipeline.commands.regions import regions_app
 from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.durable import make_folder
-from contactbench.pipeline.settings import Only, ProbeSettings, metres
+from contactbench.pipeline.settings import (
+    LadderSettings,
+    MeshSettings,
+    PlaceSettings,
+    ProbeSettings,
+    ShellSettings,
+    SimplifySettings,
+    metres,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -34,14 +42,9 @@ MeshArgument = Annotated[
 OutOption = Annotated[
     Path, typer.Option(help="Probe to write, .ply; its history is written beside it as .json.")
 ]
-Units = Annotated[ProbeSettings, Only("units")]
-Simplified = Annotated[
-    ProbeSettings,
-    Only("units", "facets", "max_deviation", "max_contact_error", "forces", "engine", "region_ratio"),
-]
 
 
-def open_mesh(file: Path, given: ProbeSettings, out: Path | None = None) -> ProbeFile:
+def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> ProbeFile:
     """Read a mesh and say what was noticed; refuse to write over it, or where nothing can be written."""
     refuse_overwriting(out, [file])
     if out is not None:
@@ -57,7 +60,7 @@ def open_mesh(file: Path, given: ProbeSettings, out: Path | None = None) -> Prob
     return content
 
 
-def refuse_to_guess(file: Path, given: ProbeSettings) -> None:
+def refuse_to_guess(file: Path, given: MeshSettings) -> None:
     """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
     from contactbench.pipeline.mesh import MeshError
     from contactbench.pipeline.mesh.load import read_mesh
@@ -185,7 +188,7 @@ class WayToAlign:
 
         if self.place is not None and self.alignment is not None:
             raise typer.BadParameter("--place and --alignment contradict each other: give only one.")
-        return alignment_of(ProbeSettings.checked({"mount": self.place}), self.alignment)
+        return alignment_of(PlaceSettings.checked({"mount": self.place}), self.alignment)
 
     def by_touches(self, content: ProbeFile, touches: Path) -> TouchAlignment:
         """Return the alignment that touches of markers show."""
@@ -238,7 +241,7 @@ def align(
     file: MeshArgument,
     /,
     out: OutOption,
-    read: Units,
+    read: MeshSettings,
     chosen: WayToAlign,
     again: bool = False,
     save: Path | None = None,
@@ -328,7 +331,7 @@ def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) 
 
 
 @probe_app.command(example="probe inspect housing.stl")
-def inspect(file: MeshArgument, given: Units) -> None:
+def inspect(file: MeshArgument, given: MeshSettings) -> None:
     """Describe the defects of a mesh, in words and numbers.
 
     Holes, parts, hidden and double walls, facets flipped or cutting through each other, slivers. Exit
@@ -353,7 +356,7 @@ def inspect(file: MeshArgument, given: Units) -> None:
 def shell(
     file: MeshArgument,
     out: OutOption,
-    given: Annotated[ProbeSettings, Only("units", "close", "alpha", "gap")],
+    given: ShellSettings,
 ) -> None:
     """Make the closed outer surface that can be touched.
 
@@ -378,7 +381,7 @@ def shell(
 
 
 @probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
-def simplify(file: MeshArgument, out: OutOption, given: Simplified) -> None:
+def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> None:
     """Reduce the facets of a probe, and report the resulting error.
 
     Distances and angles are measured against the input mesh, both ways.
@@ -411,7 +414,7 @@ def simplify(file: MeshArgument, out: OutOption, given: Simplified) -> None:
 def ladder(
     file: MeshArgument,
     /,
-    given: Annotated[ProbeSettings, Only("units", "max_contact_error", "forces", "engine", "region_ratio")],
+    given: LadderSettings,
     out: Path = Path("contactbench-ladder"),
     facets: str | None = None,
     noise_force: float = 0.05,

@@ -15,7 +15,7 @@ import typer
 
 from contactbench.pipeline.commands.options import refuse_overwriting
 from contactbench.pipeline.console import Bar, Ended, Noun, answer, as_json, ended_by_signals, print_json, say
-from contactbench.pipeline.settings import Only, PosesSettings
+from contactbench.pipeline.settings import JointsSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -35,10 +35,38 @@ _MOST_KINDS = 50
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
+@dataclass(frozen=True)
+class Extent:
+    """
+    What is recorded beside a sensor, and for how long.
+
+    Parameters
+    ----------
+    pose : ADDRESS
+        Also record a robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
+        poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).
+    seconds
+        Duration, s [until Ctrl-C].
+    note
+        Note to keep with the recording.
+    """
+
+    pose: str | None = None
+    seconds: float | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        check_seconds(self.seconds)
+
+
+def check_seconds(seconds: float | None) -> None:
+    """Refuse a duration that is none; typer.BadParameter."""
+    if seconds is not None and not 0 < seconds < 1e6:
+        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+
+
 @record_app.command(example="record start sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
-def start(
-    address: str, /, out: Path, pose: str | None = None, seconds: float | None = None, note: str = ""
-) -> None:
+def start(address: str, /, out: Path, extent: Extent) -> None:
     """Record a force/torque sensor until Ctrl-C, or for some seconds.
 
     ADDRESS is one of contactbench record devices, such as sri+tcp, then :// and its location; or
@@ -53,25 +81,16 @@ def start(
         Address of the sensor.
     out
         Recording to write, .mcap; never overwrites a file.
-    pose : ADDRESS
-        Also record a robot's flange: elfin+tcp://, ur+tcp://, igtl+tcp://, the same replay:// address,
-        poses:///file.csv, or a fixed pose: still://?rpy=0,90,0 (degrees).
-    seconds
-        Duration, s [until Ctrl-C].
-    note
-        Note to keep with the recording.
     """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import open_pair
 
-    if seconds is not None and not 0 < seconds < 1e6:
-        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
     changes = Changes()
     recorder: Recorder
     pair = open_pair(
         address,
-        pose,
+        extent.pose,
         lambda samples: recorder.samples(samples),
         lambda samples: recorder.poses(samples),
         lambda health: recorder.health("sensor", health),
@@ -80,10 +99,10 @@ def start(
     # Until all is written: a second Ctrl-C must not cut the end off.
     with ended_by_signals() as ended:
         try:
-            with RecordingWriter(out, pair.about(note)) as writer:
+            with RecordingWriter(out, pair.about(extent.note)) as writer:
                 recorder = Recorder(writer, changes.tell, clock=pair.now)
                 with recorder, pair:
-                    wait(pair, seconds, ended, recorder.failed, changes)
+                    wait(pair, extent.seconds, ended, recorder.failed, changes)
         finally:
             pair.stop()  # a replay has its file open before it begins
             changes.end()
@@ -413,7 +432,7 @@ def import_bag(
     bag: Path,
     /,
     out: Path,
-    joints: Annotated[PosesSettings, Only("robot")],
+    joints: JointsSettings,
     wrench_topic: str | None = None,
     pose_topic: str | None = None,
     base: str | None = None,

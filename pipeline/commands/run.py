@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import PatchOption
-from contactbench.pipeline.commands.record import Changes, broken
+from contactbench.pipeline.commands.record import Changes, broken, check_seconds
 from contactbench.pipeline.console import Ended, Noun, answer, as_json, ended_by_signals, report_error, say
 from contactbench.pipeline.runtime.outputs import OUTPUTS, open_outputs
 
@@ -107,8 +107,7 @@ def run(
     from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
     from contactbench.pipeline.streams import open_pair
 
-    if seconds is not None and not 0 < seconds < 1e6:
-        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+    check_seconds(seconds)
     wanted = {name: address for name, address in addresses.items() if address is not None} or {"out": "-"}
     if as_json() and wanted.get("out") == "-":
         raise typer.BadParameter(

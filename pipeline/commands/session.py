@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.commands.record import Changes, wait
+from contactbench.pipeline.commands.record import Changes, Extent, wait
 from contactbench.pipeline.console import Bar, Noun, answer, ended_by_signals, say
 from contactbench.pipeline.errors import InputError
 
@@ -33,11 +33,9 @@ def record(
     folder: FolderArgument,
     /,
     source: str,
-    pose: str | None = None,
-    seconds: float | None = None,
+    extent: Extent,
     serial: str | None = None,
     name: str | None = None,
-    note: str = "",
 ) -> None:
     """Record a sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.
 
@@ -50,25 +48,17 @@ def record(
     ----------
     source : ADDRESS
         Address of the sensor, as for record start.
-    pose : ADDRESS
-        Address of a robot: also record its flange.
-    seconds
-        Duration, s [until Ctrl-C].
     serial : SN
         Serial number of the sensor, if known.
     name : NAME.mcap
         Name of the recording [with its start time].
-    note
-        Note to keep with the recording.
     """
-    if seconds is not None and not 0 < seconds < 1e6:
-        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
     from contactbench.pipeline.session import Session
 
     with Session.open(folder) as session:
         for words in session.notes:
             say(f"warning: {words}", "yellow")
-        live, streams = _record(session, source, pose, seconds, serial, name, note)
+        live, streams = _record(session, source, extent, serial, name)
         error = live.recorder.error
         came = all(health.samples and health.failure is None for health in streams.values())
         path = _keep(live, streams)
@@ -80,13 +70,7 @@ def record(
 
 
 def _record(
-    session: Session,
-    source: str,
-    pose: str | None,
-    seconds: float | None,
-    serial: str | None,
-    name: str | None,
-    note: str,
+    session: Session, source: str, extent: Extent, serial: str | None, name: str | None
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
     from contactbench.pipeline.session.live import LiveRecording
@@ -96,14 +80,14 @@ def _record(
     live: LiveRecording
     pair = open_pair(
         source,
-        pose,
+        extent.pose,
         lambda samples: live.recorder.samples(samples),
         lambda samples: live.recorder.poses(samples),
         lambda health: live.recorder.health("sensor", health),
         lambda health: live.recorder.health("robot", health),
     )
     try:
-        about = _with_serial(pair.about(note), serial)
+        about = _with_serial(pair.about(extent.note), serial)
         live = LiveRecording(
             session,
             about,
@@ -114,7 +98,7 @@ def _record(
             patient=pair.stepwise,
         )
         with ended_by_signals() as ended, live, pair:
-            wait(pair, seconds, ended, live.recorder.failed, changes)
+            wait(pair, extent.seconds, ended, live.recorder.failed, changes)
     finally:
         pair.stop()  # a replay has its file open before it begins
         changes.end()

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import typer
 
 from contactbench.pipeline.commands.options import (
+    CalibrationOption,
+    ProbeOption,
     SerialOption,
     refuse_overwriting,
     serials_of,
@@ -39,8 +41,8 @@ verify_app = Noun("Judge contact points by touches of markers, and write the res
 def touches(
     recording: Path,
     /,
-    probe: Path,
-    calibration: Path,
+    probe: ProbeOption,
+    calibration: CalibrationOption,
     markers: Path,
     said: VerificationSettings,
     force: list[tuple[float, float]] | None = None,
@@ -63,10 +65,6 @@ def touches(
     ----------
     recording
         Touches: .mcap or .csv.
-    probe
-        The probe, aligned with the sensor.
-    calibration
-        File written by contactbench calibrate fit.
     markers
         CSV file: name,x_mm,y_mm,z_mm, sensor frame.
     force : LOW,HIGH

@@ -16,19 +16,19 @@ contactbench   the likeliest touch, with every other one that explains the wrenc
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline import kernel
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.contact.paraboloid import fit_contact_face, locate_with_scipy
+from contactbench.pipeline.contact.paraboloid import fit_contact_face
 from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.kernel import Batch, Contact
 from contactbench.pipeline.mesh import Probe
 
@@ -102,16 +102,8 @@ def iterative(
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
     model: TouchModel | None = None,
-    *,
-    library: Literal["compiled", "scipy"] = "compiled",
 ) -> ContactMethod:
     """Return Levenberg-Marquardt on a paraboloid fitted to the contact face.
-
-    Parameters
-    ----------
-    library : {"compiled", "scipy"}
-        Our own compiled iteration, or ``scipy.optimize.least_squares``: the same equations, so that the
-        difference between the two is what an interpreter costs.
 
     Raises
     ------
@@ -120,9 +112,6 @@ def iterative(
     """
     solver = ContactSolver(probe, noise, gates, model)
     surface = fit_contact_face(probe)
-    if library == "scipy":
-        by_scipy = locate_with_scipy(solver, surface)
-        return ContactMethod("iterative", lambda w: by_scipy(np.reshape(w, (1, 6)))[0], by_scipy, by_scipy)
     engine = kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
     return _compiled("iterative", engine)
 

@@ -1,15 +1,11 @@
-"""The iterative rival's surface: a paraboloid fitted to the contact face, and its solution by SciPy."""
+"""The iterative rival's surface: a paraboloid fitted to the contact face."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import least_squares
+from numpy.typing import NDArray
 
-from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.kernel import Batch
 from contactbench.pipeline.mesh import Probe
 
 Float = NDArray[np.float64]
@@ -84,57 +80,5 @@ def fit_contact_face(probe: Probe) -> Paraboloid:
     )
 
 
-def locate_with_scipy(solver: ContactSolver, surface: Paraboloid) -> Callable[[ArrayLike], Batch]:
-    """Return a batch solver by ``scipy.optimize.least_squares(method="lm")`` on the same equations.
-
-    The facet reported is the one of the contact face nearest in the tangent plane.
-    """
-    probe = solver.probe
-    faces = np.flatnonzero(contact_face(probe))
-    centroids = (probe.vertices[probe.faces[faces]].mean(axis=1) - surface.origin_S) @ surface.axes_S.T
-
-    def locate_batch(wrenches: ArrayLike) -> Batch:
-        rows = np.ascontiguousarray(wrenches, dtype=np.float64).reshape(-1, 6)
-        points = np.full((len(rows), 3), np.nan)
-        torques = np.full(len(rows), np.nan)
-        hit = np.full(len(rows), -1, dtype=np.int32)
-        for i, row in enumerate(rows):
-            solution = _solve(surface, row)
-            if solution is None:
-                continue
-            x, y, torque = solution
-            z = float((_monomials(np.array([x]), np.array([y])) @ surface.coefficients)[0])
-            points[i] = surface.origin_S + np.array([x, y, z]) @ surface.axes_S
-            torques[i] = torque
-            hit[i] = faces[np.argmin(np.sum((centroids[:, :2] - [x, y]) ** 2, axis=1))]
-        return solver.foreign_batch(rows, points, hit, torques)
-
-    return locate_batch
-
-
 def _monomials(x: Float, y: Float) -> Float:
     return np.column_stack([np.ones_like(x), x, y, x * x, x * y, y * y])
-
-
-def _solve(surface: Paraboloid, wrench: Float) -> tuple[float, float, float] | None:
-    force = surface.axes_S @ wrench[:3]
-    torque = surface.axes_S @ (wrench[3:] - np.cross(surface.origin_S, wrench[:3]))
-    if not np.all(np.isfinite(wrench)):
-        return None
-    c = surface.coefficients
-
-    def residual(u: Float) -> Float:
-        x, y, k = u
-        z = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y
-        normal = np.array([-c[1] - 2 * c[3] * x - c[4] * y, -c[2] - c[4] * x - 2 * c[5] * y, 1.0])
-        return np.asarray(np.cross([x, y, z], force) + k * normal - torque)
-
-    # Scale: a millimetre moves the residual about as much as a newton-millimetre of local torque.
-    found = least_squares(
-        residual, np.zeros(3), method="lm", x_scale=[1e-3, 1e-3, 1e-3], xtol=1e-12, ftol=1e-14
-    )
-    x, y, k = (float(v) for v in found.x)
-    slope = np.array([-c[1] - 2 * c[3] * x - c[4] * y, -c[2] - c[4] * x - 2 * c[5] * y, 1.0])
-    if not found.success or np.hypot(x, y) > surface.reach or slope @ force >= 0:
-        return None
-    return x, y, k * float(np.linalg.norm(slope))

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh import Probe
 
 
@@ -70,7 +70,7 @@ class ContactSolver(kernel.Solver):
             torsion_arm=self.model.torsion_arm,
             mesh_deviation=self.model.mesh_deviation,
             mesh_curved=self.model.mesh_curved,
-            **self.gates.kernel_arguments(),
+            gates=self.gates.kernel_values(),
         )
 
     def on(self, contact: kernel.Contact) -> str | None:

@@ -5,8 +5,7 @@ from math import isfinite
 
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg
-
-DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.05, 0.001
+from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +33,7 @@ class TouchModel:
         A length is negative, not finite, or longer than a kilometre.
     """
 
-    torsion_arm: float = 0.001
+    torsion_arm: float = TORSION_ARM_M
     model_error: WrenchNoise = field(default_factory=lambda: WrenchNoise(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM))
     mesh_deviation: float = 0.0
     mesh_curved: bool = True

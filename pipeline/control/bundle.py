@@ -9,12 +9,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
-from contactbench.pipeline.config.runtime.values import gates_of, touch_model_of
+from contactbench.pipeline.config.runtime.values import touch_model_of
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.control.command import SensorMount
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -36,14 +37,12 @@ def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "c
     """
     noise = WrenchNoise(config.model.noise.force_N, config.model.noise.torque_Nm)
     model = touch_model_of(config.model.touch)
-    gates = gates_of(config.model.gates)
     # Odds stand with the regions: of the first of either kind all others follow.
     odds = {region.untouchable: region.odds for region in reversed(config.model.regions)}
-    gates = replace(
-        gates,
-        region_odds=odds.get(False, gates.region_odds),
-        untouchable_odds=1 / odds[True] if True in odds else gates.untouchable_odds,
-    )
+    others = {"region_odds": odds[False]} if False in odds else {}
+    if True in odds:
+        others["untouchable_odds"] = 1 / odds[True]
+    gates = Gates.of_stored(config.model.gates, **others)
     return SampleIntake(
         config.probe, config.gravity, noise, gates, model, method=method, stale=settings.stale
     )

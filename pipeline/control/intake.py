@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import message
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

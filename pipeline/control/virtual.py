@@ -8,12 +8,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.config.runtime.values import gates_of
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.loop import Rig, arm_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     MovedScene,
@@ -152,6 +152,6 @@ def _sensor(
     return SensorSettings(
         noise=np.array([*noise.force_N, *noise.torque_Nm]),
         bias=np.concatenate([force_bias, torque_bias]),
-        limit=np.array(gates_of(config.model.gates).saturation),
+        limit=np.array(Gates.of_stored(config.model.gates).saturation),
         rate=min(config.model.sensor.rate_Hz, _FASTEST_HZ),
     )

@@ -9,9 +9,9 @@ import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import creation_time
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
-from contactbench.pipeline.config.runtime.bench import ExportSettings, export_from_files
+from contactbench.pipeline.config.runtime.bench import export_from_files
+from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import KNOWN
-from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.settings import ControlSettings
@@ -219,19 +219,18 @@ def _judged(found: Verification) -> CheckResult:
     )
 
 
-def export_settings(tool: DemoTool, probe: Path) -> ExportSettings:
+def export_settings(tool: DemoTool, probe: Path) -> ExportOptions:
     """Return how a bundle of the tool is exported."""
     usual = ControlSettings.for_probe(Foundation(load_probe_file(probe).probe))
     fx, fy, fz, mx, my, mz = tool.settings.limit.tolist()
-    return ExportSettings(
+    return ExportOptions(
         sensor=SENSOR_MODEL,
         rate=RATE_HZ,
-        noise=tool.noise(),
-        gates=Gates(saturation=(fx, fy, fz, mx, my, mz)),
+        saturation=(fx, fy, fz, mx, my, mz),
         controller=controller_of(usual),
         operator=OPERATOR,
-        mount=_UNTURNED,
-    )
+        mount=(0.0, 0.0, 0.0),
+    ).having({}, noise=tool.noise())
 
 
 # ---- the bundle at work ------------------------------------------------------------------------

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from contactbench.pipeline.colour_ramp import end_of_colours
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
+from contactbench.pipeline.settings import Normalisation, Quantity
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.mesh import Probe
 
-Quantity = Literal["density", "force", "peak", "error", "uncertainty"]
-Normalisation = Literal["contacts", "seconds", "rate"]
 
 SMALLEST_BANDWIDTH = 1.5e-3  # m: the default where contacts are surer than that
 _LARGEST_SHARE = 0.5  # of the probe's size: a wider bell says nothing of any place

@@ -14,8 +14,6 @@ import numpy as np
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.heatmap.heatmap import (
     HeatmapError,
-    Normalisation,
-    Quantity,
     default_bandwidth,
     heatmap,
 )
@@ -27,6 +25,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.heatmap.contacts import Contacts
     from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.settings import Normalisation, Quantity
 
 OUTSIDE_TIME, OUTSIDE_FORCE = message("outside the time window"), message("outside the force range")
 

@@ -1,4 +1,4 @@
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from enum import IntEnum
 from typing import SupportsIndex
 
@@ -296,20 +296,7 @@ class Runtime:
         motion: tuple[float, float] | None,
         gravity_covariance: NDArray[np.float64] | None = None,
         orientation_sigma: float = ...,
-        min_force: float,
-        cos_friction: float,
-        implausible_misfit: float,
-        rival_cost: float,
-        ambiguity_distance: float,
-        behind_cost: float,
-        behind_distance: float,
-        follow_cost: float,
-        follow_distance: float,
-        recent_samples: int,
-        max_age: float,
-        saturation: NDArray[np.float64],
-        region_only: bool,
-        accept_by_region: bool,
+        gates: Mapping[str, object],
     ) -> None: ...
     def pose(self, R: NDArray[np.float64], p: NDArray[np.float64], time: float) -> bool: ...
     def locate(
@@ -340,20 +327,7 @@ class Solver:
         torsion_arm: float,
         mesh_deviation: float,
         mesh_curved: bool,
-        min_force: float,
-        cos_friction: float,
-        implausible_misfit: float,
-        rival_cost: float,
-        ambiguity_distance: float,
-        behind_cost: float,
-        behind_distance: float,
-        follow_cost: float,
-        follow_distance: float,
-        recent_samples: int,
-        max_age: float,
-        saturation: NDArray[np.float64],
-        region_only: bool,
-        accept_by_region: bool,
+        gates: Mapping[str, object],
     ) -> None: ...
     def locate(self, wrench: ArrayLike, previous: NDArray[np.float64] | None = ...) -> Contact: ...
     def locate_batch(self, wrenches: ArrayLike, threads: int = ...) -> Batch: ...

@@ -26,7 +26,7 @@ from contactbench.pipeline.preparation.steps import (
     simplify_step,
 )
 from contactbench.pipeline.preparation.targets import target_of
-from contactbench.pipeline.settings import metres
+from contactbench.pipeline.settings import ShellSettings, metres
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.files import File
     from contactbench.pipeline.mesh.soundness import Soundness
     from contactbench.pipeline.preparation.alignment import Alignment
-    from contactbench.pipeline.settings import ProbeSettings
+    from contactbench.pipeline.settings import PlaceSettings, ProbeSettings
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
@@ -176,7 +176,7 @@ def prepared(
     return Preparation(content, dense.shell, simplified, soundness, carried)
 
 
-def alignment_of(given: ProbeSettings, file: File | None) -> Alignment | None:
+def alignment_of(given: PlaceSettings, file: File | None) -> Alignment | None:
     """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
     if file is not None:
         try:
@@ -206,7 +206,7 @@ def part_of(progress: Progress, low: float, high: float) -> Progress:
 
 def dense_of(
     mesh: File,
-    given: ProbeSettings,
+    given: ShellSettings,
     *,
     aligned_later: bool = False,
     remember: bool = False,
@@ -220,7 +220,7 @@ def dense_of(
     ----------
     mesh : path
         With its JSON file beside it, if it is contactbench's.
-    given : ProbeSettings
+    given : ShellSettings
     aligned_later : bool
         Refuse a mesh that is aligned already.
     remember : bool
@@ -241,7 +241,7 @@ def dense_of(
 
 
 def _closed(
-    mesh: File, given: ProbeSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
+    mesh: File, given: ShellSettings, progress: Progress, cancelled: Cancel, *, aligned_later: bool
 ) -> tuple[ProbeFile, Shell]:
     """Read a mesh file and make its outer surface."""
     content = import_mesh(mesh, given.units)
@@ -262,17 +262,17 @@ def _closed(
     return replace(content, notes=notes), shell
 
 
-def closings_of(given: ProbeSettings) -> Closing | Sequence[Closing]:
+def closings_of(given: ShellSettings) -> Closing | Sequence[Closing]:
     """Return how openings are closed: one way for all, or one after the other."""
     ways = [Closing(each) for each in given.close]
     return ways[0] if len(ways) == 1 else ways or Closing.AUTO
 
 
-def _key(mesh: File, given: ProbeSettings) -> tuple[object, ...]:
+def _key(mesh: File, given: ShellSettings) -> tuple[object, ...]:
     # Only a regular file has a hash; of others the reader says what is wrong.
     files = (each for each in (mesh, sidecar_of(mesh)) if each.is_file())
     hashes = tuple(hashlib.sha256(each.read_bytes()).hexdigest() for each in files)
-    return ("dense", mesh.name, hashes, given.units, given.close, given.alpha, given.gap)
+    return ("dense", mesh.name, hashes, *(getattr(given, each) for each in ShellSettings.model_fields))
 
 
 def _said_of(placed: ProbeFile, given: ProbeSettings) -> tuple[object, ...]:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.simplify import Target
     from contactbench.pipeline.preparation.ladder.compare import Statistic
-    from contactbench.pipeline.settings import ProbeSettings
+    from contactbench.pipeline.settings import SimplifySettings
 
     # A target, and how it is written into a probe's history where that is not plain to see.
     Chosen = tuple[Target, dict[str, Any] | None]
@@ -30,7 +30,7 @@ _FARTHEST = 3.0
 _ENOUGH = 2_000
 
 
-def target_of(given: ProbeSettings) -> Callable[[Probe], Chosen]:
+def target_of(given: SimplifySettings) -> Callable[[Probe], Chosen]:
     """
     Return what gives the target for a full mesh; what makes no sense is refused here, before the work.
 

@@ -23,13 +23,14 @@ from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, main_file
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import touched_mark
-from contactbench.pipeline.session.make_calibration import (
+from contactbench.pipeline.session.make import (
     CalibrationParameters,
     CapturesParameters,
+    ProbeParameters,
     calibration,
     captures,
+    probe,
 )
-from contactbench.pipeline.session.make_probe import ProbeParameters, probe
 from contactbench.pipeline.settings import Three
 from contactbench.pipeline.verification.known_check import TOUCH_ROLES, WEIGHT_ROLES
 from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch

@@ -704,8 +704,7 @@ def _regions_line(standing: Standing) -> CheckItem:
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
     if count:
-        regions = message("one priority region") if count == 1 else message(f"{arg(count)} priority regions")
-        words = message(f"The probe has {arg(regions)}.")
+        words = message(f"The probe has {arg(regions_in_words(count))}.")
     elif standing.state.newest("regions") is not None:
         state = CheckState.MISSING
         words = message("Regions are painted but not applied to the probe yet: apply them.")
@@ -713,6 +712,13 @@ def _regions_line(standing: Standing) -> CheckItem:
         state = CheckState.OPTIONAL
         words = message("No priority regions: all candidates are equal. That is fine for most probes.")
     return CheckItem("Regions", state, words, Step.REGIONS)
+
+
+def regions_in_words(count: int) -> str:
+    """Say how many regions a probe has."""
+    if count == 1:
+        return message("one priority region")
+    return message(f"{arg(count)} priority regions") if count else message("no priority regions")
 
 
 def results_of(state: State) -> Mapping[str, str]:

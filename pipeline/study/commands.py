@@ -73,10 +73,11 @@ def hard_cases(settings: HardCasesSettings) -> None:
     """
     from contactbench.pipeline.durable import write_file
     from contactbench.pipeline.study import hard_cases as study
+    from contactbench.pipeline.study.hard_trials import markdown
 
     report = study.run(samples=settings.samples, seed=settings.seed, progress=say)
     if settings.out:
-        write_file(settings.out, report.markdown().encode())
+        write_file(settings.out, markdown(report.rows).encode())
     _finish(report, settings)
 
 

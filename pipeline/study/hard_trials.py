@@ -19,11 +19,12 @@ from contactbench.pipeline.contact import (
 )
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_judge import CaseJudge
 from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
+from contactbench.pipeline.study.harness import CaseRow
+from contactbench.pipeline.study.report import FigureVerdict
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from collections.abc import Sequence
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class HardCase:
+class HardCase(CaseRow):
     """One hard case, as it went."""
 
     # name, what, expectation: in words
@@ -88,6 +89,30 @@ class HardCase:
     # whether contactbench kept the rule. Algorithm 1 is shown, not judged.
     passed: bool
     faults: tuple[str, ...] = ()  # what was wrong
+
+    @property
+    def verdict(self) -> FigureVerdict:
+        """Whether the rule was kept."""
+        return FigureVerdict.MET if self.passed else FigureVerdict.MISSED
+
+    @property
+    def figures(self) -> tuple[str, str, str]:
+        """What was answered, the largest error, and what was wrong unflagged; Algorithm 1's after the stroke."""
+        both = (self.contactbench, self.algorithm1)
+        return (
+            " / ".join(f"{100 * o.answered:.4g} %" for o in both),
+            " / ".join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
+            " / ".join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
+        )
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """See `CaseRow`."""
+        return self.name, f"{self.tries:,}", *self.figures, "; ".join(self.faults) or "passed"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain values."""
+        return asdict(self)
 
 
 _SAME_TOUCH, _ROUNDING_M, _TIED = 4.5, 1e-9, 1e-9
@@ -179,25 +204,11 @@ def certified(body: SolidBody, wrenches: Float) -> Check:
     return check
 
 
-def judged(drawn: Drawn) -> Check:
-    """Refuse answers that are not those of every facet one by one, judged by d2 as it is defined."""
-
-    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        if not isinstance(method.engine, ContactSolver):
-            return np.zeros(len(drawn), dtype=bool)
-        judge = CaseJudge(method.engine)
-        wrong = [bool(judge.faults(w, batch[i])) for i, w in enumerate(drawn.wrenches)]
-        return np.array(wrong, dtype=bool)
-
-    return check
-
-
 def complete(drawn: Drawn) -> Check:
-    """Refuse what `judged` does, and answers that have the truth neither as point nor as candidate."""
+    """Refuse answers that have the truth neither as point nor as candidate."""
 
     def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        broken = judged(drawn)(method, batch)
-        solver = method.engine
+        solver, broken = method.engine, np.zeros(len(drawn), dtype=bool)
         if not isinstance(solver, ContactSolver):
             return broken
         for i, truth in enumerate(drawn.points):
@@ -205,7 +216,7 @@ def complete(drawn: Drawn) -> Check:
             points = [c.point for c in found.candidates] + ([] if found.point is None else [found.point])
             off = np.linalg.norm(np.reshape(points, (-1, 3)) - truth, axis=1)
             # What is nearer to a candidate is the same touch.
-            broken[i] |= off.min(initial=np.inf) > solver.gates.ambiguity_distance
+            broken[i] = off.min(initial=np.inf) > solver.gates.ambiguity_distance
         return broken
 
     return check
@@ -241,58 +252,13 @@ def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
     return check
 
 
-@dataclass(frozen=True)
-class HardCasesReport:
-    """Every case."""
-
-    # samples, seed: as given to :func:`run`
-    samples: int
-    seed: int
-    cases: list[HardCase]
-
-    @property
-    def passed(self) -> bool:
-        """Whether every case passed."""
-        return all(case.passed for case in self.cases)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        return {"passed": self.passed, **asdict(self)}
-
-    def tables(self) -> list[Table]:
-        """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
-        from rich.table import Table
-
-        built = Table(title=f"Hard cases, contactbench | algorithm1, seed {self.seed}")
-        for title in _COLUMNS:
-            built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
-        for case in self.cases:
-            style = "" if case.passed else "red"
-            built.add_row(case.name, f"{case.tries:,}", *_figures(case, " | "), _verdict(case), style=style)
-        return [built]
-
-    def markdown(self) -> str:
-        """Write it as Markdown: the table, then each case in words."""
-        lines = ["| " + " | ".join(_COLUMNS) + " |", "|---|---:|---:|---:|---:|---|"]
-        for case in self.cases:
-            figures = " | ".join(_figures(case, " / "))
-            lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
-        lines += ["", "Figures are contactbench / algorithm1.", ""]
-        lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in self.cases]
-        return "\n".join(lines) + "\n"
+HEADINGS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
 
 
-_COLUMNS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
-
-
-def _figures(case: HardCase, stroke: str) -> tuple[str, str, str]:
-    both = (case.contactbench, case.algorithm1)
-    return (
-        stroke.join(f"{100 * o.answered:.4g} %" for o in both),
-        stroke.join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
-        stroke.join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
-    )
-
-
-def _verdict(case: HardCase) -> str:
-    return "passed" if case.passed else "; ".join(case.faults)
+def markdown(cases: Sequence[HardCase]) -> str:
+    """Write cases as Markdown: the table, then each case in words."""
+    lines = ["| " + " | ".join(HEADINGS) + " |", "|---|---:|---:|---:|---:|---|"]
+    lines += [f"| {case.name} | {case.tries} | {' | '.join(case.cells[2:])} |" for case in cases]
+    lines += ["", "Figures are contactbench / algorithm1.", ""]
+    lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in cases]
+    return "\n".join(lines) + "\n"

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.study.report import Cell
+
     Array = NDArray[np.float64]
 
 FACETS = 2_000
@@ -91,34 +93,30 @@ def run(
         progress(f"{reality}")
         return [press_all(name, reality, number) for name, number in benches]
 
+    ideal = pressed(Reality())
+
+    def row(label: str, reality: Reality, mix: Reality, without: Reality | None = None) -> tuple[Cell, ...]:
+        mixed = (pressed(mix), pressed(without)) if without else None
+        return _row(label, pressed(reality), ideal, mixed)
+
     sheets = []
     for mix in mixes:
-        rows, squares = [_row("none", pressed(Reality()), pressed(Reality()))], 0.0
+        rows, squares = [row("none", Reality(), mix)], 0.0
         for effect in mix.on:
-            if effect not in _LATE:
-                alone = mix.only(effect, *_WITH.get(effect, ()))
-                if effect not in _WITH:  # what needs another holds that one's squares, too
-                    both = (MarkerPresses.joined(pressed(each)).rms for each in (alone, Reality()))
-                    squares += next(both) ** 2 - next(both) ** 2
-                label = " with ".join((f"{effect} {getattr(mix, effect):g}", *_WITH.get(effect, ())))
-                rows.append(
-                    _row(
-                        label,
-                        pressed(alone),
-                        pressed(Reality()),
-                        (pressed(mix), pressed(mix.without(effect))),
-                    )
+            if effect in _LATE:
+                continue
+            alone = mix.only(effect, *_WITH.get(effect, ()))
+            if effect not in _WITH:  # what needs another holds that one's squares, too
+                squares += (
+                    MarkerPresses.joined(pressed(alone)).rms ** 2 - MarkerPresses.joined(ideal).rms ** 2
                 )
-        rows.append(_row("together", pressed(mix), pressed(Reality())))
-        sheets.append(
-            Sheet(
-                f"costs-{str(mix).replace(',', '_').replace('=', '-')}",
-                f"What the effects of {mix} cost; the squares of those alone add up to"
-                f" {np.sqrt(max(squares, 0.0)):.2f} mm",
-                _COLUMNS,
-                tuple(rows),
-            )
-        )
+            label = " with ".join((f"{effect} {getattr(mix, effect):g}", *_WITH.get(effect, ())))
+            rows.append(row(label, alone, mix, mix.without(effect)))
+        rows.append(row("together", mix, mix))
+        name = f"costs-{str(mix).replace(',', '_').replace('=', '-')}"
+        sum_mm = np.sqrt(max(squares, 0.0))
+        title = f"What the effects of {mix} cost; the squares of those alone add up to {sum_mm:.2f} mm"
+        sheets.append(Sheet(name, title, _COLUMNS, tuple(rows)))
     about = {"probes": ", ".join(names), "seeds": seeds, "first seed": seed}
     return StudyReport("What a real bench costs", about, (), _NOTES, tuple(sheets))
 
@@ -158,12 +156,10 @@ def _row(
     label: str,
     found: list[MarkerPresses],
     ideal: list[MarkerPresses],
-    mixed: tuple[list[MarkerPresses], list[MarkerPresses]] | None = None,
-) -> tuple[str | float | None, ...]:
+    mixed: tuple[list[MarkerPresses], list[MarkerPresses]] | None,
+) -> tuple[Cell, ...]:
     whole = MarkerPresses.joined(found)
-    saved = None
-    if mixed is not None:
-        saved = MarkerPresses.joined(mixed[0]).rms - MarkerPresses.joined(mixed[1]).rms
+    with_it, without = (MarkerPresses.joined(each).rms for each in mixed) if mixed else (0.0, 0.0)
     by_bench = [_added(one, none) for one, none in zip(found, ideal, strict=True)]
     sure = whole.from_truth[whole.sure]
     return (
@@ -175,7 +171,7 @@ def _row(
         float(np.sqrt(np.nanmean(whole.from_marker**2))),
         100 * float(whole.sure.mean()),
         100 * float((sure > _FAR_MM).sum() / len(whole.sure)),
-        saved,
+        with_it - without if mixed else None,
     )
 
 

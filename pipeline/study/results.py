@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.installation import processor
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -55,7 +56,7 @@ def environment(**more: Any) -> dict[str, Any]:
         "contactbench": __version__,
         "python": platform.python_version(),
         "platform": f"{platform.system()} {platform.machine()}, {' '.join(platform.libc_ver())}",
-        "processor": _processor(),
+        "processor": processor(),
         "cores": cores(),
         "load": round(os.getloadavg()[2], 1) if hasattr(os, "getloadavg") else None,
         "kernel": kernel.variant,
@@ -68,17 +69,6 @@ def environment(**more: Any) -> dict[str, Any]:
         except PackageNotFoundError:
             facts[name] = "none"
     return facts | more
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:  # noqa: PTH123 - a device
-            for line in lines:
-                if line.startswith("model name"):
-                    return line.partition(":")[2].strip()
-    except OSError:
-        pass  # not Linux
-    return platform.processor() or platform.machine()
 
 
 def write_results(

@@ -20,6 +20,7 @@ from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise, met
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.harness import CaseRow, CasesReport, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     import numpy.typing as npt
-    from rich.table import Table
 
     from contactbench.pipeline.study.hard_meshes import Bools, Float, Ints, Long, SolidBody
     from contactbench.pipeline.study.results import Results
@@ -59,12 +59,11 @@ REFUSED = "refused by the friction cone, though no steeper than 45 degrees on th
 SLENDER = "longest edge of a facet over its height"
 COSINE, ANGLE = "cosine of the friction angle", "friction angle, degrees"
 NEAR = "distance from the edge or vertex, of the edge's length"
-_SHOWN = (CONDITION, SLENDER)
 PREDICTED, DOUBLE, ALGORITHM1 = "first order", "double", "algorithm1"
 
 
 @dataclass(frozen=True)
-class StabilityRow:
+class StabilityRow(CaseRow):
     """One figure: what `by` computed for a case, its median and its worst, and what the worst may be."""
 
     part: str
@@ -80,9 +79,21 @@ class StabilityRow:
     most: float | None = None  # None where the figure is only shown
 
     @property
-    def met(self) -> bool:
+    def verdict(self) -> FigureVerdict:
         """Whether the bound is kept; what is no number keeps none."""
-        return verdict_of(self.worst, most=self.most) is FigureVerdict.MET
+        return verdict_of(self.worst, most=self.most)
+
+    @property
+    def met(self) -> bool:
+        """The same."""
+        return self.verdict is FigureVerdict.MET
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """See `CaseRow`."""
+        place = "" if self.x is None else f" at {number(self.x)} ({self.axis})"
+        bound = "" if self.most is None else f"at most {number(self.most)}"
+        return self.case, self.by, self.figure, f"{number(self.worst)} {self.unit}{place}", bound
 
     def to_json(self) -> dict[str, Any]:
         """Return plain values; None for what is no number."""
@@ -111,51 +122,13 @@ class StabilityRow:
         return cls(part, case, by, figure, unit, len(numbers), middle, worst, **more)
 
 
-@dataclass(frozen=True)
-class StabilityReport:
-    """Every figure, and what it was measured with."""
-
-    names: tuple[str, ...]
-    samples: int
-    seed: int
-    rows: tuple[StabilityRow, ...]
-
-    @property
-    def passed(self) -> bool:
-        """Whether every bound was kept."""
-        return all(row.met for row in self.rows)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        return {
-            "passed": self.passed,
-            "probes": list(self.names),
-            "samples": self.samples,
-            "seed": self.seed,
-            "rows": [row.to_json() for row in self.rows],
-        }
-
-    def tables(self) -> list[Table]:
-        """Build the figures for a terminal; what broke a bound is red."""
-        from rich.table import Table
-
-        built = Table(title=f"Numerical stability, {self.samples} touches a figure, seed {self.seed}")
-        for heading in ("case", "figure", "worst", "bound", ""):
-            built.add_column(heading)
-        for group in _groups(row for row in self.rows if row.most is not None or row.figure in _SHOWN):
-            case, figure, *_, worst, _, bound, kept = _line(group)
-            built.add_row(case, figure, worst, bound, kept, style="" if kept in ("", "kept") else "red")
-        built.caption = "--out or --json gives every figure"
-        return [built]
-
-
 def run(
     names: Sequence[str] = assets.PROBE_NAMES,
     *,
     samples: int = 1000,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> StabilityReport:
+) -> CasesReport[StabilityRow]:
     """
     Measure every figure on every probe.
 
@@ -184,10 +157,10 @@ def run(
             rows += measure(title, body, samples, np.random.default_rng((seed, 100 * (1 + j) + i)))
         slender = slenderness(body_of(name, _MANY))
         rows.append(StabilityRow.of("thin facets", title, DOUBLE, SLENDER, "", slender))
-    order = list(PARTS)
-    return StabilityReport(
-        tuple(names), samples, seed, tuple(sorted(rows, key=lambda r: order.index(r.part)))
-    )
+    rows.sort(key=lambda row: list(PARTS).index(row.part))
+    about = {"probes": list(names), "samples": samples, "seed": seed}
+    title = f"Numerical stability, {samples} touches a figure, seed {seed}"
+    return CasesReport(title, about, tuple(rows), ("case", "by", "figure", "worst", "bound"))
 
 
 # ---- the parts -----------------------------------------------------------------------------------------
@@ -419,9 +392,7 @@ is half a unit in the last place of 1. Every line is the worst of its tries."""
 def make(results: Results, folder: Path) -> str:
     """Write the picture into the folder and return the chapter, Markdown."""
     rows = [StabilityRow.from_json(row) for row in results.rows]
-    broken = [row for row in rows if not row.met]
-    said = "\n".join(["Bounds that are broken:", "", *(f"- {_broken(row)}" for row in broken)])
-    about = f"{_ABOUT}\n\n{said if broken else 'Every bound is kept.'}"
+    about = f"{_ABOUT}\n\n{verdict_on(rows)}"
     return chapter("Numerical stability", about, tables(rows), {_PICTURE: _picture(rows)}, _SAID, folder)
 
 
@@ -434,11 +405,6 @@ def tables(rows: Sequence[StabilityRow]) -> list[tuple[str, str]]:
         )
         for part in dict.fromkeys(row.part for row in rows)
     ]
-
-
-def _broken(row: StabilityRow) -> str:
-    place = "" if row.x is None else f" at {number(row.x)} ({row.axis})"
-    return f"{row.case}, {row.by}: {row.figure} {number(row.worst)} {row.unit}{place}, allowed {number(row.most)}"
 
 
 def _groups(rows: Iterable[StabilityRow]) -> list[list[StabilityRow]]:

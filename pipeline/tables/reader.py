@@ -229,7 +229,7 @@ class TableReader:
 
     def _check_names(self, missing: Sequence[str], wanted: Sequence[str]) -> None:
         if missing:
-            found = ", ".join(name if name else "(no name)" for name in self.names)
+            found = ", ".join(name if name else message("(no name)") for name in self.names)
             lost = message("column") if len(missing) == 1 else message("columns")
             what = message(f"{arg(lost)} {arg(', '.join(missing))} missing; found: {arg(found[:200])}.")
             raise self.error(message(f"{arg(what)} {arg(self._header_remedy())}"), 1)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification.figures import Unresolved, VerificationVerdict
 from contactbench.pipeline.verification.press import UNRESOLVED, Why
 
@@ -53,7 +53,7 @@ class VerdictCase:
                 else ""
             )
             reasons.append(
-                message(f"too few accepted touches of {arg(', '.join(self.missing[:_LISTED]))}{arg(more)}")
+                message(f"too few accepted touches of {arg(join(', ', self.missing[:_LISTED]))}{arg(more)}")
             )
         reasons += self.faults
         notes = [] if times is not None else [message("time: not measured")]

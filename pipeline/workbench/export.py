@@ -32,6 +32,7 @@ from contactbench.pipeline.session.why import (
     checklist,
     files_of_bundle,
     refuse_without,
+    regions_in_words,
     results_of,
 )
 from contactbench.pipeline.settings import PayloadSettings
@@ -112,7 +113,7 @@ def built(session: Session, *, unverified: bool) -> RuntimeConfig:
         As `export_from_session`.
     """
     options = ExportOptions.stored(session.state.settings)
-    return export_from_session(session, options.settings(), unverified=unverified)
+    return export_from_session(session, options, unverified=unverified)
 
 
 def export(session: Session, place: Path, *, unverified: bool = False) -> ExportedBundle:
@@ -209,7 +210,8 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
         (
             "Probe",
             message(
-                f"{arg(model.probe.name)} with {arg(model.probe.facets):,} facets and {arg(_regions(len(regions)))}"
+                f"{arg(model.probe.name)} with {arg(model.probe.facets):,} facets and"
+                f" {arg(regions_in_words(len(regions)))}"
             ),
         ),
         (
@@ -222,31 +224,15 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     gains = model.controller
     if gains is not None:
         found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))
-    part = model.verification
-    if part is None:
-        found.append((message("Contact error"), message("not verified")))
-    else:
-        found.append(
-            (
-                message("Contact error"),
-                message(
-                    f"{arg(1e3 * part.mean_error_m):.2f} mm on average, {arg(1e3 * part.max_error_m):.2f} mm at most,"
-                    f" on {arg(part.markers)} markers"
-                ),
-            )
+    part, error = model.verification, message("not verified")
+    if part is not None:
+        error = message(
+            f"{arg(1e3 * part.mean_error_m):.2f} mm on average, {arg(1e3 * part.max_error_m):.2f} mm at most,"
+            f" on {arg(part.markers)} markers"
         )
+    found.append((message("Contact error"), error))
     found.append((message("Made by"), f"{model.provenance.operator}, {model.provenance.created}"))
     return tuple(found)
-
-
-def _regions(count: int) -> str:
-    return (
-        message("no priority regions")
-        if not count
-        else message("one priority region")
-        if count == 1
-        else message(f"{arg(count)} priority regions")
-    )
 
 
 def _sensor(part: SensorPart) -> str:

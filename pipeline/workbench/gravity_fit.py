@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
-from contactbench.pipeline.session.make_calibration import CalibrationParameters
+from contactbench.pipeline.session.make import CalibrationParameters
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

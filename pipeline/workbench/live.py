@@ -105,10 +105,7 @@ class Ring:
         for begin in range(0, min(self._count + _SLICE, self._capacity), _SLICE):
             part = slice(begin, begin + _SLICE)
             with self._lock:
-                if model is None:
-                    self._compensated[part] = np.nan
-                else:
-                    self._compensated[part] = model.compensate(self._R_WS[part], self._raw[part])
+                self._compensated[part] = _compensated(model, self._R_WS[part], self._raw[part])
 
     def _rows(self, seconds: float) -> NDArray[np.intp]:
         """Return rows that hold the last seconds, oldest first, and perhaps older ones."""
@@ -119,6 +116,13 @@ class Ring:
             if some == kept or self._times[rows[0]] < self._times[rows[-1]] - seconds:
                 return rows
             some *= 4
+
+
+def _compensated(
+    model: GravityModel | None, R_WS: NDArray[np.float64], raw: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return wrenches without bias and weight; NaN without a calibration."""
+    return np.full_like(raw, np.nan) if model is None else model.compensate(R_WS, raw)
 
 
 def _put(store: NDArray[np.float64], place: int, new: NDArray[np.float64]) -> None:
@@ -199,7 +203,7 @@ class LiveMoment:
         model: GravityModel | None,
         solver: ContactSolver | None,
     ) -> LiveReading:
-        compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
+        compensated = _compensated(model, R_WS, raw)
         contact, on = None, None
         if solver is not None and np.isfinite(compensated).all():
             contact = self._follow(time, compensated, solver)
@@ -508,11 +512,7 @@ class Live:
         return LiveBlock(times, wrenches, R_WS, saturated)
 
     def _give(self, block: LiveBlock) -> None:
-        model = self.model
-        if model is None:
-            compensated = np.full_like(block.wrenches, np.nan)
-        else:
-            compensated = model.compensate(block.R_WS, block.wrenches)
+        compensated = _compensated(self.model, block.R_WS, block.wrenches)
         self._ring.add(block.times, block.wrenches, compensated, block.R_WS)
         self._moment.add(block.times, block.wrenches, block.R_WS)
         for follower in tuple(self._followers):

@@ -37,17 +37,14 @@ class Devices:
     def of(cls, state: State) -> Devices:
         """Return what a session's settings say; what makes no sense counts as not set."""
 
-        def value(key: str) -> Any:
-            return None if key not in state.settings else state.settings[key].value
-
         def text(key: str) -> str:
-            found = value(key)
+            found = state.setting(key)
             return found if isinstance(found, str) else ""
 
         return cls(
             text(SENSOR),
             text(POSES) or None,
-            _angles(value(MOUNT)),
+            _angles(state.setting(MOUNT)),
             text(SERIAL),
             text(CERTIFICATE),
             text(DUE),

@@ -25,7 +25,7 @@ from contactbench.pipeline.preparation.shell_regions import put_on
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
 from contactbench.pipeline.session.files import digest_of
-from contactbench.pipeline.session.make_probe import ProbeParameters
+from contactbench.pipeline.session.make import ProbeParameters
 from contactbench.pipeline.session.recompute import inputs_of
 from contactbench.pipeline.session.state import MESH
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of

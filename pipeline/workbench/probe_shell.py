@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.prepare import alignment_of, dense_of, place
-from contactbench.pipeline.session.make_probe import ProbeParameters
+from contactbench.pipeline.session.make import ProbeParameters
 from contactbench.pipeline.session.recompute import inputs_of, newest_inputs
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from contact_cases import ball, bundled, random_wrenches
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
+from contactbench.pipeline.contact.paraboloid import fit_contact_face
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
@@ -368,8 +369,8 @@ def test_batch_views_cannot_be_written(solver):
         ({"recent_samples": -1}, "recent_samples"),
         ({"recent_samples": 1.5}, "recent_samples"),
         ({"first_odds": float("inf")}, "first_odds"),
-        ({"saturation": (1, 1, 1)}, "six"),
-        ({"saturation": (1, 1, 1, 1, 1, 0)}, "positive"),
+        ({"saturation": (1, 1, 1)}, "saturation"),
+        ({"saturation": (1, 1, 1, 1, 1, 0)}, "saturation.5"),
         ({"max_age": float("nan")}, "max_age"),
     ],
 )
@@ -409,18 +410,23 @@ def test_every_method_has_the_same_signature(name):
     assert list(batch.faces[1:]) == [-1, -1]
 
 
-def test_iterative_by_scipy_equals_the_compiled_one():
+def test_iterative_answers_explain_the_wrench_on_the_fitted_surface():
     probe = bundled("convex", 2000, regions=True)
     rng = np.random.default_rng(1)
-    points = np.column_stack(
-        [rng.uniform(-0.015, 0.015, 40), rng.uniform(-0.004, 0.004, 40), np.full(40, 0.138)]
-    )
-    force = np.tile([0.5, 0.2, -9.0], (40, 1))
-    wrenches = np.hstack([force, np.cross(points, force)])
-    compiled = methods.iterative(probe).locate_batch(wrenches)
-    library = methods.iterative(probe, library="scipy").locate_batch(wrenches)
-    assert np.array_equal(compiled.reasons, library.reasons)
-    assert np.allclose(compiled.points, library.points, atol=1e-9, equal_nan=True)
+    x, y = rng.uniform(-0.015, 0.015, 40), rng.uniform(-0.004, 0.004, 40)
+    F = np.tile([0.5, 0.2, -9.0], (40, 1))
+    M = np.cross(np.column_stack([x, y, np.full(40, 0.138)]), F)
+    found, surface = methods.iterative(probe).locate_batch(np.hstack([F, M])), fit_contact_face(probe)
+    given = np.isfinite(found.points[:, 0])
+    assert given.mean() > 0.8
+    x, y, z = ((found.points[given] - surface.origin_S) @ surface.axes_S.T).T
+    c = surface.coefficients
+    assert np.allclose(c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y, z, atol=1e-12)
+    slopes = -c[1] - 2 * c[3] * x - c[4] * y, -c[2] - c[4] * x - 2 * c[5] * y
+    normals = np.column_stack([*slopes, np.ones_like(x)]) @ surface.axes_S
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    left = (M - np.cross(found.points, F))[given]
+    assert np.allclose(found.torques[given, None] * normals, left, atol=1e-9)
 
 
 def test_algorithm1_takes_priority_planes_first():

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from contactbench.pipeline.config.runtime.bench import ExportSettings
+from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.settings_file import with_file
 from contactbench.pipeline.control.bundle import settings_of
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
@@ -68,7 +68,7 @@ def test_rows_are_sorted_by_stiffness():
 def test_config_export_takes_the_gains():
     tuned = tune(foundation_of("convex"), USUAL_MODULUS, variant=Variant.PLAIN)
     data = json.dumps(settings_content(tuned.settings)).encode()
-    settings = with_file(ExportSettings(), data, "gains.json")
+    settings = with_file(ExportOptions(), data, "gains.json")
     assert settings_of(settings.controller, settings.limits) == tuned.settings
 
 

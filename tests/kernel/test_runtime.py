@@ -21,7 +21,9 @@ STALE, NOT_FINITE, SATURATED, NOT_A_ROTATION = 8, 9, 7, 10
 
 
 def runtime(**changes: Any) -> kernel.Runtime:
-    return kernel.Runtime(**{**kernel_arguments(CONFIG), **changes})
+    given = kernel_arguments(CONFIG)
+    gates = {name: changes.pop(name) for name in given["gates"].keys() & changes.keys()}
+    return kernel.Runtime(**{**given, **changes, "gates": {**given["gates"], **gates}})
 
 
 class Reference:
@@ -34,11 +36,11 @@ class Reference:
         location = CONFIG.model.filters.location
         assert location is not None
         self.low_pass = LowPass(location.cutoff_Hz, location.rate_Hz, location.order)
-        self.limits, self.max_age = a["saturation"], a["max_age"]
+        self.limits, self.max_age = np.array(a["gates"]["saturation"]), a["gates"]["max_age"]
         beside = {"gravity_covariance", "orientation_sigma"}  # what is known of the zero changes no contact
         streams = {"R_ES", "pose_gap", "pose_ahead", "silence", "frozen_chance", "motion", *beside}
-        gates = {k: v for k, v in a.items() if k not in {"gravity", "kalman", "sections", *streams}}
-        self.solver = kernel.Solver(**{**gates, "saturation": np.full(6, np.inf)})
+        solver = {k: v for k, v in a.items() if k not in {"gravity", "kalman", "sections", *streams}}
+        self.solver = kernel.Solver(**{**solver, "gates": {**a["gates"], "saturation": (np.inf,) * 6}})
         self.last: float | None = None
         self.stale: list[float] = []
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline import kernel
+from contactbench.pipeline.gates import Gates
 
 PACKAGE = Path(__file__).parents[2] / "pipeline" / "kernel"
 STUB = ast.parse((PACKAGE / "__init__.pyi").read_text(encoding="utf-8"))
@@ -51,20 +52,7 @@ def solver(layers: int = 1, apart: tuple[float, float, float] = (0.0, 0.0, 0.02)
         torsion_arm=0.001,
         mesh_deviation=0.0,
         mesh_curved=True,
-        min_force=0.5,
-        cos_friction=0.26,
-        implausible_misfit=10.8,
-        rival_cost=9.2,
-        ambiguity_distance=0.005,
-        behind_cost=4.0,
-        behind_distance=0.003,
-        follow_cost=13.8,
-        follow_distance=0.01,
-        recent_samples=20,
-        max_age=0.1,
-        saturation=np.full(6, np.inf),
-        region_only=False,
-        accept_by_region=True,
+        gates=Gates().kernel_values(),
     )
 
 

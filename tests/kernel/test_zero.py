@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration.model import GravityModel, prediction_jacobian
 from contactbench.pipeline.config.runtime.values import kernel_arguments
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -357,6 +358,8 @@ def test_the_places_are_those_that_are_declared() -> None:
         ({"gravity_covariance": np.zeros((6, 6))}, TypeError),
         ({"gravity_covariance": np.full((12, 12), np.nan)}, ValueError),
         ({"orientation_sigma": -0.1}, ValueError),
+        ({"gates": {**Gates().kernel_values(), "another": 1.0}}, ValueError),
+        ({"gates": {"min_force": 0.5}}, KeyError),
     ],
 )
 def test_wrong_arguments(wrong: dict[str, Any], error: type[Exception]) -> None:

@@ -66,8 +66,8 @@ def test_the_kernel_gets_what_the_bundle_says_of_a_touch() -> None:
     assert (given["torsion_arm"], given["mesh_deviation"], given["mesh_curved"]) == (0.002, 5e-5, True)
     expected = {0: 0.0, 1: 2 * math.log(1000.0), 2: 2 * math.log(0.001)}
     assert given["bonus"].tolist() == [expected[rank] for rank in config.probe.region.tolist()]
-    assert given["implausible_misfit"] == config.model.gates.implausible_misfit
-    assert given["rival_cost"] == 2 * math.log(100.0)
+    assert given["gates"]["implausible_misfit"] == config.model.gates.implausible_misfit
+    assert given["gates"]["rival_cost"] == 2 * math.log(100.0)
 
 
 def test_what_a_clamp_hides_is_less_often_the_answer() -> None:

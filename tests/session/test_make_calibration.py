@@ -14,7 +14,7 @@ from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.make_calibration import calibration, captures
+from contactbench.pipeline.session.make import calibration, captures
 from contactbench.pipeline.session.recompute import compute
 
 

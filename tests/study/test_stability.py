@@ -16,27 +16,29 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.save import save_probe
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study import stability as study
-from contactbench.pipeline.study.stability import PARTS, StabilityReport, StabilityRow
+from contactbench.pipeline.study.harness import CasesReport
+from contactbench.pipeline.study.stability import PARTS, StabilityRow
 
+Report = CasesReport[StabilityRow]
 ROW = StabilityRow("edges", "case", "double", "figure", "mm", 3, 1.0, 2.0, x=10.0, axis="ratio", most=2.0)
 
 
 @pytest.fixture(scope="module")
-def report() -> StabilityReport:
+def report() -> Report:
     return study.run(samples=50, seed=1)
 
 
-def broken(report: StabilityReport) -> StabilityReport:
+def broken(report: Report) -> Report:
     at = next(i for i, row in enumerate(report.rows) if row.most is not None)
     wrong = replace(report.rows[at], worst=1e9)
     return replace(report, rows=(*report.rows[:at], wrong, *report.rows[at + 1 :]))
 
 
-def test_every_bound_is_kept(report: StabilityReport) -> None:
+def test_every_bound_is_kept(report: Report) -> None:
     assert [row for row in report.rows if not row.met] == []
     assert list(dict.fromkeys(row.part for row in report.rows)) == list(PARTS)
     conditions = {(r.case, r.x): r.worst for r in report.rows if r.figure == study.CONDITION}
-    for name in report.names:
+    for name in report.about["probes"]:
         assert conditions[name, 75.0] > 2 * conditions[name, 0.0]
 
 
@@ -71,7 +73,7 @@ def test_rows_are_plain_data_and_come_back(row: StabilityRow) -> None:
 
 @pytest.mark.parametrize("code", [0, 1])
 def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
-    report: StabilityReport, code: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    report: Report, code: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     pytest.importorskip("pyarrow")
     from contactbench.pipeline.study.pages import make_page
@@ -100,9 +102,7 @@ def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
     assert CliRunner().invoke(app, ["study", "stability"]).exit_code == code
 
 
-def test_results_with_parts_of_earlier_versions_still_make_a_page(
-    report: StabilityReport, tmp_path: Path
-) -> None:
+def test_results_with_parts_of_earlier_versions_still_make_a_page(report: Report, tmp_path: Path) -> None:
     pytest.importorskip("pyarrow")
     from contactbench.pipeline.study.pages import publish
 

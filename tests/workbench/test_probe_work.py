@@ -164,7 +164,7 @@ def test_reopening_finds_the_mesh_and_the_plan(work, tmp_path):
 
 def test_the_copies_go_when_the_work_ends(desk, tmp_path):
     work = ProbeWork(desk)
-    folder = work.take(egg(tmp_path)).file.parent
+    folder = work.take(egg(tmp_path)).file.path.parent
     assert folder.is_dir()
     work.close()
     assert not os.path.lexists(folder)

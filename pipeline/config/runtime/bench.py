@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from math import hypot, inf
 from pathlib import Path
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from contactbench.pipeline.calibration.files.calibration_file import load_record
-from contactbench.pipeline.config.runtime.build import Filters, RobotNames, build_config
+from contactbench.pipeline.config.runtime.build import build_config
 from contactbench.pipeline.config.runtime.checks import (
     CHECK_KINDS,
     checks_of,
@@ -28,7 +28,7 @@ from contactbench.pipeline.config.runtime.checks import (
     read_verification,
 )
 from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
-from contactbench.pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
+from contactbench.pipeline.config.runtime.model import ChecksPart, SensorPart, SourcePart
 from contactbench.pipeline.config.runtime.mounts import (
     UNTURNED,
     Mounts,
@@ -36,18 +36,16 @@ from contactbench.pipeline.config.runtime.mounts import (
     mount_of_angles,
     mount_reasons,
 )
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.config.runtime.model import ControllerPart
+    from contactbench.pipeline.config.runtime.options import ExportOptions
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _LARGEST_FILE = 512 * 2**20
@@ -55,40 +53,12 @@ _LARGEST_FILE = 512 * 2**20
 _CLOCK_BEGINS = datetime(2000, 1, 1, tzinfo=UTC).timestamp()
 
 
-@dataclass(frozen=True)
-class ExportSettings:
-    """What an export needs that neither a calibration nor a probe knows."""
-
-    sensor: str = "unknown"  # Its model
-    serial: str | None = None  # None: the one that the session knows
-    # Readings a second, Hz; None: that of the verified recording, if the verification says it
-    rate: float | None = None
-    # Of one reading; None: the scatter within the poses of the calibration, or else `WrenchNoise`'s own
-    noise: WrenchNoise | None = None
-    filters: Filters | None = None  # None: as `smoothed` and `cutoff` say, at the rate that is found
-    smoothed: bool = True  # Whether the wrench goes through the Kalman filter with its own settings
-    cutoff: float | None = None  # Low-pass of the contact point, Hz; None: none
-    gates: Gates = field(default_factory=Gates)
-    # One standard deviation of the local torque over the force, m
-    torsion_arm: float = TouchModel.torsion_arm
-    limits: LimitsPart = field(
-        default_factory=lambda: LimitsPart(
-            max_force_N=30.0, max_torque_Nm=3.0, max_speed_mps=None, max_turn_radps=None
-        )
-    )
-    controller: ControllerPart | None = None
-    operator: str | None = None  # None: who made the newest of what the session gives
-    names: RobotNames = field(default_factory=RobotNames)
-    # (4,) quaternion_ES, w, x, y, z; None: the one that the calibration was made with, if there is one
-    mount: tuple[float, float, float, float] | None = None
-
-
 def export_from_files(
     calibration: Path,
     probe: Path,
     verification: Path | None,
     report: Path | None,
-    settings: ExportSettings,
+    options: ExportOptions,
     *,
     created: datetime,
     known_weight: Path | None = None,
@@ -104,7 +74,7 @@ def export_from_files(
         JSON, and PLY with its JSON beside it.
     verification, report : path, optional
         JSON of ``contactbench verify touches``, and the HTML report.
-    settings : ExportSettings
+    options : ExportOptions
     created : datetime
     known_weight, known_touch : path, optional
         JSON of ``contactbench calibrate check``.
@@ -130,7 +100,7 @@ def export_from_files(
         load_probe_file(probe),
         None if verification is None else _read(verification),
         None if report is None else _read(report),
-        settings,
+        options,
         session=None,
         created=created,
         sources=sources,
@@ -146,7 +116,7 @@ def _built(
     probe_file: ProbeFile,
     verification: bytes | None,
     report: bytes | None,
-    settings: ExportSettings,
+    options: ExportOptions,
     *,
     session: str | None,
     created: datetime,
@@ -156,35 +126,35 @@ def _built(
     mounts: Mounts,
     unverified: bool,
 ) -> RuntimeConfig:
-    checked, rate, error = None, settings.rate, None
-    mount = settings.mount or mount_of(record) or mounts.calibrated
+    checked, rate, error = None, options.rate, None
+    mount = options.quaternion_ES or mount_of(record) or mounts.calibrated
     if verification is not None:
         checked, verified = read_verification(verification, "verification")
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
         stale = [*stale, *_others(verified.sources, sources)]
         rate, error = rate or verified.rate, verified.model_error
-        stale += rate_reasons(verified.rate, rate, settings.filters)
+        stale += rate_reasons(verified.rate, rate, options.given_filters)
     if rate is None:
         raise RateUnknownError("the sensor's sample rate is unknown: give the rate it is set to with --rate.")
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
     return build_config(
         record.calibration,
         probe_file,
-        sensor=SensorPart(model=settings.sensor, serial=settings.serial or "unknown", rate_Hz=rate),
-        noise=settings.noise or reading_noise(record.calibration),
-        filters=settings.filters or _filters(settings, rate),
-        gates=settings.gates,
+        sensor=SensorPart(model=options.sensor, serial=options.serial or "unknown", rate_Hz=rate),
+        noise=options.noise or reading_noise(record.calibration),
+        filters=options.filters(rate),
+        gates=options.gates,
         mount=mount,
-        limits=settings.limits,
-        controller=settings.controller,
+        limits=options.limits,
+        controller=options.controller,
         verification=checked,
         report=report,
-        operator=settings.operator or "unknown",
+        operator=options.operator or "unknown",
         session=session,
         created=created,
         sources=sources,
         model=TouchModel(
-            settings.torsion_arm,
+            options.torsion_arm_mm / 1e3,
             TouchModel().model_error if error is None else error,
             mesh_deviation(probe_file),
         ),
@@ -192,7 +162,7 @@ def _built(
         zeroed=_zeroed(record),
         checks=checks,
         stale=tuple(stale),
-        names=settings.names,
+        names=options.names,
         unverified=unverified,
     )
 
@@ -204,13 +174,6 @@ def _zeroed(record: CalibrationRecord) -> datetime | None:
     if created is None or not times or not _CLOCK_BEGINS <= max(times) <= created.timestamp():
         return created
     return datetime.fromtimestamp(max(times), UTC)
-
-
-def _filters(settings: ExportSettings, rate: float) -> Filters:
-    return Filters(
-        KalmanFilter(rate) if settings.smoothed else None,
-        None if settings.cutoff is None else LowPass(settings.cutoff, rate),
-    )
 
 
 def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
@@ -300,7 +263,7 @@ class SessionLike(Protocol):
 
 def export_from_session(
     session: SessionLike,
-    settings: ExportSettings,
+    options: ExportOptions,
     *,
     created: datetime | None = None,
     unverified: bool = False,
@@ -311,7 +274,7 @@ def export_from_session(
     Parameters
     ----------
     session : Session
-    settings : ExportSettings
+    options : ExportOptions
     created : datetime, optional
         Left out: when the newest of what goes into it was made, so that the same session gives the same bytes.
     unverified : bool
@@ -342,15 +305,15 @@ def export_from_session(
             )
     folder = session.folder
     serials = {each.sensor for each in session.state.current_inputs.values() if each.sensor}
-    serial = settings.serial or (serials.pop() if len(serials) == 1 else None)
+    serial = options.serial or (serials.pop() if len(serials) == 1 else None)
     newest = max((*used, report) if report is not None else used, key=lambda each: each.number)
-    operator = settings.operator or session.records[newest.number - 1].entry.by
+    operator = options.operator or session.records[newest.number - 1].entry.by
     return _built(
         load_record(folder / calibration.file.path),
         _probe_of(folder, probe),
         None if verification is None else _read(folder / verification.file.path),
         None if report is None else _read(folder / report.file.path),
-        replace(settings, serial=serial, operator=operator),
+        replace(options, serial=serial, operator=operator),
         session=session.state.id,
         created=datetime.fromisoformat(newest.at) if created is None else created,
         sources=[

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from datetime import UTC
-from math import isinf, radians
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -56,9 +55,9 @@ if TYPE_CHECKING:
         SourcePart,
         VerificationPart,
     )
-    from contactbench.pipeline.contact.gates import Gates
     from contactbench.pipeline.contact.noise import WrenchNoise
     from contactbench.pipeline.filtering import KalmanFilter, LowPass
+    from contactbench.pipeline.gates import Gates
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.sidecar import ProbeFile
 
@@ -185,7 +184,7 @@ def build_config(
             motion=MotionPart(window_s=0.15, gyration_m=0.035),
         ),
         "filters": {"wrench": _kalman(filters.wrench), "location": _low_pass(filters.location)},
-        "gates": gates_content(gates),
+        "gates": gates.stored(),
         "controller": controller,
         "limits": limits,
         "verification": verification,
@@ -378,25 +377,6 @@ def _low_pass(location: LowPass | None) -> dict[str, Any] | None:
         "cutoff_Hz": location.cutoff,
         "order": location.order,
         "sections": low_pass_sections(location.cutoff, location.rate, location.order).tolist(),
-    }
-
-
-def gates_content(gates: Gates) -> dict[str, Any]:
-    """Return gates as a config holds them."""
-    return {
-        "min_force_N": float(gates.min_force),
-        "friction_angle_rad": radians(gates.friction_angle),
-        "ambiguity_distance_m": float(gates.ambiguity_distance),
-        "implausible_misfit": gates.implausible_misfit,
-        "rival_odds": float(gates.rival_odds),
-        "first_odds": float(gates.first_odds),
-        "follow_odds": float(gates.follow_odds),
-        "follow_distance_m": float(gates.follow_distance),
-        "recent_samples": gates.recent_samples,
-        "max_age_s": float(gates.max_age),
-        "saturation": [None if isinf(limit) else float(limit) for limit in gates.saturation],
-        "region_only": gates.region_only,
-        "accept_by_region": gates.accept_by_region,
     }
 
 

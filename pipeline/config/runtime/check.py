@@ -15,7 +15,6 @@ from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, R
 from contactbench.pipeline.config.runtime.planes import check_planes
 from contactbench.pipeline.config.runtime.self_test import check_self_test
 from contactbench.pipeline.config.runtime.values import (
-    gates_of,
     gravity_of,
     kalman_of,
     low_pass_sections,
@@ -23,6 +22,7 @@ from contactbench.pipeline.config.runtime.values import (
 )
 from contactbench.pipeline.config.vertical import points_away
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.mesh.load import MeshFile, settle
 from contactbench.pipeline.mesh.ply import read_ply
 from contactbench.pipeline.mesh.save import encode_probe
@@ -275,7 +275,7 @@ def _check_covariance(field: str, C: NDArray[np.float64]) -> None:
 
 def _check_filters(model: RuntimeModel) -> None:
     try:
-        gates_of(model.gates)
+        Gates.of_stored(model.gates)
     except InputError as error:
         raise ConfigError(f"gates: {arg(error)}. {arg(_AGAIN)}") from None
     if model.filters.location is not None:

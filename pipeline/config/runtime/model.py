@@ -10,7 +10,9 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+from contactbench.pipeline.gates import gate_forms
 
 SCHEMA: Final = "contactbench.runtime"
 VERSION: Final = 4
@@ -19,7 +21,6 @@ VERSION: Final = 4
 _Number = Annotated[float, Field(ge=-1e9, le=1e9)]
 _Positive = Annotated[float, Field(gt=0, le=1e9)]
 _NotNegative = Annotated[float, Field(ge=0, le=1e9)]
-_Odds = Annotated[float, Field(ge=1, le=1e9)]
 _Short = Annotated[float, Field(ge=0, le=0.1)]
 _TwoPositive = Annotated[list[_Positive], Field(min_length=2, max_length=2)]
 _TwoNotNegative = Annotated[list[_NotNegative], Field(min_length=2, max_length=2)]
@@ -28,7 +29,6 @@ _ThreePositive = Annotated[list[_Positive], Field(min_length=3, max_length=3)]
 _ThreeSigmas = Annotated[list[_NotNegative], Field(min_length=3, max_length=3)]
 _Four = Annotated[list[_Number], Field(min_length=4, max_length=4)]
 _Six = Annotated[list[_Number], Field(min_length=6, max_length=6)]
-_SixLimits = Annotated[list[_Positive | None], Field(min_length=6, max_length=6)]
 _Matrix6 = Annotated[list[_Six], Field(min_length=6, max_length=6)]
 _Twelve = Annotated[list[_Number], Field(min_length=12, max_length=12)]
 _Matrix12 = Annotated[list[_Twelve], Field(min_length=12, max_length=12)]
@@ -240,7 +240,12 @@ class StreamsPart(ConfigPart):
     motion: MotionPart | None
 
 
-class GatesPart(ConfigPart):
+_Gates: Any = create_model(
+    "_Gates", __base__=ConfigPart, **{form.stored: form.way.part for _, form in gate_forms()}
+)
+
+
+class GatesPart(_Gates):  # type: ignore[misc]
     """
     As Gates; null means no limit. Odds are stated as so many to one; a runtime uses 2 ln(odds).
 
@@ -248,20 +253,6 @@ class GatesPart(ConfigPart):
     ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
     its range looks like a touch: give them, or pass NaN for samples that the sensor itself flags.
     """
-
-    min_force_N: _NotNegative
-    friction_angle_rad: Annotated[float, Field(gt=0, lt=1.5708)]
-    ambiguity_distance_m: _NotNegative
-    implausible_misfit: Annotated[float, Field(ge=0.45, le=37.4)]
-    rival_odds: _Odds
-    first_odds: _Odds
-    follow_odds: _Odds
-    follow_distance_m: _NotNegative
-    recent_samples: _Count
-    max_age_s: _NotNegative
-    saturation: _SixLimits
-    region_only: bool
-    accept_by_region: bool
 
 
 class ProbePart(ConfigPart):

@@ -7,13 +7,12 @@ Settings of an export as a JSON file: those parts of a config that neither a cal
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 from pydantic_core import from_json
 
-from contactbench.pipeline.config.runtime.build import Filters, gates_content
+from contactbench.pipeline.config.runtime.build import Filters
 from contactbench.pipeline.config.runtime.canonical import fault_of
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import (
@@ -23,13 +22,13 @@ from contactbench.pipeline.config.runtime.model import (
     KalmanPart,
     LimitsPart,
 )
-from contactbench.pipeline.config.runtime.values import gates_of, kalman_of
-from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.config.runtime.values import kalman_of
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering import LowPass
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.config.runtime.bench import ExportSettings
+    from contactbench.pipeline.config.runtime.options import ExportOptions
 
 _LARGEST = 2**20
 
@@ -53,13 +52,13 @@ class _Settings(ConfigPart):
     filters: _Filters | None = None
 
 
-def with_file(settings: ExportSettings, data: bytes, name: str) -> ExportSettings:
+def with_file(options: ExportOptions, data: bytes, name: str) -> ExportOptions:
     """
     Return settings in which the parts of a file take the place of their own.
 
     Parameters
     ----------
-    settings : ExportSettings
+    options : ExportOptions
     data : bytes
         JSON.
     name : str
@@ -72,7 +71,7 @@ def with_file(settings: ExportSettings, data: bytes, name: str) -> ExportSetting
     """
     given = _read(data, name)
     try:
-        return replace(settings, **_parts(given, settings.gates))
+        return options.having(_parts(given, options.gates), _filters(given.filters))
     except ValidationError as error:  # of the gates, once they are whole
         raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: correct it.") from None
     except InputError as error:
@@ -111,17 +110,25 @@ def _read(data: bytes, name: str) -> _Settings:
 
 
 def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:
-    parts: dict[str, Any] = {
-        name: value for name in ("controller", "limits") if (value := getattr(given, name)) is not None
-    }
+    parts: dict[str, Any] = {}
+    if given.controller is not None:
+        parts["controller"] = given.controller
+    if given.limits is not None:
+        limits = given.limits
+        parts |= {"max_force": limits.max_force_N, "max_torque": limits.max_torque_Nm}
+        parts |= {"max_speed": limits.max_speed_mps, "max_turn": limits.max_turn_radps}
     if given.gates is not None:
-        said = gates_of(GatesPart.model_validate({**gates_content(gates), **given.gates}))
-        # Which no file of settings has.
-        parts["gates"] = replace(said, region_odds=gates.region_odds, untouchable_odds=gates.untouchable_odds)
-    if given.filters is not None:
-        wrench, location = given.filters.wrench, given.filters.location
-        parts["filters"] = Filters(
-            None if wrench is None else kalman_of(wrench),
-            None if location is None else LowPass(location.cutoff_Hz, location.rate_Hz, location.order),
-        )
+        said = GatesPart.model_validate({**gates.stored(), **given.gates})
+        others = {"region_odds": gates.region_odds, "untouchable_odds": gates.untouchable_odds}
+        parts |= dict(Gates.of_stored(said, **others))
     return parts
+
+
+def _filters(given: _Filters | None) -> Filters | None:
+    if given is None:
+        return None
+    location = given.location
+    return Filters(
+        None if given.wrench is None else kalman_of(given.wrench),
+        None if location is None else LowPass(location.cutoff_Hz, location.rate_Hz, location.order),
+    )

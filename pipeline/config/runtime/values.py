@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from math import degrees, erfc, inf, log, radians, sqrt
-from typing import TYPE_CHECKING, Any, cast
+from math import log, radians
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.signal import butter
@@ -11,10 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration.model import GravityModel
-from contactbench.pipeline.contact.gates import Gates
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel, TouchModelPart
+    from contactbench.pipeline.config.runtime.model import KalmanPart, RuntimeModel, TouchModelPart
 
 # The covariance of a compensated wrench is of second degree in the rotation: the mean over the 24 rotations of a cube
 # is the mean over all rotations, exactly.
@@ -46,27 +46,6 @@ def kalman_of(part: KalmanPart) -> KalmanFilter:
     """Return the wrench filter, fresh; InputError if a number is out of its range."""
     return KalmanFilter(
         part.rate_Hz, q=part.q, r=part.r, tuned_rate=part.tuned_rate_Hz, per_sample=part.per_sample
-    )
-
-
-def gates_of(part: GatesPart) -> Gates:
-    """Return the gates; InputError if a number is out of its range."""
-    saturation = tuple(inf if limit is None else limit for limit in part.saturation)
-    return Gates(
-        min_force=part.min_force_N,
-        friction_angle=degrees(part.friction_angle_rad),
-        # The probability that chance exceeds it, within what Gates takes.
-        implausible_probability=min(max(erfc(sqrt(part.implausible_misfit / 2)), 1e-9), 0.5),
-        rival_odds=part.rival_odds,
-        ambiguity_distance=part.ambiguity_distance_m,
-        first_odds=part.first_odds,
-        follow_odds=part.follow_odds,
-        follow_distance=part.follow_distance_m,
-        recent_samples=part.recent_samples,
-        max_age=part.max_age_s,
-        saturation=cast("tuple[float, float, float, float, float, float]", saturation),
-        region_only=part.region_only,
-        accept_by_region=part.accept_by_region,
     )
 
 
@@ -169,9 +148,11 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
         "torsion_arm": touch.torsion_arm,
         "mesh_deviation": touch.mesh_deviation,
         "mesh_curved": touch.mesh_curved,
-        **gates_of(model.gates).kernel_arguments(),
-        # As it stands there: Gates has come to it by way of a probability.
-        "implausible_misfit": model.gates.implausible_misfit,
+        "gates": {
+            **Gates.of_stored(model.gates).kernel_values(),
+            # As it stands there: Gates has come to it by way of a probability.
+            "implausible_misfit": model.gates.implausible_misfit,
+        },
     }
 
 

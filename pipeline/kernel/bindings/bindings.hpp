@@ -60,29 +60,8 @@ struct ContactCandidate {
 // What a solver is made with beside the mesh and the noise, as keyword arguments.
 using Bonus = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-inline Gates to_gates(double min_force, double cos_friction, double implausible_misfit, double rival_cost,
-                      double ambiguity_distance, double behind_cost, double behind_distance, double follow_cost,
-                      double follow_distance, std::int64_t recent_samples, double max_age, const Vector6& saturation,
-                      bool region_only, bool accept_by_region) {
-    Gates g{min_force,   cos_friction,    implausible_misfit, rival_cost, ambiguity_distance, behind_cost, behind_distance,
-            follow_cost, follow_distance, recent_samples,     max_age,    {},                 region_only, accept_by_region};
-    std::copy(saturation.data(), saturation.data() + 6, g.saturation);
-    return g;
-}
-
-#define CONTACTBENCH_GATES                                                                                          \
-    double min_force, double cos_friction, double implausible_misfit, double rival_cost, double ambiguity_distance, \
-        double behind_cost, double behind_distance, double follow_cost, double follow_distance,                     \
-        std::int64_t recent_samples, double max_age, Vector6 saturation, bool region_only, bool accept_by_region
-#define CONTACTBENCH_GIVEN_GATES                                                                                   \
-    to_gates(min_force, cos_friction, implausible_misfit, rival_cost, ambiguity_distance, behind_cost,             \
-             behind_distance, follow_cost, follow_distance, recent_samples, max_age, saturation, region_only,      \
-             accept_by_region)
-#define CONTACTBENCH_GATE_NAMES                                                                                     \
-    nb::arg("min_force"), nb::arg("cos_friction"), nb::arg("implausible_misfit"), nb::arg("rival_cost"),            \
-        nb::arg("ambiguity_distance"), nb::arg("behind_cost"), nb::arg("behind_distance"), nb::arg("follow_cost"),  \
-        nb::arg("follow_distance"), nb::arg("recent_samples"), nb::arg("max_age"), nb::arg("saturation"),           \
-        nb::arg("region_only"), nb::arg("accept_by_region")
+// Of a dict: each gate by its name, and no other.
+Gates to_gates(const nb::dict& given);
 
 std::shared_ptr<const Model> to_model(const Rows3& vertices, const Faces& faces, const Ints& region, const Bonus& bonus,
                                       double mesh_deviation, bool mesh_curved);

@@ -1,4 +1,5 @@
 // Contact, its candidates and the reason codes.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 
 #include "bindings.hpp"
@@ -59,6 +60,23 @@ nb::object repr(const Contact& c) {
 }
 
 }  // namespace
+
+template <class T>
+void take(nb::handle value, T& to) { to = nb::cast<T>(value); }
+
+template <std::size_t N>
+void take(nb::handle value, double (&to)[N]) {
+    const auto values = nb::cast<std::array<double, N>>(value);
+    std::copy(values.begin(), values.end(), to);
+}
+
+Gates to_gates(const nb::dict& given) {
+    Gates gates;
+    std::size_t count = 0;
+    each_gate(gates, [&](const char*, const char* name, auto& to, From) { take(given[name], to), ++count; });
+    if (given.size() != count) throw std::invalid_argument("gates has a name that is no gate");
+    return gates;
+}
 
 Rows6 to_rows(nb::handle wrenches) {
     try {

@@ -342,7 +342,7 @@ void bind_runtime(nb::module_& m) {
                                nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
                                double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
                                double pose_ahead, double silence, double frozen_chance, nb::object motion,
-                               nb::object gravity_covariance, double orientation_sigma, CONTACTBENCH_GATES) {
+                               nb::object gravity_covariance, double orientation_sigma, const nb::dict& gates) {
         RuntimeSettings s;
         set_mount(s, std::move(R_ES));
         set_motion(s, std::move(motion));
@@ -350,7 +350,7 @@ void bind_runtime(nb::module_& m) {
             throw std::invalid_argument("pose_gap, pose_ahead, silence or frozen_chance is out of range");
         s.poses = {pose_gap, pose_ahead};
         s.silence = silence, s.frozen_chance = frozen_chance;
-        s.gates = CONTACTBENCH_GIVEN_GATES;
+        s.gates = to_gates(gates);
         s.torsion_arm = torsion_arm;
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
         s.gravity = to_load(gravity);
@@ -363,7 +363,7 @@ void bind_runtime(nb::module_& m) {
        nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
        nb::arg("R_ES").none(), nb::arg("pose_gap"), nb::arg("pose_ahead"), nb::arg("silence"), nb::arg("frozen_chance"),
        nb::arg("motion").none(), nb::arg("gravity_covariance").none() = nb::none(),
-       nb::arg("orientation_sigma") = ZeroSettings().orientation, CONTACTBENCH_GATE_NAMES);
+       nb::arg("orientation_sigma") = ZeroSettings().orientation, nb::arg("gates"));
     runtime.def("pose", [](PyRuntime& s, Matrix3 R, Vector3 p, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.pose(R.data(), p.data(), time);

@@ -391,11 +391,11 @@ void bind_batch(nb::module_& m) {
 void bind_main(nb::module_& m) {
     auto solver = nb::class_<Main>(m, "Solver", "The pruned, complete solver over one mesh.");
     solver.def("__init__", [](Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Bonus bonus,
-                              double torsion_arm, double mesh_deviation, bool mesh_curved, CONTACTBENCH_GATES) {
+                              double torsion_arm, double mesh_deviation, bool mesh_curved, const nb::dict& gates) {
         construct(self, vertices, faces, region, noise, bonus, torsion_arm, mesh_deviation, mesh_curved,
-                  CONTACTBENCH_GIVEN_GATES);
+                  to_gates(gates));
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"), nb::kw_only(),
-       nb::arg("bonus"), nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), CONTACTBENCH_GATE_NAMES);
+       nb::arg("bonus"), nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), nb::arg("gates"));
     bind_method(solver);
     solver.def("locate", [](const Main& s, nb::handle w, nb::handle previous) {
         const Wrench wrench = to_wrench(w);

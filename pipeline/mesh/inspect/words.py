@@ -223,7 +223,7 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
     else:
         yield from _recesses(found)
     if found.part_count > 1:
-        sizes = ", ".join(_size(part) for part in found.parts[:_NAMED])
+        sizes = join(", ", (_size(part) for part in found.parts[:_NAMED]))
         more = message(", and others") if found.part_count > _NAMED else ""
         said = message(f"The mesh has {arg(found.part_count)} separate parts ({arg(sizes)}{arg(more)})")
         speck = found.parts[1].area_m2 < _SPECK * found.parts[0].area_m2

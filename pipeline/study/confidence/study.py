@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, fields
 from functools import partial
 from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
@@ -12,9 +12,9 @@ import numpy as np
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
+from contactbench.pipeline.study.harness import Bounds, Case, CaseRow, CasesReport, chances, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.report import (
-    STYLES,
     FigureVerdict,
     mean_interval,
     share_interval,
@@ -23,15 +23,12 @@ from contactbench.pipeline.study.report import (
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
-    from rich.table import Table
-
-    from contactbench.pipeline.study.confidence.cases import Bools, Float, Measured
+    from contactbench.pipeline.study.confidence.cases import Bools, Float
     from contactbench.pipeline.study.results import Results
 
-    Bounds = tuple[float | None, float | None]
 
 KIND = "confidence"
 PARTS = {
@@ -68,7 +65,7 @@ QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500,
 
 
 @dataclass(frozen=True)
-class ConfidenceRow:
+class ConfidenceRow(CaseRow):
     """One figure."""
 
     part: str  # a key of :data:`PARTS`
@@ -111,49 +108,14 @@ class ConfidenceRow:
             case least, most:
                 return f"{number(least)} to {number(most)}"
 
-
-@dataclass(frozen=True)
-class ConfidenceReport:
-    """Every figure."""
-
-    names: tuple[str, ...]  # probes
-    sizes: ConfidenceSizes
-    seed: int
-    rows: tuple[ConfidenceRow, ...]
-
     @property
-    def passed(self) -> bool:
-        """Whether no bound was missed."""
-        return all(row.verdict is not FigureVerdict.MISSED for row in self.rows)
+    def cells(self) -> tuple[str, ...]:
+        """See `CaseRow`."""
+        return self.probe, self.case, self.figure, self.words, self.bound
 
     def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        return {
-            "passed": self.passed,
-            "probes": [title_of(name) for name in self.names],
-            "seed": self.seed,
-            **asdict(self.sizes),
-            "rows": [asdict(row) | {"verdict": str(row.verdict)} for row in self.rows],
-        }
-
-    def tables(self) -> list[Table]:
-        """Build what missed its bound for a terminal."""
-        from rich.table import Table
-
-        judged = [row for row in self.rows if row.bound]
-        shown = [row for row in judged if row.verdict is not FigureVerdict.MET]
-        built = Table(
-            title=f"Bounds missed or open, {self.sizes.touches:,} touches x {self.sizes.seeds}, seed {self.seed}"
-        )
-        built.caption = (
-            f"{len(judged) - len(shown)} of {len(judged)} bounds kept; --out or --json gives every figure"
-        )
-        for heading in ("probe", "case", "figure", "measured", "bound", "verdict"):
-            built.add_column(heading)
-        for row in shown:
-            cells = (row.probe, row.case, row.figure, row.words, row.bound, str(row.verdict))
-            built.add_row(*cells, style=STYLES[row.verdict])
-        return [built]
+        """Return plain values."""
+        return asdict(self) | {"verdict": str(self.verdict)}
 
 
 def run(
@@ -162,7 +124,7 @@ def run(
     *,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> ConfidenceReport:
+) -> CasesReport[ConfidenceRow]:
     """
     Measure every case.
 
@@ -192,68 +154,56 @@ def run(
         elif part == "pruning":
             rows += _pruning(names, sizes, seed)
         else:
-            rows += (row for case in tried if case.part == part for row in case.rows(sizes, seed))
-    return ConfidenceReport(tuple(names), sizes, seed, tuple(rows))
+            rows += (row for case in tried if case.part == part for row in rows_of(case, sizes, seed))
+    about = {"probes": [title_of(name) for name in names], "seed": seed, **asdict(sizes)}
+    title = f"Confidence, {sizes.touches:,} touches x {sizes.seeds}, seed {seed}"
+    return CasesReport(title, about, tuple(rows))
 
 
 # ---- the parts -----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class ConfidenceCase:
-    """One thing that is tried with several seeds: its figures, and what the mean of each must keep."""
-
-    part: str
-    probe: str
-    name: str
-    chance: tuple[int, ...]  # beside the seed and the repetition
-    measure: Callable[[np.random.Generator], Measured]
-    bounds: Mapping[str, Bounds] = field(default_factory=dict)
-
-    def rows(self, sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
-        """Sum up what several seeds gave: shares as %."""
-        measured = [self.measure(rng) for rng in _chances(sizes, seed, *self.chance)]
-        for figure in measured[0]:
-            length = figure.endswith("mean")
-            values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
-            mean = float(values.mean())
-            low, high = mean_interval(values) or (mean, mean)
-            if not length:
-                low, high = max(low, 0.0), min(high, 100.0)  # a share is no less, and no more
-            unit, bounds = "mm" if length else "%", self.bounds.get(figure, (None, None))
-            yield ConfidenceRow(
-                self.part, self.probe, self.name, figure, unit, sizes.touches, mean, low, high, *bounds
-            )
+def rows_of(case: Case, sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
+    """Sum up what several seeds gave: shares as %."""
+    for figure, measured in case.measured(sizes.seeds, seed).items():
+        length = figure.endswith("mean")
+        values = np.array(measured) * (1.0 if length else 100.0)
+        mean = float(values.mean())
+        low, high = mean_interval(values) or (mean, mean)
+        if not length:
+            low, high = max(low, 0.0), min(high, 100.0)  # a share is no less, and no more
+        about = case.part, case.probe, case.name, figure, "mm" if length else "%", sizes.touches
+        yield ConfidenceRow(*about, mean, low, high, *case.bounds.get(figure, (None, None)))
 
 
-def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[ConfidenceCase]:
+def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
     """Give every case but the reliability and the pruning, which are no figures of several seeds."""
     count, facets = sizes.touches, sizes.facets
     noises, (little, _), (gentle, _) = cases.NOISES.items(), cases.TORSIONS_M, cases.PULLS_N
     wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
     for (i, thickness), (j, (said, noise)) in product(enumerate(cases.FINS_M), enumerate(noises)):
         fin = partial(cases.fin, thickness, noise, count)
-        yield ConfidenceCase("fin", "capsule", f"{1e3 * thickness:g} mm, {said} noise", (i, j), fin, wrong)
+        yield Case("fin", "capsule", f"{1e3 * thickness:g} mm, {said} noise", (i, j), fin, wrong)
     for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
         region = partial(cases.region, probe, facets, count)
         bounds: dict[str, Bounds] = {"sure, of these over 5 mm off": (None, 0.1)}
-        yield ConfidenceCase("region", probe, "8 to 10 N", (i,), region, bounds)
+        yield Case("region", probe, "8 to 10 N", (i,), region, bounds)
         for (said, noise), declared, pull in product(noises, (False, True), cases.PULLS_N):
             name = f"{pull:g} N, {said} noise, {'lens declared' if declared else 'no region'}"
             pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=declared)
             # A pull of ten times the model's error is shown, not judged.
-            yield ConfidenceCase("pull", probe, name, (i,), pulled, wrong if pull == gentle else {})
+            yield Case("pull", probe, name, (i,), pulled, wrong if pull == gentle else {})
     for i, probe in enumerate(names):
         title, two = title_of(probe), partial(cases.two, probe, facets, count)
         bounds = {"sure and over 5 mm from both": (None, 15.0)}
-        yield ConfidenceCase("two touches", title, "forces 1:1 to 1:3", (i,), two, bounds)
+        yield Case("two touches", title, "forces 1:1 to 1:3", (i,), two, bounds)
         bounds = {"sure": (95.0 if probe == "t-shape" else 98.0, None)}
         for (said, noise), torsion in product(noises, cases.TORSIONS_M):
             single = partial(cases.single, probe, facets, noise, torsion, count)
             name = f"torsion {1e3 * torsion:g} mm, {said} noise"
             # Of a file nobody knows how often one wrench has several answers.
             judged = probe in PROBE_NAMES and torsion == little
-            yield ConfidenceCase("one touch", title, name, (i,), single, bounds if judged else {})
+            yield Case("one touch", title, name, (i,), single, bounds if judged else {})
         bounds = {"inside": (92.0, 98.0)}
         for size, (said, noise), torsion, drift in product(
             sizes.ellipse_facets, noises, cases.TORSIONS_M, (True, False)
@@ -262,11 +212,11 @@ def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[ConfidenceC
             name = f"{size:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
             ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
             # Without it the ellipse, which allows for it, holds more.
-            yield ConfidenceCase("ellipse", title, name, (i,), ellipse, bounds if drift else {})
+            yield Case("ellipse", title, name, (i,), ellipse, bounds if drift else {})
         for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
             name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
             errors = partial(cases.errors, probe, facets, force, torsion, count)
-            yield ConfidenceCase("error", title, name, (i,), errors)
+            yield Case("error", title, name, (i,), errors)
 
 
 def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
@@ -274,7 +224,7 @@ def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Ite
         for region in (False, True) if name in PROBE_NAMES else (False,):
             pairs = [
                 cases.reliability(name, sizes.facets, sizes.touches, rng, region=region)
-                for rng in _chances(sizes, seed, i)
+                for rng in chances(sizes.seeds, seed, i)
             ]
             stated, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
             yield from bins(title_of(name), "lens declared" if region else "no region", stated, right)
@@ -307,10 +257,6 @@ def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterato
         yield ConfidenceRow("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
 
 
-def _chances(sizes: ConfidenceSizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
-    return (np.random.default_rng((seed, *place, i)) for i in range(sizes.seeds))
-
-
 # ---- the page ----------------------------------------------------------------------------------------------
 
 _PICTURE = "reliability.png"
@@ -337,17 +283,11 @@ def make(results: Results, folder: Path) -> str:
     """
     known = [field.name for field in fields(ConfidenceRow)]
     rows = [ConfidenceRow(**{name: row[name] for name in known}) for row in results.rows]
-    lines = [
-        f"- {row.probe}, {row.case}, {row.figure}: {row.words}, {row.bound}: {row.verdict}"
-        for row in rows
-        if row.verdict is not FigureVerdict.MET
-    ]
-    verdict = "\n".join(["Bounds that are missed or open:", "", *lines]) if lines else "Every bound is kept."
     probes = sorted({row.probe for row in rows if row.part == "one touch"})
     files = (
         "" if set(probes) - set(PROBE_NAMES) else " No probe from a file was measured: `--probe` takes one."
     )
-    about = f"{_ABOUT}\n\nProbes: {', '.join(probes)}.{files}\n\n{verdict}"
+    about = f"{_ABOUT}\n\nProbes: {', '.join(probes)}.{files}\n\n{verdict_on(rows)}"
     return chapter("Confidence", about, tables(rows), {_PICTURE: _diagram(rows)}, _SAID, folder) + "\n"
 
 

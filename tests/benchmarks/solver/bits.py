@@ -19,6 +19,7 @@ from contactbench import assets
 from contactbench.pipeline import kernel
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.gates import BEHIND_M
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide
 from contactbench.pipeline.study import hard_meshes as hm
@@ -183,7 +184,7 @@ def _packed(solver: ContactSolver, wrenches: NDArray[np.float64]) -> bytes:
 
 
 def gate_numbers(gates: Gates) -> list[float]:
-    given = gates.kernel_arguments()
+    given = {**gates.kernel_values(), "behind_distance": BEHIND_M}
     names = (
         "min_force",
         "cos_friction",

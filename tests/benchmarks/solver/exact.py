@@ -11,9 +11,9 @@ import numpy as np
 from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differing, kernel_rows
 
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
-from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
 from contactbench.pipeline.study.report import Figure, StudyReport

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import ContactSolver, Reason
 from contactbench.pipeline.study.confidence import cases, study
+from contactbench.pipeline.study.harness import Case
 from contactbench.pipeline.study.pages import make_page, publish
 
 TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
@@ -74,8 +75,8 @@ def test_a_bound_is_missed_where_the_whole_interval_is_beyond():
 
 def test_seeds_give_the_mean_and_its_interval():
     values = iter([0.001, 0.003, 0.002])
-    case = study.ConfidenceCase("fin", "p", "c", (0,), lambda _: {"sure": next(values)})
-    (row,) = case.rows(replace(TINY, seeds=3), 0)
+    case = Case("fin", "p", "c", (0,), lambda _: {"sure": next(values)})
+    (row,) = study.rows_of(case, replace(TINY, seeds=3), 0)
     assert (row.value, row.high) == pytest.approx((0.2, 0.2 + 4.303 * 0.1 / 3**0.5), rel=1e-3)
     assert row.low == 0.0  # a share is no less
 

@@ -169,7 +169,7 @@ def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
 
 def test_each_machine_is_told_with_its_own_environment(tmp_path, monkeypatch):
     for number, name in enumerate(("one", "one", "other"), 1):
-        monkeypatch.setattr(results, "_processor", lambda name=name: name)
+        monkeypatch.setattr(results, "processor", lambda name=name: name)
         run(_TINY, tmp_path, workers=1, part=(number, 3))
     found = read_results(tmp_path).environment
     told = {each["processor"]: each["cells"] for each in found["machines"]}

@@ -1,8 +1,9 @@
-// What is said of a wrench: gates, reason codes, the touches that explain it, and how they compare.
+// What is said of a wrench: reason codes, the touches that explain it, and how they compare.
 //
 // Contract: lengths m, forces N, torques N*m. Nothing here allocates.
 #pragma once
 
+#include "gates.hpp"
 #include "model.hpp"
 
 namespace contactbench {
@@ -30,23 +31,6 @@ inline constexpr int reason_count = 15;
 inline bool has_point(Reason r) {
     return r <= Reason::ambiguous || r == Reason::by_region || r == Reason::two_touches;
 }
-
-struct Gates {
-    double min_force = 0.5;                     // N
-    double cos_friction = 0.25881904510252074;  // of 75 degrees
-    double implausible_misfit = 10.8;           // d2 beyond which no touch explains the wrench
-    double rival_cost = 9.210340371976184;      // 2 ln(100): rivals within it make an answer ambiguous
-    double ambiguity_distance = 0.005;          // m: nearer than this, or 4.5 sigma, it is the same touch
-    double behind_cost = 4.0;                   // 2 ln(odds) that the surface met first is the one touched
-    double behind_distance = 0.003;             // m along the force
-    double follow_cost = 13.815510557964274;    // 2 ln(1000): that a touch stays near the last one
-    double follow_distance = 0.010;             // m
-    std::int64_t recent_samples = 20;
-    double max_age = 0.1;                       // s
-    double saturation[6] = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    bool region_only = false;
-    bool accept_by_region = true;
-};
 
 // May a controller use it, and tracking follow it?
 inline bool accepted(Reason r, const Gates& g) {

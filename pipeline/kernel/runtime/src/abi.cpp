@@ -121,33 +121,6 @@ void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& 
 
 bool fits(const cb_contact* contact) noexcept { return contact && contact->size >= contact_2_0; }
 
-template <std::size_t N>
-void copy(double (&to)[N], const std::array<double, N>& from) noexcept {
-    std::copy(from.begin(), from.end(), to);
-}
-
-void fill_gains(cb_controller& out, const Controller& c) noexcept {
-    out.desired_force_N = c.desired_force, out.period_s = c.period, out.servo_lag_s = c.servo_lag;
-    out.force_mass_kg = c.force_mass, out.force_damping_Nspm = c.force_damping;
-    out.force_stiffness_Npm = c.force_stiffness, out.force_gain_per_s = c.force_gain;
-    copy(out.angle_inertia, c.angle_inertia), copy(out.angle_damping, c.angle_damping);
-    copy(out.angle_stiffness, c.angle_stiffness), copy(out.angle_gain_per_s, c.angle_gain);
-    out.settling_s = c.settling;
-    copy(out.bandwidth_per_s, c.bandwidth);
-    out.smoothing_s = c.smoothing, out.lean_rad = c.lean_angle, out.lean_s = c.lean_time;
-}
-
-void fill_behaviour(cb_controller& out, const Controller& c) noexcept {
-    out.approach_speed_mps = c.approach_speed, out.approach_travel_m = c.approach_travel;
-    out.retract_speed_mps = c.retract_speed, out.retract_travel_m = c.retract_travel;
-    out.touch_force_N = c.touch_force, out.low_force_N = c.low_force;
-    out.ramp_s = c.ramp, out.probing_m = c.probing, out.attempts = std::int32_t(c.attempts);
-    out.left_force_N = c.left_force, out.left_torque_Nm = c.left_torque;
-    out.taring_s = c.taring, out.gyration_m = c.gyration;
-    out.stale_s = c.stale, out.give_up_s = c.give_up, out.following_s = c.following;
-    out.max_tilt_rad = c.max_tilt;
-}
-
 }  // namespace
 
 extern "C" {
@@ -225,7 +198,7 @@ int cb_describe(const cb_runtime* runtime, cb_info* info) {
     out.verified = c.verified;
     out.facets = std::int32_t(c.facets), out.vertices = std::int32_t(c.vertices);
     out.rate_Hz = c.rate, out.max_age_s = c.settings.gates.max_age;
-    out.max_force_N = c.max_force, out.max_torque_Nm = c.max_torque;
+    out.max_force_N = c.controller.max_force_N, out.max_torque_Nm = c.controller.max_torque_Nm;
     copy_text(out.sensor_model, c.sensor_model), copy_text(out.sensor_serial, c.sensor_serial);
     copy_text(out.probe, c.probe_name);
     hand_over(out, info);
@@ -235,18 +208,14 @@ int cb_describe(const cb_runtime* runtime, cb_info* info) {
 int cb_describe_controller(const cb_runtime* runtime, cb_controller* controller) {
     if (!runtime || !controller || controller->size < controller_2_0) return CB_ERROR_ARGUMENT;
     const Config& c = runtime->config;
-    cb_controller out{};
-    // What is not told stays as it was.
-    if (!c.controller) std::memcpy(&out, controller, std::min<std::size_t>(controller->size, sizeof out));
-    out.max_force_N = c.max_force, out.max_torque_Nm = c.max_torque;
-    out.max_speed_mps = c.max_speed, out.max_turn_radps = c.max_turn;
-    if (c.controller) {
-        out.aware = c.controller->aware;
-        fill_gains(out, *c.controller);
-        fill_behaviour(out, *c.controller);
+    cb_controller out = c.controller;
+    if (!c.controlled) {  // what is not told stays as it was
+        std::memcpy(&out, controller, std::min<std::size_t>(controller->size, sizeof out));
+        out.max_force_N = c.controller.max_force_N, out.max_torque_Nm = c.controller.max_torque_Nm;
+        out.max_speed_mps = c.controller.max_speed_mps, out.max_turn_radps = c.controller.max_turn_radps;
     }
     hand_over(out, controller);
-    return c.controller ? CB_OK : CB_ERROR_VALUE;
+    return c.controlled ? CB_OK : CB_ERROR_VALUE;
 }
 
 int cb_reset(cb_runtime* runtime) {

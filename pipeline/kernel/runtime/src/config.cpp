@@ -4,14 +4,27 @@
 #include <cmath>
 #include <iterator>
 
-#include "fields.hpp"
 #include "physics.hpp"
+#include "schema.hpp"
 
 namespace contactbench::runtime {
 
 namespace {
 
+// Of an array, row by row.
+std::vector<double> numbers(const Json& array) {
+    std::vector<double> out;
+    for (const Json& item : array.items) {
+        if (item.type != Json::Type::array) out.push_back(item.number);
+        const auto below = numbers(item);
+        out.insert(out.end(), below.begin(), below.end());
+    }
+    return out;
+}
+
 Vec3 three(const std::vector<double>& v, std::size_t i = 0) { return {v[i], v[i + 1], v[i + 2]}; }
+Vec3 three(const Json& array) { return three(numbers(array)); }
+bool is_null(const Json& value) { return value.type == Json::Type::null; }
 
 // Returns the version.
 std::int64_t read_kind(const Json& root) {
@@ -27,21 +40,11 @@ std::int64_t read_kind(const Json& root) {
     return version->integer;
 }
 
-void read_units(const Json& json) {
-    const Fields f(json, "units", {"force", "torque", "length", "time", "angle"});
-    f.literal("force", "N"), f.literal("torque", "N*m"), f.literal("length", "m");
-    f.literal("time", "s"), f.literal("angle", "rad");
-}
-
-void read_frames(const Json& json, Config& c) {
-    const Fields f(json, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"});
-    f.literal("sensor", "S"), f.literal("world", "W");
-    f.literal("rotation", "R_WS: v_W = R_WS v_S");
-    f.literal("wrench", "what the tissue does to the probe, about the origin of S");
-    if (f.is_null("quaternion_ES")) return;
-    const auto q = f.numbers("quaternion_ES", 4);
+void read_frames(const Json& frames, Config& c) {
+    if (is_null(frames["quaternion_ES"])) return;
+    const auto q = numbers(frames["quaternion_ES"]);
     const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(std::fabs(size - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, f.path("quaternion_ES"), "its length is not 1");
+    if (!(std::fabs(size - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, "frames.quaternion_ES", "its length is not 1");
     const double w = q[0] / size, x = q[1] / size, y = q[2] / size, z = q[3] / size;
     c.R_ES = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
               2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
@@ -50,356 +53,193 @@ void read_frames(const Json& json, Config& c) {
     std::copy(c.R_ES->begin(), c.R_ES->end(), c.settings.R_ES);
 }
 
-void read_world(const Json& json, Config& c) {
-    const Fields f(json, "world", {"down_W"});
-    c.down_W = three(f.numbers("down_W", 3));
-    if (!(std::fabs(norm(c.down_W) - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, f.path("down_W"), "its length is not 1");
-}
-
-void read_sensor(const Json& json, Config& c) {
-    const Fields f(json, "sensor", {"model", "serial", "rate_Hz"});
-    c.sensor_model = f.text("model"), c.sensor_serial = f.text("serial");
-    c.rate = f.number("rate_Hz", positive);
-}
-
-std::vector<double> read_gravity(const Json& json, Config& c) {
-    const Fields f(json, "gravity",
-                   {"gravity_W_N", "force_bias_N", "centre_of_mass_S_m", "torque_bias_Nm", "covariance"});
-    c.settings.gravity = {three(f.numbers("gravity_W_N", 3)), three(f.numbers("force_bias_N", 3)),
-                          three(f.numbers("centre_of_mass_S_m", 3)), three(f.numbers("torque_bias_Nm", 3))};
-    auto covariance = f.matrix("covariance", 12, 12);
+std::vector<double> read_gravity(const Json& gravity, Config& c) {
+    c.settings.gravity = {three(gravity["gravity_W_N"]), three(gravity["force_bias_N"]),
+                          three(gravity["centre_of_mass_S_m"]), three(gravity["torque_bias_Nm"])};
+    auto covariance = numbers(gravity["covariance"]);
     check_covariance("gravity.covariance", covariance, 12);
     check_gravity(c.settings.gravity, covariance, c.down_W, c.version);
     std::copy(covariance.begin(), covariance.end(), &c.settings.zero.covariance[0][0]);
     return covariance;
 }
 
-bool is_time(std::string_view text) {
-    constexpr std::string_view shape = "0000-00-00T00:00:00Z";
-    if (text.size() != shape.size()) return false;
-    for (std::size_t i = 0; i < shape.size(); ++i)
-        if (shape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != shape[i]) return false;
-    return true;
-}
-
-void read_time(const Fields& f, const char* name) {
-    if (!is_time(f.text(name))) fail(CB_ERROR_VALUE, f.path(name), "not like 2026-01-02T03:04:05Z");
-}
-
-// Nothing here changes an answer: it is for people.
-void read_zero(const Json& json) {
-    const Fields f(json, "zero", {"measured", "drift"});
-    if (!f.is_null("measured")) read_time(f, "measured");
-    if (f.is_null("drift")) return;
-    const Fields drift(f.at("drift"), "zero.drift",
-                       {"force_Nps", "torque_Nmps", "force_sigma_Nps", "torque_sigma_Nmps"});
-    for (const char* name : {"force_Nps", "torque_Nmps"}) drift.numbers(name, 3);
-    for (const char* name : {"force_sigma_Nps", "torque_sigma_Nmps"}) drift.numbers(name, 3, not_negative);
-}
-
-void read_wrench_filter(const Json& json, Config& c) {
-    if (json.type == Json::Type::null) return;
-    const Fields f(json, "filters.wrench", {"kind", "rate_Hz", "q", "r", "tuned_rate_Hz", "per_sample"});
-    f.literal("kind", "kalman");
-    c.settings.filter_wrench = true;
-    c.settings.kalman = {f.number("rate_Hz", positive), f.number("q", positive), f.number("r", positive),
-                         f.number("tuned_rate_Hz", positive), f.flag("per_sample")};
-}
-
-void read_low_pass(const Json& json, Config& c) {
-    if (json.type == Json::Type::null) return;
-    const Fields f(json, "filters.location", {"kind", "rate_Hz", "cutoff_Hz", "order", "sections"});
-    f.literal("kind", "lowpass");
-    const double rate = f.number("rate_Hz", positive), cutoff = f.number("cutoff_Hz", positive);
-    const std::int64_t order = f.integer("order", 1, 8);
-    const std::size_t count = f.array("sections", 1, 4).size();
-    const auto v = f.matrix("sections", count, 6);
+void read_filters(const Json& filters, RuntimeSettings& s) {
+    const Json &wrench = filters["wrench"], &location = filters["location"];
+    s.filter_wrench = !is_null(wrench);
+    if (s.filter_wrench)
+        s.kalman = {wrench["rate_Hz"].number, wrench["q"].number, wrench["r"].number,
+                    wrench["tuned_rate_Hz"].number, wrench["per_sample"].boolean};
+    if (is_null(location)) return;
+    const auto v = numbers(location["sections"]);
     for (std::size_t i = 0; i < v.size(); i += 6)
-        c.settings.sections.push_back({{v[i], v[i + 1], v[i + 2]}, {v[i + 3], v[i + 4], v[i + 5]}});
-    check_low_pass(c.settings.sections, rate, cutoff, int(order));
+        s.sections.push_back({{v[i], v[i + 1], v[i + 2]}, {v[i + 3], v[i + 4], v[i + 5]}});
+    check_low_pass(s.sections, location["rate_Hz"].number, location["cutoff_Hz"].number,
+                   int(location["order"].integer));
 }
 
-void read_noise(const Json& json, Config& c, const std::vector<double>& calibration) {
-    const Fields f(json, "noise", {"force_N", "torque_Nm", "orientation_rad", "wrench_covariance"});
+void read_noise(const Json& noise, RuntimeSettings& settings, const std::vector<double>& calibration) {
     // Poses of a moving robot are no better than what is there, whatever the still ones of a calibration were.
-    double& orientation = c.settings.zero.orientation;
-    if (!f.is_null("orientation_rad")) orientation = std::max(orientation, f.number("orientation_rad", {0.0, 0.5}));
-    const auto force = f.numbers("force_N", 3, not_negative), torque = f.numbers("torque_Nm", 3, not_negative);
-    const auto s = f.matrix("wrench_covariance", 6, 6);
+    settings.zero.orientation = std::max(settings.zero.orientation, noise["orientation_rad"].number);
+    const auto s = numbers(noise["wrench_covariance"]);
     check_covariance("noise.wrench_covariance", s, 6);
-    std::copy(s.begin(), s.end(), &c.settings.noise.s[0][0]);
-    check_noise(force, torque, c.settings, calibration);
+    std::copy(s.begin(), s.end(), &settings.noise.s[0][0]);
+    check_noise(numbers(noise["force_N"]), numbers(noise["torque_Nm"]), settings, calibration);
 }
 
 // After the noise was checked: its model error comes on top.
-void read_touch(const Json& json, Config& c) {
-    const Fields f(json, "touch", {"torsion_arm_m", "model_error", "mesh_deviation_m", "mesh_curved"});
-    c.settings.torsion_arm = f.number("torsion_arm_m", {0.0, 0.1});
-    c.mesh = {f.number("mesh_deviation_m", {0.0, 0.1}), f.flag("mesh_curved")};
-    const Fields error(f.at("model_error"), "touch.model_error", {"force_N", "torque_Nm", "measured"});
-    error.flag("measured");
-    auto sigma = error.numbers("force_N", 3, {0.0, 100.0});
-    const auto torque = error.numbers("torque_Nm", 3, {0.0, 10.0});
+void read_touch(const Json& touch, Config& c) {
+    c.settings.torsion_arm = touch["torsion_arm_m"].number;
+    c.mesh = {touch["mesh_deviation_m"].number, touch["mesh_curved"].boolean};
+    auto sigma = numbers(touch["model_error"]["force_N"]);
+    const auto torque = numbers(touch["model_error"]["torque_Nm"]);
     sigma.insert(sigma.end(), torque.begin(), torque.end());
     for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j) c.settings.noise.s[i][j] += i == j ? sigma[i] * sigma[i] : 0.0;
 }
 
-void read_streams(const Json& json, RuntimeSettings& s) {
-    const Fields f(json, "streams", {"pose_gap_s", "pose_ahead_s", "silence_s", "frozen_probability", "motion"});
-    s.poses = {f.number("pose_gap_s", {0.0, 10.0, true}), f.number("pose_ahead_s", {0.0, 10.0})};
-    s.silence = f.number("silence_s", {0.0, 10.0, true});
-    s.frozen_chance = f.number("frozen_probability", {1e-30, 1e-3});
-    if (f.is_null("motion")) return;
-    const Fields motion(f.at("motion"), "streams.motion", {"window_s", "gyration_m"});
-    s.motion = {true, motion.number("window_s", {0.02, 2.0}), motion.number("gyration_m", {0.0, 1.0})};
-}
-
-void read_self_test(const Json& json, Config& c) {
-    if (json.type == Json::Type::null) return;
-    const Fields f(json, "self_test", {"file", "samples"});
-    c.self_test = f.file("file");
-    c.self_test_samples = std::size_t(f.integer("samples", 1, 100000));
+void read_streams(const Json& streams, RuntimeSettings& s) {
+    s.poses = {streams["pose_gap_s"].number, streams["pose_ahead_s"].number};
+    s.silence = streams["silence_s"].number;
+    s.frozen_chance = streams["frozen_probability"].number;
+    const Json& motion = streams["motion"];
+    if (!is_null(motion)) s.motion = {true, motion["window_s"].number, motion["gyration_m"].number};
 }
 
 // What so many to one are worth in d2; by the same function as the Python runtime, to the last bit.
 double cost_of(double odds) { return 2.0 * std::log(odds); }
 
-void read_gates(const Json& json, Gates& g) {
-    const Fields f(json, "gates",
-                   {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "implausible_misfit", "rival_odds",
-                    "first_odds", "follow_odds", "follow_distance_m", "recent_samples", "max_age_s", "saturation",
-                    "region_only", "accept_by_region"});
-    constexpr Range odds{1.0, 1e9};
-    g.min_force = f.number("min_force_N", not_negative);
-    const double angle = f.number("friction_angle_rad", {0.0, 1.5708, true});
-    // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
-    const double degrees = angle * (180.0 / M_PI);
-    if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, f.path("friction_angle_rad"), "not below a right angle");
-    g.cos_friction = std::cos(degrees * (M_PI / 180.0));
-    g.ambiguity_distance = f.number("ambiguity_distance_m", not_negative);
-    g.implausible_misfit = f.number("implausible_misfit", {0.45, 37.4});
-    g.rival_cost = cost_of(f.number("rival_odds", odds));
-    g.behind_cost = cost_of(f.number("first_odds", odds));
-    g.follow_cost = cost_of(f.number("follow_odds", odds));
-    g.follow_distance = f.number("follow_distance_m", not_negative);
-    g.recent_samples = f.integer("recent_samples", 0, 2147483647);
-    g.max_age = f.number("max_age_s", not_negative);
-    const auto limits = f.limits("saturation", 6, HUGE_VAL);
-    std::copy(limits.begin(), limits.end(), g.saturation);
-    g.region_only = f.flag("region_only");
-    g.accept_by_region = f.flag("accept_by_region");
-}
+struct GateReader {
+    const Json& gates;
 
-void read_probe_part(const Json& json, Config& c) {
-    const Fields f(json, "probe", {"file", "name", "facets", "vertices", "bounds_S_m"});
-    c.probe_file = f.file("file");
-    if (c.probe_file != "probe.ply") fail(CB_ERROR_VALUE, f.path("file"), "not 'probe.ply'");
-    c.probe_name = f.text("name");
-    c.facets = std::size_t(f.integer("facets", 4, 2'000'000));
-    c.vertices = std::size_t(f.integer("vertices", 4, 2'000'000));
-    const auto bounds = f.matrix("bounds_S_m", 2, 3);
+    void operator()(const char* stored, const char*, double& to, From from) const {
+        to = gates[stored].number;
+        if (from == From::odds) to = cost_of(to);
+        if (from != From::angle) return;
+        // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
+        const double degrees = to * (180.0 / M_PI);
+        if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, std::string("gates.") + stored, "not below a right angle");
+        to = std::cos(degrees * (M_PI / 180.0));
+    }
+    void operator()(const char* stored, const char*, std::int64_t& to, From) const { to = gates[stored].integer; }
+    void operator()(const char* stored, const char*, bool& to, From) const { to = gates[stored].boolean; }
+    void operator()(const char* stored, const char*, double (&to)[6], From) const {
+        const auto& limits = gates[stored].items;
+        std::transform(limits.begin(), limits.end(), to,
+                       [](const Json& limit) { return is_null(limit) ? HUGE_VAL : limit.number; });
+    }
+};
+
+void read_probe_part(const Json& probe, Config& c) {
+    c.probe_file = probe["file"].text;
+    if (c.probe_file != "probe.ply") fail(CB_ERROR_VALUE, "probe.file", "not 'probe.ply'");
+    c.probe_name = probe["name"].text;
+    c.facets = std::size_t(probe["facets"].integer);
+    c.vertices = std::size_t(probe["vertices"].integer);
+    const auto bounds = numbers(probe["bounds_S_m"]);
     c.low = three(bounds), c.high = three(bounds, 3);
 }
 
 void read_regions(const std::vector<Json>& rows, Config& c) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Fields f(rows[i], "regions[" + std::to_string(i) + "]",
-                       {"rank", "name", "colour", "facets", "odds", "untouchable"});
-        const double odds = f.number("odds", {1e-9, 1e9});
-        const bool untouchable = f.flag("untouchable");
-        c.regions.push_back(
-            {f.integer("rank", 1, 1000), f.integer("facets", 0, 2147483647), cost_of(odds), untouchable});
-        if (untouchable ? odds > 1.0 : odds < 1.0) fail(CB_ERROR_VALUE, f.path("odds"), "its untouchable denies it");
-        if (c.regions.back().rank != std::int64_t(i) + 1) fail(CB_ERROR_VALUE, f.path("rank"), "not 1, 2 and so on");
-        f.text("name");
-        const std::string colour = f.text("colour");
-        if (colour.size() != 7 || colour[0] != '#' ||
-            colour.find_first_not_of("0123456789abcdef", 1) != std::string::npos)
-            fail(CB_ERROR_VALUE, f.path("colour"), "not like #1f77b4");
+        const std::string path = "regions[" + std::to_string(i) + "].";
+        const double odds = rows[i]["odds"].number;
+        const bool untouchable = rows[i]["untouchable"].boolean;
+        c.regions.push_back({rows[i]["rank"].integer, rows[i]["facets"].integer, cost_of(odds), untouchable});
+        if (untouchable ? odds > 1.0 : odds < 1.0) fail(CB_ERROR_VALUE, path + "odds", "its untouchable denies it");
+        if (rows[i]["rank"].integer != std::int64_t(i) + 1) fail(CB_ERROR_VALUE, path + "rank", "not 1, 2 and so on");
     }
 }
 
-void read_planes(const Json& json, Config& c) {
-    const Fields f(json, "planes", {"file", "count"});
-    if (f.file("file") != "planes.csv") fail(CB_ERROR_VALUE, f.path("file"), "not 'planes.csv'");
-    c.planes = std::size_t(f.integer("count", 0, 2147483647));
+void read_planes(const Json& planes, Config& c) {
+    if (planes["file"].text != "planes.csv") fail(CB_ERROR_VALUE, "planes.file", "not 'planes.csv'");
+    c.planes = std::size_t(planes["count"].integer);
 }
 
-template <std::size_t N>
-std::array<double, N> several(const Fields& f, std::string_view name, Range range = positive) {
-    const auto values = f.numbers(name, N, range);
-    std::array<double, N> out{};
-    std::copy(values.begin(), values.end(), out.begin());
-    return out;
+// One number of a controller: where it stands, and where it goes.
+struct Gain {
+    const char *part, *name;
+    double cb_controller::*to;
+};
+constexpr Gain gains[] = {
+    {"force", "mass_kg", &cb_controller::force_mass_kg},
+    {"force", "damping_Nspm", &cb_controller::force_damping_Nspm},
+    {"force", "stiffness_Npm", &cb_controller::force_stiffness_Npm},
+    {"force", "gain_per_s", &cb_controller::force_gain_per_s},
+    {"angle", "settling_s", &cb_controller::settling_s},
+    {"lead", "smoothing_s", &cb_controller::smoothing_s},
+    {"lead", "lean_rad", &cb_controller::lean_rad},
+    {"lead", "lean_s", &cb_controller::lean_s},
+    {"touch", "approach_speed_mps", &cb_controller::approach_speed_mps},
+    {"touch", "approach_travel_m", &cb_controller::approach_travel_m},
+    {"touch", "retract_speed_mps", &cb_controller::retract_speed_mps},
+    {"touch", "retract_travel_m", &cb_controller::retract_travel_m},
+    {"touch", "touch_force_N", &cb_controller::touch_force_N},
+    {"touch", "low_force_N", &cb_controller::low_force_N},
+    {"touch", "ramp_s", &cb_controller::ramp_s},
+    {"touch", "probing_m", &cb_controller::probing_m},
+    {"tool", "left_force_N", &cb_controller::left_force_N},
+    {"tool", "left_torque_Nm", &cb_controller::left_torque_Nm},
+    {"tool", "taring_s", &cb_controller::taring_s},
+    {"tool", "gyration_m", &cb_controller::gyration_m},
+    {"watch", "stale_s", &cb_controller::stale_s},
+    {"watch", "give_up_s", &cb_controller::give_up_s},
+    {"watch", "following_s", &cb_controller::following_s},
+    {"watch", "max_tilt_rad", &cb_controller::max_tilt_rad},
+};
+
+void fill(double* to, const Json& array) {
+    for (const Json& item : array.items) *to++ = item.number;
 }
 
-// Version 1 had one gain for both turns, and left the rest to who read it: the defaults of Controller.
-Controller read_old_controller(const Json& json) {
-    const Fields f(json, "controller",
-                   {"desired_force_N", "force_mass_kg", "force_damping_Nspm", "force_stiffness_Npm",
-                    "angle_inertia", "angle_damping", "angle_stiffness"});
-    Controller c;
-    c.desired_force = f.number("desired_force_N", positive);
-    c.force_mass = f.number("force_mass_kg", positive), c.force_damping = f.number("force_damping_Nspm", positive);
-    c.force_stiffness = f.number("force_stiffness_Npm", not_negative);
-    c.angle_inertia.fill(f.number("angle_inertia", positive));
-    c.angle_damping.fill(f.number("angle_damping", positive));
-    c.angle_stiffness.fill(f.number("angle_stiffness", not_negative));
+cb_controller read_controller(const Json& json) {
+    cb_controller c{};
+    c.aware = json["variant"].text == "aware";
+    c.desired_force_N = json["desired_force_N"].number, c.period_s = json["period_s"].number;
+    c.servo_lag_s = json["servo_lag_s"].number;
+    for (const Gain& gain : gains) c.*gain.to = json[gain.part][gain.name].number;
+    const Json& angle = json["angle"];
+    fill(c.angle_inertia, angle["inertia"]), fill(c.angle_damping, angle["damping"]);
+    fill(c.angle_stiffness, angle["stiffness"]), fill(c.angle_gain_per_s, angle["gain_per_s"]);
+    fill(c.bandwidth_per_s, json["lead"]["bandwidth_per_s"]);
+    c.attempts = std::int32_t(json["touch"]["attempts"].integer);
     return c;
 }
 
-void read_gains(const Fields& controller, Controller& c) {
-    const Fields force(controller.at("force"), "controller.force",
-                       {"mass_kg", "damping_Nspm", "stiffness_Npm", "gain_per_s"});
-    c.force_mass = force.number("mass_kg", positive), c.force_damping = force.number("damping_Nspm", positive);
-    c.force_stiffness = force.number("stiffness_Npm", not_negative);
-    c.force_gain = force.number("gain_per_s", positive);
-    const Fields angle(controller.at("angle"), "controller.angle",
-                       {"inertia", "damping", "stiffness", "gain_per_s", "settling_s"});
-    c.angle_inertia = several<2>(angle, "inertia"), c.angle_damping = several<2>(angle, "damping");
-    c.angle_stiffness = several<2>(angle, "stiffness", not_negative);
-    c.angle_gain = several<2>(angle, "gain_per_s"), c.settling = angle.number("settling_s", positive);
-    const Fields lead(controller.at("lead"), "controller.lead",
-                      {"bandwidth_per_s", "smoothing_s", "lean_rad", "lean_s"});
-    c.bandwidth = several<3>(lead, "bandwidth_per_s"), c.smoothing = lead.number("smoothing_s", positive);
-    c.lean_angle = lead.number("lean_rad", positive), c.lean_time = lead.number("lean_s", positive);
-}
-
-void read_behaviour(const Fields& controller, Controller& c) {
-    const Fields touch(controller.at("touch"), "controller.touch",
-                       {"approach_speed_mps", "approach_travel_m", "retract_speed_mps", "retract_travel_m",
-                        "touch_force_N", "low_force_N", "ramp_s", "probing_m", "attempts"});
-    c.approach_speed = touch.number("approach_speed_mps", positive);
-    c.approach_travel = touch.number("approach_travel_m", positive);
-    c.retract_speed = touch.number("retract_speed_mps", positive);
-    c.retract_travel = touch.number("retract_travel_m", positive);
-    c.touch_force = touch.number("touch_force_N", positive), c.low_force = touch.number("low_force_N", positive);
-    c.ramp = touch.number("ramp_s", positive), c.probing = touch.number("probing_m", not_negative);
-    c.attempts = touch.integer("attempts", 0, 2147483647);
-    const Fields tool(controller.at("tool"), "controller.tool",
-                      {"left_force_N", "left_torque_Nm", "taring_s", "gyration_m"});
-    c.left_force = tool.number("left_force_N", positive), c.left_torque = tool.number("left_torque_Nm", positive);
-    c.taring = tool.number("taring_s", not_negative), c.gyration = tool.number("gyration_m", not_negative);
-    const Fields watch(controller.at("watch"), "controller.watch",
-                       {"stale_s", "give_up_s", "following_s", "max_tilt_rad"});
-    c.stale = watch.number("stale_s", positive), c.give_up = watch.number("give_up_s", positive);
-    c.following = watch.number("following_s", positive);
-    c.max_tilt = watch.number("max_tilt_rad", {0.0, 1.5708, true});
-    if (!(c.max_tilt < 1.5708)) fail(CB_ERROR_VALUE, watch.path("max_tilt_rad"), "not below a right angle");
-}
-
-Controller read_new_controller(const Json& json) {
-    const Fields f(json, "controller",
-                   {"variant", "desired_force_N", "period_s", "servo_lag_s", "force", "angle", "lead", "touch",
-                    "tool", "watch"});
-    Controller c;
-    const std::string variant = f.text("variant");
-    c.aware = variant == "aware";
-    if (!c.aware && variant != "plain") fail(CB_ERROR_SCHEMA, f.path("variant"), "neither 'plain' nor 'aware'");
-    c.desired_force = f.number("desired_force_N", positive);
-    c.period = f.number("period_s", positive), c.servo_lag = f.number("servo_lag_s", not_negative);
-    read_gains(f, c);
-    read_behaviour(f, c);
-    return c;
-}
-
-void read_controller(const Json& json, std::int64_t version, Config& c) {
-    if (json.type == Json::Type::null) return;
-    c.controller = version == 1 ? read_old_controller(json) : read_new_controller(json);
-}
-
-void read_limits(const Json& json, Config& c) {
-    const Fields f(json, "limits", {"max_force_N", "max_torque_Nm", "max_speed_mps", "max_turn_radps"});
-    c.max_force = f.number("max_force_N", positive), c.max_torque = f.number("max_torque_Nm", positive);
-    if (!f.is_null("max_speed_mps")) c.max_speed = f.number("max_speed_mps", positive);
-    if (!f.is_null("max_turn_radps")) c.max_turn = f.number("max_turn_radps", positive);
-    if (c.controller && !(c.controller->desired_force < c.max_force))
+void read_limits(const Json& limits, cb_controller& c, bool controlled) {
+    c.max_force_N = limits["max_force_N"].number, c.max_torque_Nm = limits["max_torque_Nm"].number;
+    const Json &speed = limits["max_speed_mps"], &turn = limits["max_turn_radps"];
+    c.max_speed_mps = is_null(speed) ? HUGE_VAL : speed.number;
+    c.max_turn_radps = is_null(turn) ? HUGE_VAL : turn.number;
+    if (controlled && !(c.desired_force_N < c.max_force_N))
         fail(CB_ERROR_VALUE, "controller.desired_force_N", "not below limits.max_force_N");
 }
 
-// Returns whether it passed.
-bool read_verification(const Json& json) {
-    if (json.type == Json::Type::null) return false;
-    const Fields f(json, "verification",
-                   {"touches", "markers", "mean_error_m", "sd_error_m", "p95_error_m", "max_error_m", "ratio",
-                    "p99_time_s", "limit_mean_m", "limit_max_m", "passed", "diagnosis"});
-    for (const char* name : {"touches", "markers"}) f.integer(name, 0, 2147483647);
-    for (const char* name : {"mean_error_m", "sd_error_m", "p95_error_m", "max_error_m"}) f.number(name, not_negative);
-    for (const char* name : {"ratio", "p99_time_s"})
-        if (!f.is_null(name)) f.number(name, not_negative);
-    for (const char* name : {"limit_mean_m", "limit_max_m"}) f.number(name, positive);
-    f.text("diagnosis", 10'000);
-    const bool within = f.number("mean_error_m") <= f.number("limit_mean_m") &&
-                        f.number("max_error_m") <= f.number("limit_max_m");
-    const bool passed = f.flag("passed");
-    return passed && within;
+bool passed(const Json& verification) {
+    if (is_null(verification)) return false;
+    return verification["passed"].boolean &&
+           verification["mean_error_m"].number <= verification["limit_mean_m"].number &&
+           verification["max_error_m"].number <= verification["limit_max_m"].number;
 }
 
-// Returns whether it did not fail.
-bool read_check(const Fields& f) {
-    const std::string outcome = f.text("outcome");
-    if (outcome != "passed" && outcome != "failed" && outcome != "undecided")
-        fail(CB_ERROR_SCHEMA, f.path("outcome"), "neither 'passed', 'failed' nor 'undecided'");
-    if (!f.is_null("created")) read_time(f, "created");
-    return outcome != "failed";
+bool failed(const Json& check) { return !is_null(check) && check["outcome"].text == "failed"; }
+
+void check_known_touch(const Json& touch) {
+    if (!is_null(touch) && touch["outcome"].text == "passed" &&
+        (is_null(touch["located_S_m"]) || is_null(touch["error_m"])))
+        fail(CB_ERROR_VALUE, "checks.known_touch.outcome", "'passed', but nothing was located");
 }
 
-bool read_known_weight(const Json& json) {
-    if (json.type == Json::Type::null) return true;
-    const Fields f(json, "checks.known_weight",
-                   {"mass_kg", "mass_sigma_kg", "certificate", "measured_kg", "measured_sigma_kg", "outcome",
-                    "created"});
-    f.number("mass_kg", positive), f.number("measured_kg");
-    f.number("mass_sigma_kg", not_negative), f.number("measured_sigma_kg", not_negative);
-    if (!f.is_null("certificate")) f.text("certificate");
-    return read_check(f);
-}
-
-bool read_known_touch(const Json& json) {
-    if (json.type == Json::Type::null) return true;
-    const Fields f(json, "checks.known_touch",
-                   {"point_S_m", "located_S_m", "error_m", "sigma_m", "outcome", "created"});
-    f.numbers("point_S_m", 3);
-    if (!f.is_null("located_S_m")) f.numbers("located_S_m", 3);
-    for (const char* name : {"error_m", "sigma_m"})
-        if (!f.is_null(name)) f.number(name, not_negative);
-    if (f.text("outcome") == "passed" && (f.is_null("located_S_m") || f.is_null("error_m")))
-        fail(CB_ERROR_VALUE, f.path("outcome"), "'passed', but nothing was located");
-    return read_check(f);
-}
-
-// Returns whether none failed.
-bool read_checks(const Json& json) {
-    const Fields f(json, "checks", {"known_weight", "known_touch"});
-    const bool weight = read_known_weight(f.at("known_weight")), touch = read_known_touch(f.at("known_touch"));
-    return weight && touch;
-}
-
-// Returns whether nothing was stale.
-bool read_provenance(const Json& json, Config& c) {
-    const Fields f(json, "provenance",
-                   {"created", "tool", "operator", "session", "files", "sources", "stale"});
-    read_time(f, "created");
-    f.text("tool"), f.text("operator");
-    if (!f.is_null("session")) f.text("session");
-    const Json& files = f.at("files");
-    if (files.type != Json::Type::object || files.members.empty() || files.members.size() > 50)
-        fail(CB_ERROR_SCHEMA, f.path("files"), "not an object of 1 to 50 files");
-    for (const auto& [name, hash] : files.members) {
-        if (!is_file_name(name)) fail(CB_ERROR_VALUE, f.path("files"), "holds a name that is no file of a bundle");
-        if (hash.type != Json::Type::text || !is_hash(hash.text))
-            fail(CB_ERROR_VALUE, f.path("files") + "." + name, "not a SHA-256");
-        c.files.emplace_back(name, hash.text);
-    }
-    const auto& sources = f.array("sources", 0, 200);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        const Fields s(sources[i], "provenance.sources[" + std::to_string(i) + "]", {"role", "name", "sha256"});
-        s.text("role"), s.text("name"), s.hash("sha256");
-    }
-    for (const Json& item : f.array("stale", 0, 100)) to_text(item, f.path("stale"), 1000);
-    return f.array("stale", 0, 100).empty();
-}
+// What version 1 left open of a controller: as contactbench.pipeline.config.runtime.migrate has it. It had one gain for
+// both turns.
+constexpr std::string_view controller_of_old =
+    R"({"variant":"aware","desired_force_N":0,"period_s":0.02,"servo_lag_s":0.0,)"
+    R"("force":{"mass_kg":0,"damping_Nspm":0,"stiffness_Npm":0,"gain_per_s":6.0},)"
+    R"("angle":{"inertia":[0,0],"damping":[0,0],"stiffness":[0,0],"gain_per_s":[6.0,6.0],"settling_s":0.04},)"
+    R"("lead":{"bandwidth_per_s":[20.0,13.0,13.0],"smoothing_s":0.08,"lean_rad":0.025,"lean_s":0.8},)"
+    R"("touch":{"approach_speed_mps":0.006,"approach_travel_m":0.05,"retract_speed_mps":0.06,)"
+    R"("retract_travel_m":0.03,"touch_force_N":0.7,"low_force_N":0.7,"ramp_s":0.5,"probing_m":0.00015,"attempts":3},)"
+    R"("tool":{"left_force_N":0.01,"left_torque_Nm":0.0005,"taring_s":0.5,"gyration_m":0.035},)"
+    R"("watch":{"stale_s":0.06,"give_up_s":0.2,"following_s":0.05,"max_tilt_rad":0.5}})";
 
 // What version 2 left open: as contactbench.pipeline.config.runtime.migrate has it.
 constexpr std::string_view touch_of_old =
@@ -414,29 +254,49 @@ constexpr std::string_view region_of_old[] = {R"({"odds":1000.0,"untouchable":fa
                                               R"({"odds":100.0,"untouchable":false})",
                                               R"({"odds":10.0,"untouchable":false})"};  // the last for all that follow
 
+Json& member(Json& object, std::string_view name) { return const_cast<Json&>(object[name]); }
+
+constexpr Member gains_of_old[] = {
+    {"desired_force_N", positive}, {"force_mass_kg", positive}, {"force_damping_Nspm", positive},
+    {"force_stiffness_Npm", not_negative}, {"angle_inertia", positive}, {"angle_damping", positive},
+    {"angle_stiffness", not_negative}};
+
+// From version 1 to 2: the rest of the two is the same.
+void from_1(Json& root) {
+    const Json* found = root.find("controller");
+    if (!found || is_null(*found)) return;
+    check(*found, object(gains_of_old), "controller");
+    const Json old = *found;
+    Json made = parse_json(controller_of_old);
+    member(made, "desired_force_N") = old["desired_force_N"];
+    for (const char* name : {"mass_kg", "damping_Nspm", "stiffness_Npm"})
+        member(member(made, "force"), name) = old[std::string("force_") + name];
+    for (const char* name : {"inertia", "damping", "stiffness"})
+        for (Json& turn : member(member(made, "angle"), name).items) turn = old[std::string("angle_") + name];
+    member(root, "controller") = made;
+}
+
 void add(Json& object, std::string_view members) {
     for (auto& member : parse_json(members).members) object.members.push_back(std::move(member));
 }
 
-// From version 2 to 3; Fields sees to it that nothing of version 3 was there. It ranked touches by rules.
+// From version 2 to 3; nothing of version 3 may be there. It ranked touches by rules.
 void from_2(Json& root) {
-    Fields(root, "",
-           {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates", "probe",
-            "regions", "planes", "controller", "limits", "verification", "verified", "provenance"})
-        .array("regions", 0, 1000);
+    check_names(root, "",
+                {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates", "probe",
+                 "regions", "planes", "controller", "limits", "verification", "verified", "provenance"});
     for (auto& [name, value] : root.members) {
         if (name == "gates") {
-            const Fields f(value, "gates",
-                           {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio",
-                            "rival_sigmas", "follow_distance_m", "recent_samples", "max_age_s", "saturation",
-                            "region_only"});
+            check_names(value, "gates",
+                        {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio", "rival_sigmas",
+                         "follow_distance_m", "recent_samples", "max_age_s", "saturation", "region_only"});
             std::erase_if(value.members,
                           [](const auto& m) { return m.first == "torque_ratio" || m.first == "rival_sigmas"; });
             add(value, gates_of_old);
         }
         if (name != "regions") continue;
         for (std::size_t i = 0; i < value.items.size(); ++i) {
-            const Fields f(value.items[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
+            check_names(value.items[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
             add(value.items[i], region_of_old[std::min(i, std::size(region_of_old) - 1)]);
         }
     }
@@ -450,23 +310,19 @@ constexpr std::string_view parts_of_old =
     R"({"world":{"down_W":[0.0,0.0,-1.0]},"zero":{"measured":null,"drift":null},)"
     R"("checks":{"known_weight":null,"known_touch":null}})";
 
-// From version 3 to 4; Fields sees to it that nothing of version 4 was there. It took -z of W for down.
+// From version 3 to 4; nothing of version 4 may be there. It took -z of W for down.
 void from_3(Json& root) {
-    Fields(root, "",
-           {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "streams", "filters", "gates",
-            "probe", "regions", "planes", "controller", "limits", "verification", "self_test", "verified",
-            "provenance"});
-    for (auto& [name, value] : root.members) {
-        if (name == "frames") {
-            Fields(value, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"})
-                .literal("world", "W, z up");
-            for (auto& [field, text] : value.members)
-                if (field == "world") text.text.assign(1, 'W');
-        }
-        if (name != "noise") continue;
-        Fields(value, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
-        value.members.emplace_back("orientation_rad", Json{});
-    }
+    check_names(root, "",
+                {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "streams", "filters",
+                 "gates", "probe", "regions", "planes", "controller", "limits", "verification", "self_test", "verified",
+                 "provenance"});
+    Json &frames = member(root, "frames"), &noise = member(root, "noise");
+    check_names(frames, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"});
+    Json& world = member(frames, "world");
+    check(world, one_of("W, z up"), "frames.world");
+    world.text.assign(1, 'W');
+    check_names(noise, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
+    noise.members.emplace_back("orientation_rad", Json{});
     add(root, parts_of_old);
 }
 
@@ -475,39 +331,39 @@ void from_3(Json& root) {
 Config read_config(std::string_view text) {
     Json root = parse_json(text);
     if (root.type != Json::Type::object) fail(CB_ERROR_JSON, "the file", "not an object");
-    const std::int64_t version = read_kind(root);
-    if (version < 3) from_2(root);
-    if (version < 4) from_3(root);
-    const Fields f(root, "",
-                   {"schema", "version", "units", "frames", "world", "sensor", "gravity", "zero", "noise", "touch",
-                    "streams", "filters", "gates", "probe", "regions", "planes", "controller", "limits", "verification",
-                    "checks", "self_test", "verified", "provenance"});
     Config c;
-    c.version = version;
-    read_units(f.at("units"));
-    read_frames(f.at("frames"), c);
-    read_world(f.at("world"), c);
-    read_sensor(f.at("sensor"), c);
-    const auto calibration = read_gravity(f.at("gravity"), c);
-    read_zero(f.at("zero"));
-    const Fields filters(f.at("filters"), "filters", {"wrench", "location"});
-    read_wrench_filter(filters.at("wrench"), c);
-    read_low_pass(filters.at("location"), c);
-    read_noise(f.at("noise"), c, calibration);
-    read_touch(f.at("touch"), c);
-    read_streams(f.at("streams"), c.settings);
-    read_gates(f.at("gates"), c.settings.gates);
-    read_probe_part(f.at("probe"), c);
-    read_regions(f.array("regions", 0, 1000), c);
-    read_planes(f.at("planes"), c);
-    read_controller(f.at("controller"), version, c);
-    read_limits(f.at("limits"), c);
-    read_self_test(f.at("self_test"), c);
-    const bool passed = read_verification(f.at("verification")), sound = read_checks(f.at("checks"));
-    const bool fresh = read_provenance(f.at("provenance"), c);
-    c.verified = f.flag("verified");
-    if (c.verified && !(passed && fresh && sound))
-        fail(CB_ERROR_VALUE, "verified", "true, but the verification is missing, did not pass, or is stale, or a check failed");
+    c.version = read_kind(root);
+    if (c.version < 3) from_2(root);
+    if (c.version < 2) from_1(root);
+    if (c.version < 4) from_3(root);
+    check(root, object(schema::Runtime), "");
+    read_frames(root["frames"], c);
+    c.down_W = three(root["world"]["down_W"]);
+    if (!(std::fabs(norm(c.down_W) - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, "world.down_W", "its length is not 1");
+    c.sensor_model = root["sensor"]["model"].text, c.sensor_serial = root["sensor"]["serial"].text;
+    c.rate = root["sensor"]["rate_Hz"].number;
+    const auto calibration = read_gravity(root["gravity"], c);
+    read_filters(root["filters"], c.settings);
+    read_noise(root["noise"], c.settings, calibration);
+    read_touch(root["touch"], c);
+    read_streams(root["streams"], c.settings);
+    each_gate(c.settings.gates, GateReader{root["gates"]});
+    read_probe_part(root["probe"], c);
+    read_regions(root["regions"].items, c);
+    read_planes(root["planes"], c);
+    c.controlled = !is_null(root["controller"]);
+    if (c.controlled) c.controller = read_controller(root["controller"]);
+    read_limits(root["limits"], c.controller, c.controlled);
+    if (const Json& test = root["self_test"]; !is_null(test))
+        c.self_test = test["file"].text, c.self_test_samples = std::size_t(test["samples"].integer);
+    const Json& checks = root["checks"];
+    check_known_touch(checks["known_touch"]);
+    for (const auto& [name, hash] : root["provenance"]["files"].members) c.files.emplace_back(name, hash.text);
+    c.verified = root["verified"].boolean;
+    if (c.verified && !(passed(root["verification"]) && root["provenance"]["stale"].items.empty() &&
+                        !failed(checks["known_weight"]) && !failed(checks["known_touch"])))
+        fail(CB_ERROR_VALUE, "verified",
+             "true, but the verification is missing, did not pass, or is stale, or a check failed");
     return c;
 }
 

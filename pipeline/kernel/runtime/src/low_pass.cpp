@@ -2,7 +2,7 @@
 #include <cmath>
 #include <complex>
 
-#include "fields.hpp"
+#include "shape.hpp"
 #include "physics.hpp"
 
 namespace contactbench::runtime {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fields.hpp"
+#include "shape.hpp"
 
 namespace contactbench::runtime {
 

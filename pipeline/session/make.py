@@ -1,4 +1,4 @@
-"""How a session computes a calibration, and the poses that it is made from."""
+"""How a session computes poses, a calibration from them, and a probe."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pydantic import Field
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings
+from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings, ProbeSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
     from contactbench.pipeline.files import File
+
+    Progress = Callable[[float], None] | None
+    Cancel = Callable[[], bool] | None
 
 FEWEST_POSES = 3
 
@@ -150,3 +153,32 @@ def calibration(
         found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     time = None if created is None else datetime.fromisoformat(created)
     return {given.name: encode_calibration(found, given.name, source=poses, created=time, mount=mount)}
+
+
+class ProbeParameters(ProbeSettings, Parameters):
+    """As the options of ``contactbench probe prepare``."""
+
+    endings = (".ply",)
+
+
+def probe(
+    inputs: Mapping[str, File],
+    parameters: Mapping[str, Any],
+    _created: str | None,
+    *,
+    progress: Progress = None,
+    cancelled: Cancel = None,
+    remember: bool = False,
+) -> dict[str, bytes]:
+    """
+    Prepare a probe from ``mesh``: the bytes that ``contactbench probe prepare`` writes.
+
+    ``alignment`` and ``regions`` may be left out. See `contactbench.pipeline.preparation.prepare.prepared`.
+    """
+    from contactbench.pipeline.mesh.sidecar import encode_probe_file
+    from contactbench.pipeline.preparation.prepare import prepared
+
+    check_roles(inputs, ("mesh",), ("alignment", "regions"))
+    given = ProbeParameters.checked(parameters)
+    done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
+    return encode_probe_file(done.content, given.name)

@@ -1,0 +1,54 @@
+"""What a person chooses for an export, once: options of the command, ``config.*`` of a session, rows of the window."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from contactbench.pipeline.gates import GateSettings
+from contactbench.pipeline.settings import MountSettings, knob
+
+_Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
+_Arm = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
+_Name = Annotated[str, Field(min_length=1, max_length=200)]
+
+
+class ExportKnobs(GateSettings, MountSettings):
+    """What goes into a bundle beside calibration and probe; None: what the session or the files know."""
+
+    overlay: ClassVar[bool] = True
+
+    sensor: _Name = knob("unknown", "Model of the sensor.", option="--model")
+    serial: _Name | None = knob(None, "Serial number of the sensor.", none="the one in the session")
+    rate: _Positive | None = knob(
+        None, "Readings per second.", unit="Hz", none="as verified, if the verification states it"
+    )
+    noise_force: _Positive | None = knob(
+        None, "Standard deviation of one reading.", unit="N", none="from the poses"
+    )
+    noise_torque: _Positive | None = knob(None, "The same for a torque; give both or neither.", unit="N·m")
+    cutoff: _Positive | None = knob(None, "Low-pass of the contact point.", unit="Hz", none="none")
+    no_filter: bool = knob(False, "Do not filter the wrench.", none="filter", option="--no-filter/--filter")
+    torsion_arm_mm: _Arm = knob(
+        1.0, "Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.", unit="mm"
+    )
+    max_force: _Positive = knob(30.0, "Force that a controller must never exceed.", unit="N")
+    max_torque: _Positive = knob(3.0, "Torque that a controller must never exceed.", unit="N·m")
+    max_speed: _Positive | None = knob(
+        None, "Speed of the tip that a controller must never exceed.", unit="m/s", none="none"
+    )
+    max_turn: _Positive | None = knob(
+        None, "Turning speed that a controller must never exceed.", unit="rad/s", none="none"
+    )
+    sensor_frame: _Name = knob("ft_sensor", "Name of frame S in the robot description.")
+    world_frame: _Name = knob("base_link", "Name of frame W in the robot description.")
+    sensor_name: _Name | None = knob(
+        None,
+        "Name of the sensor in the robot description's ros2_control tag, for ros2.yaml.",
+        none="a placeholder",
+        metavar="NAME",
+    )
+    operator: _Name | None = knob(
+        None, "Responsible person.", none="the author of the session's newest result"
+    )

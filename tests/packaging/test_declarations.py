@@ -1,0 +1,22 @@
+"""What is made from declarations and checked in is what the declarations say now."""
+
+from pathlib import Path
+from runpy import run_path
+
+import pytest
+
+from contactbench.pipeline.gates import gate_forms
+
+ROOT = Path(__file__).parents[2]
+FILES: dict[str, bytes] = run_path(str(ROOT / "packaging" / "declarations.py"))["files"]()
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_checked_in_file_is_what_the_declarations_say(name: str) -> None:
+    assert (ROOT / name).read_bytes() == FILES[name], "run: python packaging/declarations.py"
+
+
+def test_the_specification_of_a_bundle_has_every_gate() -> None:
+    page = (ROOT / "docs" / "bundle.md").read_text(encoding="utf-8")
+    rows = "".join(line for line in page.splitlines() if line.startswith("| `gates."))
+    assert [form.stored for _, form in gate_forms() if f"{form.stored}`" not in rows] == []

@@ -10,6 +10,7 @@ use: in a file, a log or a terminal. A window asks for it in another language, b
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, SupportsIndex
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ _CAPITAL, _STRIP = "\ufdd4", "\ufdd5"
 _MARK = re.compile("([\ufdd0-\ufdd5])")
 _FIELD = re.compile(r"\{(\d+)\}")
 _LATELY: dict[str, str] = {}  # texts said lately -> with marks: files and Qt keep the text alone
-_MOST_LATELY = 10_000
+_AT_MOST = 10_000
 
 
 class Message(str):
@@ -36,9 +37,9 @@ class Message(str):
         """Take a text with its marks."""
         made = super().__new__(cls, _said(marked, str))
         made._marked = marked
+        if len(_LATELY) >= _AT_MOST:
+            _LATELY.clear()
         _LATELY[made[:]] = marked
-        while len(_LATELY) > _MOST_LATELY:
-            _LATELY.pop(next(iter(_LATELY)), None)
         return made
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[type[Message], tuple[str]]:
@@ -53,9 +54,9 @@ class Message(str):
 
     def strip(self, characters: str | None = None) -> str:
         """Return it without blanks at its ends, in any language."""
-        return (
-            Message(f"{_STRIP}{self._marked}{_FILLED}") if characters is None else super().strip(characters)
-        )
+        if characters is not None:
+            return super().strip(characters)
+        return Message(f"{_STRIP}{self._marked}{_FILLED}")
 
     def __add__(self, other: str) -> str:
         return join("", (self, other))
@@ -102,7 +103,7 @@ def message(text: str) -> str:
     text : str
         An f-string in which each value is given as `arg`. A message stays as it is.
     """
-    return text if isinstance(text, Message) else Message(_OPEN + text + _CLOSE)
+    return text if isinstance(text, Message) else _made(_OPEN + text + _CLOSE)
 
 
 def arg(value: object) -> _Argument:
@@ -140,6 +141,11 @@ class InputError(ValueError):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(message(text))
+
+
+@lru_cache(1000)  # a loop says the same thing again and again
+def _made(marked: str) -> Message:
+    return Message(marked)
 
 
 def _filled(text: str) -> str:

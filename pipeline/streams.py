@@ -13,7 +13,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Source, SourceStream, Stream
 from contactbench.pipeline.devices.url import STEPWISE, AddressError, DeviceAddress, Protocol
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.replay import Player
 from contactbench.pipeline.simulation.virtual.world import World, world_at
@@ -165,7 +165,9 @@ class Pair:
         """
         if isinstance(self.sensor, SourceStream):
             return self.sensor.step(count)
-        raise RuntimeError("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+        raise RuntimeError(
+            message("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+        )
 
     def now(self) -> float:
         """Return the present time on the samples' clock, s."""

@@ -5455,6 +5455,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>--down hat keine Richtung: Geben Sie die Richtung der Schwerkraft an, etwa 0,0,-1.</translation>
     </message>
     <message>
+        <source>--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn; ZYX: about the rotating axes), --rotation-vector if they are axis times angle</source>
+        <translation>--euler ORDNUNG für die Winkel rx, ry, rz (xyz: nacheinander um die festen Achsen x, y und z; ZYX: um die mitgedrehten Achsen), --rotation-vector, wenn sie Achse mal Winkel sind</translation>
+    </message>
+    <message>
         <source>--facets, --max-deviation and --max-contact-error: give only one of them.</source>
         <translation>--facets, --max-deviation und --max-contact-error: Geben Sie nur eines davon an.</translation>
     </message>
@@ -7067,6 +7071,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Uhr geht zurück: {0} Messwerte, die nicht später sind als einer davor, werden ausgelassen.</translation>
     </message>
     <message>
+        <source>The controller does not report the tool set on the pendant, so the orientation is that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on the pendant.</source>
+        <translation>Die Steuerung meldet das am Bediengerät eingestellte Werkzeug nicht, deshalb ist die Orientierung die des Werkzeugkoordinatensystems. Hängen Sie ?tool=x,y,z,rx,ry,rz (m, rad) wie am Bediengerät eingestellt an die Adresse an.</translation>
+    </message>
+    <message>
         <source>The damaged record at byte {0} is restored; its hash proves it.</source>
         <translation>Der beschädigte Eintrag bei Byte {0} ist wiederhergestellt; sein Hashwert belegt es.</translation>
     </message>
@@ -7089,6 +7097,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The description in the file is damaged ({0}).</source>
         <translation>Die Beschreibung in der Datei ist beschädigt ({0}).</translation>
+    </message>
+    <message>
+        <source>The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, which is checked instead.</source>
+        <translation>Das Gerät hat AT+DCKMD=SUM nicht angenommen: Seine Rahmen enden mit einer CRC-32; sie wird stattdessen geprüft.</translation>
     </message>
     <message>
         <source>The device did not accept {0} (it {1}): its rate or units may differ. Check that its firmware is supported.</source>
@@ -9159,6 +9171,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>fields: Die Gelenke beginnen bei q1, ohne Lücke</translation>
     </message>
     <message>
+        <source>fields: say what the columns are, as in fields=t,fx,fy,fz,mx,my,mz, or name a file that does with layout</source>
+        <translation>fields: Geben Sie an, was die Spalten sind, etwa fields=t,fx,fy,fz,mx,my,mz, oder mit layout eine Datei, in der das steht</translation>
+    </message>
+    <message>
         <source>fields: {0} missing: give all of {1}</source>
         <translation>fields: {0} fehlen: Geben Sie alle an: {1}</translation>
     </message>
@@ -9315,6 +9331,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>geben Sie höchstens {0} an</translation>
     </message>
     <message>
+        <source>give at most {0} printable characters; \r and \n end a line</source>
+        <translation>geben Sie höchstens {0} druckbare Zeichen an; \r und \n beenden eine Zeile</translation>
+    </message>
+    <message>
         <source>give degrees, at least 0, or one of {0}</source>
         <translation>Grad angeben, mindestens 0, oder eines von {0}</translation>
     </message>
@@ -9449,6 +9469,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>holes</source>
         <translation>Löcher</translation>
+    </message>
+    <message>
+        <source>host {0}: a path needs three slashes: :///path</source>
+        <translation>Host {0}: Ein Pfad braucht drei Schrägstriche: :///path</translation>
+    </message>
+    <message>
+        <source>host: give a name or an IP address after ://</source>
+        <translation>Host: Geben Sie nach :// einen Namen oder eine IP-Adresse an</translation>
     </message>
     <message>
         <source>host: {0}: write an IPv6 address as [::1]</source>
@@ -10139,6 +10167,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>muss mit einem Kleinbuchstaben beginnen und darf nur Kleinbuchstaben, Ziffern, - und _ enthalten, höchstens 64</translation>
     </message>
     <message>
+        <source>must have 1 to 200 characters, no control characters and none of / \\ : * ? &quot; &lt; &gt; |, and must not begin with a dot</source>
+        <translation>muss 1 bis 200 Zeichen haben, darf keine Steuerzeichen und keines von / \\ : * ? &quot; &lt; &gt; | enthalten und nicht mit einem Punkt beginnen</translation>
+    </message>
+    <message>
         <source>name a folder of your own in {0}</source>
         <translation>in {0} einen eigenen Ordner nennen</translation>
     </message>
@@ -10331,6 +10363,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nummern in Spalte name</translation>
     </message>
     <message>
+        <source>of the robot, such as ur+tcp://192.168.0.10</source>
+        <translation>des Roboters (etwa ur+tcp://192.168.0.10)</translation>
+    </message>
+    <message>
         <source>of the sensor</source>
         <translation>des Sensors</translation>
     </message>
@@ -10345,6 +10381,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>one priority region</source>
         <translation>eine Region mit Priorität</translation>
+    </message>
+    <message>
+        <source>only a replay or a virtual bench can be stepped: open it with ?speed=step</source>
+        <translation>nur eine Wiedergabe oder ein virtueller Prüfstand lässt sich schrittweise fahren: Öffnen Sie sie mit ?speed=step</translation>
     </message>
     <message>
         <source>only {0} of nx,ny,nz is given: give all three, or none.</source>
@@ -10417,6 +10457,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>path {0}: a socket has no path: leave it out</source>
         <translation>Pfad {0}: ein Socket hat keinen: weglassen</translation>
+    </message>
+    <message>
+        <source>path: give the {0} after three slashes: ://{1}</source>
+        <translation>Pfad: Geben Sie {0} nach drei Schrägstrichen an: ://{1}</translation>
     </message>
     <message>
         <source>path_conflict: step must be above 0 rad, not {0}</source>
@@ -10501,6 +10545,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>pose {0} at {1} s</source>
         <translation>Pose {0} bei {1} s</translation>
+    </message>
+    <message>
+        <source>pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes), quaternion=w,x,y,z or robot=elfin3&amp;joints=... (degrees)</source>
+        <translation>Pose: Geben Sie eines an von rpy=0,90,0 (Grad um die festen Achsen x, y, z), quaternion=w,x,y,z oder robot=elfin3&amp;joints=... (Grad)</translation>
     </message>
     <message>
         <source>poses</source>
@@ -12243,6 +12291,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>dieser Strich ist beendet: Beginnen Sie einen neuen.</translation>
     </message>
     <message>
+        <source>time in s and the flange pose in the robot&apos;s base as a quaternion; joints, in degrees, need ?robot=NAME</source>
+        <translation>Zeit in s und die Pose des Flansches in der Roboterbasis als Quaternion; Gelenke, in Grad, brauchen ?robot=NAME</translation>
+    </message>
+    <message>
         <source>time in s, reference force in N</source>
         <translation>Zeit in s, Kraft der Referenz in N</translation>
     </message>
@@ -12887,6 +12939,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}, gegenüber der Vorhersage der anderen Posen: angestoßen, berührt oder in Bewegung aufgenommen.</translation>
     </message>
     <message>
+        <source>{0} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10.</source>
+        <translation>{0} liefert keine Posen: Geben Sie die Adresse eines Roboters an, etwa ur+tcp://192.168.0.10.</translation>
+    </message>
+    <message>
         <source>{0} hangs on {1}, and no transform leads from {2} to {3}.</source>
         <translation>{0} hängt an {1}, und keine Transformation führt von {2} zu {3}.</translation>
     </message>
@@ -12973,6 +13029,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} is no count</source>
         <translation>{0} ist keine Anzahl</translation>
+    </message>
+    <message>
+        <source>{0} is not a force/torque sensor: give the address of a sensor, such as sri+tcp://192.168.0.108.</source>
+        <translation>{0} ist kein Kraft-Momenten-Sensor: Geben Sie die Adresse eines Sensors an, etwa sri+tcp://192.168.0.108.</translation>
     </message>
     <message>
         <source>{0} is not a regular file</source>

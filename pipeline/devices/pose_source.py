@@ -140,7 +140,7 @@ def file_track(address: DeviceAddress) -> Track:
     wording = Wording(
         header=",".join(("t", *names)),
         rows="poses",
-        meaning=(
+        meaning=message(
             "time in s and the flange pose in the robot's base as a quaternion; joints, in degrees,"
             " need ?robot=NAME"
         ),

@@ -411,7 +411,7 @@ def _socket(parts: SplitResult, usual: int | None) -> tuple[str, int]:
         raise ValueError(message("user name: devices do not use one: leave out the part before the @"))
     host = _zoned(parts.hostname or "")
     if not host or any(character in host.split("%")[0] for character in " %\\"):
-        raise ValueError("host: give a name or an IP address after ://")
+        raise ValueError(message("host: give a name or an IP address after ://"))
     if parts.path not in ("", "/"):
         raise ValueError(message(f"path {arg(parts.path)!r}: a socket has no path: leave it out"))
     try:
@@ -440,7 +440,7 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
     if serial and parts.netloc and path in ("", "/"):
         return parts.netloc  # COM3 as in sri+serial://COM3
     if parts.netloc:
-        raise ValueError(f"host {parts.netloc!r}: a path needs three slashes: :///path")
+        raise ValueError(message(f"host {arg(parts.netloc)!r}: a path needs three slashes: :///path"))
     # A path of Windows has no leading slash of its own: /COM3, /C:/folder.
     drive = path[1:]
     if (drive.upper().startswith("COM") and drive[3:].isdigit()) or drive[1:3] in (":/", ":\\"):
@@ -448,7 +448,7 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
     if path in ("", "/") or "\0" in path:
         file = "poses.csv" if parts.scheme == "poses" else "recording.mcap"
         what, example = (message("serial port"), "/dev/ttyUSB0") if serial else ("file", f"/folder/{file}")
-        raise ValueError(f"path: give the {what} after three slashes: ://{example}")
+        raise ValueError(message(f"path: give the {arg(what)} after three slashes: ://{arg(example)}"))
     return path
 
 
@@ -467,8 +467,10 @@ def _check_typed(address: DeviceAddress) -> None:
     ways = (address.rpy_degrees, address.quaternion, address.joints_degrees)
     if sum(way is not None for way in ways) != 1:
         raise ValueError(
-            "pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
-            " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
+            message(
+                "pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
+                " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
+            )
         )
     if (address.rate or 0) > _FASTEST_HZ:
         raise ValueError(message(f"rate: a fixed pose needs at most {arg(_FASTEST_HZ):g} Hz"))

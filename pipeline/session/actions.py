@@ -43,7 +43,7 @@ _RULES = {
     _WORD: message(
         "must begin with a small letter and contain only small letters, digits, - and _, at most 64"
     ),
-    _NAME: (
+    _NAME: message(
         'must have 1 to 200 characters, no control characters and none of / \\\\ : * ? " < > |, and'
         " must not begin with a dot"
     ),

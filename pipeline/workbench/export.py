@@ -263,7 +263,7 @@ def told(found: Differences) -> tuple[str, ...]:
     fields = [each for each in found.fields if not each.field.startswith(_ALWAYS)]
     said = [
         message(f"{arg(each.field)}: {arg(_short(each.one))} → {arg(_short(each.other))}")
-        + (f" ({each.meaning})." if each.meaning else ".")
+        + (message(f" ({arg(each.meaning)}).") if each.meaning else ".")
         for each in fields[:_MOST_DIFFERENCES]
     ]
     if len(fields) > _MOST_DIFFERENCES:

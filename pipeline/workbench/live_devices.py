@@ -124,7 +124,7 @@ def due_problem(due: str) -> str:
 def problem_of(address: str, *, poses: bool = False) -> str:
     """Say why an address is none of a sensor, or of a source of poses; empty: it is one."""
     if not address.strip():
-        what = "of the robot, such as ur+tcp://192.168.0.10" if poses else message("of the sensor")
+        what = message("of the robot, such as ur+tcp://192.168.0.10") if poses else message("of the sensor")
         return message(f"Give the address {arg(what)}.")
     try:
         parsed = DeviceAddress.parse(address.strip())
@@ -132,10 +132,12 @@ def problem_of(address: str, *, poses: bool = False) -> str:
         return str(error)
     if not (parsed.gives_poses if poses else parsed.gives_wrenches):
         return (
-            f"{parsed.protocol} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
+            message(
+                f"{arg(parsed.protocol)} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
+            )
             if poses
-            else (
-                f"{parsed.protocol} is not a force/torque sensor: give the address of a sensor, such"
+            else message(
+                f"{arg(parsed.protocol)} is not a force/torque sensor: give the address of a sensor, such"
                 " as sri+tcp://192.168.0.108."
             )
         )

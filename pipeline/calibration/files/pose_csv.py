@@ -249,8 +249,10 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     if there in ([], [Kind.QUATERNION]):
         return Convention()  # where its columns are missing, the reader says so
     remedies = {
-        Kind.EULER: "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
-        " ZYX: about the rotating axes), --rotation-vector if they are axis times angle",
+        Kind.EULER: message(
+            "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
+            " ZYX: about the rotating axes), --rotation-vector if they are axis times angle"
+        ),
         Kind.JOINTS: message(
             f"--robot NAME for the joints j1 to j6 (known: {arg(', '.join(sorted(ROBOTS)))})"
         ),

@@ -108,7 +108,9 @@ def _flipped(text: str) -> tuple[str, ...]:
 
 def _words(text: str) -> str:
     if not 0 < len(text) <= _LONGEST_WORDS or not (text.isascii() and text.isprintable()):
-        raise ValueError(f"give at most {_LONGEST_WORDS} printable characters; \\r and \\n end a line")
+        raise ValueError(
+            message(f"give at most {arg(_LONGEST_WORDS)} printable characters; \\r and \\n end a line")
+        )
     return text
 
 
@@ -227,8 +229,10 @@ class Layout:
         fields: Fields | None = options["fields"]
         if not fields:
             raise ValueError(
-                "fields: say what the columns are, as in fields=t,fx,fy,fz,mx,my,mz, or name a file"
-                " that does with layout"
+                message(
+                    "fields: say what the columns are, as in fields=t,fx,fy,fz,mx,my,mz, or name a file"
+                    " that does with layout"
+                )
             )
         units = {
             "force": _factor(FORCES, options["force"] or "N"),

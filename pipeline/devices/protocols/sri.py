@@ -33,7 +33,7 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -236,7 +236,7 @@ def _troubles(parser: SriParser) -> dict[str, str]:
     if parser.trailer is Trailer.SUM:
         return {}
     return {
-        "trailer": (
+        "trailer": message(
             "The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, which is checked instead."
         )
     }

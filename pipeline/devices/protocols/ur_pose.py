@@ -32,7 +32,7 @@ from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.watch import Watch
-from contactbench.pipeline.errors import arg
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -265,7 +265,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
             return {}
         return {
-            "tool": (
+            "tool": message(
                 "The controller does not report the tool set on the pendant, so the orientation is"
                 " that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on"
                 " the pendant."

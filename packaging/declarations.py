@@ -153,7 +153,11 @@ class _Shapes:
         self._definitions, self._named, self._items = definitions, set[str](), dict[str, str]()
 
     def add(self, name: str, definition: dict[str, Any]) -> None:
-        members = [f'{{"{each}", {self._shape(shape)}}}' for each, shape in definition["properties"].items()]
+        needed = definition["required"]
+        members = [
+            f'{{"{each}", {self._shape(shape)}{"" if each in needed else ", true"}}}'
+            for each, shape in definition["properties"].items()
+        ]
         self._write(f"inline constexpr Member {name}[] = {{{', '.join(members)}}};")
         self._named.add(name)
 

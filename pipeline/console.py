@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, is_dataclass
 from functools import wraps
-from typing import TYPE_CHECKING, Annotated, Any, cast, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -152,19 +152,16 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
 
     text, about = documented(function)
     for parameter in inspect.signature(function, eval_str=True).parameters.values():
-        told = parameter.annotation
-        bare, *notes = get_args(told) if get_origin(told) is Annotated else (told,)
+        kind: Any = parameter.annotation
         if parameter.kind is parameter.VAR_KEYWORD:
-            parameters += notes[0]
-            continue
-        if is_dataclass(bare):
-            model, (_, told_of) = cast("Any", bare), documented(cast("Any", bare))
-            fields = inspect.signature(model, eval_str=True).parameters.values()
-            models[parameter.name] = model, [take(each, told_of) for each in fields]
-        elif hasattr(bare, "model_fields"):
+            parameters += get_args(kind)[1]
+        elif isinstance(kind, type) and is_dataclass(kind):
+            fields, (_, told) = inspect.signature(kind, eval_str=True).parameters, documented(kind)
+            models[parameter.name] = kind, [take(each, told) for each in fields.values()]
+        elif hasattr(kind, "model_fields"):
             from contactbench.pipeline.setting_options import options_of  # not for those who need none
 
-            model, options = options_of(bare)
+            model, options = options_of(kind)
             models[parameter.name] = model, [each.name for each in options]
             parameters += options
         else:
@@ -172,18 +169,15 @@ def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[...
             if parameter.kind is parameter.POSITIONAL_ONLY:
                 places.append(parameter.name)
     common = {"as_json": JsonOption, "quiet": QuietOption} if as_json else {"quiet": QuietOption}
-    own = {parameter.name for parameter in parameters}
     parameters += [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=option)
         for name, option in common.items()
-        if name not in own
     ]
 
     @wraps(function)
     def command(**given: Any) -> None:
         for name in common:
-            if name not in own:
-                given.pop(name)
+            given.pop(name)
         given |= {name: parse(given[name]) for name, parse in parsers.items()}
         made = {
             name: model(**{each: given.pop(each) for each in names})

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from contactbench.pipeline.gates import GateSettings
-from contactbench.pipeline.settings import MountSettings, knob
+from contactbench.pipeline.settings import MountSettings, Row, knob
 
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
 _Arm = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
@@ -21,20 +21,26 @@ class ExportKnobs(GateSettings, MountSettings):
 
     sensor: _Name = knob("unknown", "Model of the sensor.", option="--model")
     serial: _Name | None = knob(None, "Serial number of the sensor.", none="the one in the session")
-    rate: _Positive | None = knob(
+    rate: Annotated[_Positive | None, Row("Readings", (0.0, 10e3), 1, none="as verified")] = knob(
         None, "Readings per second.", unit="Hz", none="as verified, if the verification states it"
     )
     noise_force: _Positive | None = knob(
         None, "Standard deviation of one reading.", unit="N", none="from the poses"
     )
     noise_torque: _Positive | None = knob(None, "The same for a torque; give both or neither.", unit="N·m")
-    cutoff: _Positive | None = knob(None, "Low-pass of the contact point.", unit="Hz", none="none")
+    cutoff: Annotated[_Positive | None, Row("Low-pass", (0.0, 5e3), 1, none="none")] = knob(
+        None, "Low-pass cutoff of the contact point.", unit="Hz", none="none"
+    )
     no_filter: bool = knob(False, "Do not filter the wrench.", none="filter", option="--no-filter/--filter")
     torsion_arm_mm: _Arm = knob(
         1.0, "Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.", unit="mm"
     )
-    max_force: _Positive = knob(30.0, "Force that a controller must never exceed.", unit="N")
-    max_torque: _Positive = knob(3.0, "Torque that a controller must never exceed.", unit="N·m")
+    max_force: Annotated[_Positive, Row("Maximum force", (0.1, 1e3), 1)] = knob(
+        30.0, "Force limit for the controller.", unit="N"
+    )
+    max_torque: Annotated[_Positive, Row("Maximum torque", (0.1, 100.0), 1)] = knob(
+        3.0, "Torque limit for the controller.", unit="N·m"
+    )
     max_speed: _Positive | None = knob(
         None, "Speed of the tip that a controller must never exceed.", unit="m/s", none="none"
     )

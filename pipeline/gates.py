@@ -77,11 +77,17 @@ _LIMITS = Way(
 
 @dataclass(frozen=True)
 class Form:
-    """What a limit is called in a bundle and, if that is another name, in the kernel."""
+    """
+    What a limit is called in a bundle and, if that is another name, in the kernel.
+
+    A `later` one came when there were bundles already: they have it only where it is not the default, so that those of
+    before read and are written as ever.
+    """
 
     stored: str
     held: str = ""
     way: Way = _NUMBER
+    later: bool = False
 
 
 class GateSettings(Settings):
@@ -236,6 +242,11 @@ class Gates(GateSettings):
         """Return the argument `gates` of :class:`contactbench.pipeline.kernel.Solver`."""
         return {form.held or name: form.way.to_kernel(getattr(self, name)) for name, form in gate_forms()}
 
+    def told(self) -> dict[str, Any]:
+        """Return them as a file tells them: a later one only where it is not the default."""
+        usual, later = Gates(), {name for name, form in gate_forms() if form.later}
+        return {name: value for name, value in self if name not in later or value != getattr(usual, name)}
+
     def stored(self) -> dict[str, Any]:
         """Return them as a bundle holds them, SI; the odds of regions are in the regions themselves."""
         return {form.stored: form.way.to_stored(getattr(self, name)) for name, form in gate_forms()}
@@ -265,3 +276,9 @@ def gate_forms() -> Iterator[tuple[str, Form]]:
     """Yield the gates that the kernel has: name and form."""
     for name, field in GateSettings.model_fields.items():
         yield from ((name, each) for each in field.metadata if isinstance(each, Form))
+
+
+def later_gates() -> dict[str, Any]:
+    """Return what a bundle means that does not have a later gate: name there -> value there."""
+    usual = Gates().stored()
+    return {form.stored: usual[form.stored] for _, form in gate_forms() if form.later}

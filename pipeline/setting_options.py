@@ -39,7 +39,7 @@ def _option(model: type[Settings], name: str) -> inspect.Parameter:
         default = None
     elif isinstance(default, tuple):
         default = ",".join(f"{number:g}" for number in default)
-    elif get_origin(_bare(field)) is Literal:
+    elif default is not None and get_origin(_bare(field)) is Literal:
         default = kind(default)
     # Without a name of its own, an option that is only given or not would also have a --no-name.
     names = (

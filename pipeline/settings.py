@@ -8,6 +8,7 @@ default, one sentence. Lengths are in mm and angles in degrees, as people say th
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from datetime import date
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -33,6 +34,24 @@ Three = tuple[Number, Number, Number]
 TORSION_ARM_M, DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.001, 0.05, 0.001
 # How well orientations are known by what gives them, degrees: 1 sigma about each axis.
 ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
+
+
+@dataclass(frozen=True)
+class Row:
+    """How a form asks for a number, which has its unit from `knob`; in the annotation of the field."""
+
+    title: str
+    """What stands beside the field."""
+    span: tuple[float, float]
+    """The smallest and the largest number that it takes."""
+    decimals: int = 0
+    step: float = 1.0
+    start: float = 0.0
+    """What is offered where there is no default."""
+    suffix: str = ""
+    """What follows the number, where that is not its unit."""
+    none: str = ""
+    """What the smallest number stands for: that nothing is given."""
 
 
 def knob(
@@ -90,7 +109,8 @@ def with_unit(text: str, unit: str, after: str = "") -> str:
 class Settings(BaseModel):
     """What is chosen for a step."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # Built when the first is made: most commands take a few of them.
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     overlay: ClassVar[bool] = False  # What a command is not given stays unset: a session may know it
 
     @classmethod
@@ -346,12 +366,18 @@ class TouchSettings(PosesSettings):
 class VerificationSettings(OrientationSettings):
     """How touches of markers are judged."""
 
-    samples: int = knob(50, "Samples per touch, once it has settled.")
-    repeats: int = knob(1, "Accepted touches needed per marker.")
+    repeats: Annotated[int, Row("Per marker", (1, 100), suffix="×")] = knob(
+        1, "Accepted touches required per marker."
+    )
+    samples: Annotated[int, Row("Samples", (4, 10_000))] = knob(50, "Samples per touch after settling.")
     touch_force: Positive | None = knob(None, "A touch begins at this |F|, N [2, less for windows below].")
     release_force: Positive | None = knob(None, "A touch ends below this |F|, N [1, less for windows below].")
-    mean_limit_mm: Positive = knob(1.0, "Largest mean error, mm.", option="--limit-mean")
-    max_limit_mm: Positive = knob(2.0, "Largest error, mm.", option="--limit-max")
+    mean_limit_mm: Annotated[Positive, Row("Mean error up to", (0.05, 50.0), 2, 0.5)] = knob(
+        1.0, "Largest permitted mean error.", unit="mm", option="--limit-mean"
+    )
+    max_limit_mm: Annotated[Positive, Row("Single error up to", (0.05, 50.0), 2, 0.5)] = knob(
+        2.0, "Largest permitted error.", unit="mm", option="--limit-max"
+    )
     noise_force: Positive | None = knob(None, "Standard deviation of a sample, N [measured in the touches].")
     noise_torque: Positive | None = knob(None, "The same for a torque, N·m.")
     seed: int = knob(0, "Seed of the bootstrap.")
@@ -403,7 +429,9 @@ class ShellSettings(MeshSettings):
         " others. fair: least bending. ruled: straight lines between the long rims. hull: no"
         " dent. open: leave it. [auto]",
     )
-    alpha: float | None = knob(None, "Size of the shell's facets, mm [1/190 of the size].")
+    alpha: Annotated[float | None, Row("Facet size", (0.0, 50.0), 2, none="Automatic")] = knob(
+        None, "Facet size of the outer surface.", unit="mm", none="1/190 of the size"
+    )
     gap: float | None = knob(None, "Gaps narrower than this are bridged, mm [1/65 of the size].")
 
 
@@ -422,21 +450,27 @@ class PlaceSettings(Settings):
 class FacetSettings(MeshSettings):
     """How many facets are left."""
 
-    facets: int | None = knob(None, "Facets to keep.")
-    max_deviation: float | None = knob(None, "Or: as few as stay within this distance of the shell, mm.")
+    facets: Annotated[int | None, Row("number of facets", (4, 2e6), step=100, start=2000)] = knob(
+        None, "Facets to keep."
+    )
+    max_deviation: Annotated[float | None, Row("largest deviation", (0.001, 50.0), 3, 0.01, start=0.1)] = (
+        knob(None, "Or: largest distance from the outer surface.", unit="mm")
+    )
 
 
 class LadderSettings(MeshSettings):
     """What fewer facets may do to contacts."""
 
-    max_contact_error: float | None = knob(
-        None, "Or: as few as move 95 % of contacts by less than this, mm [0.1]."
-    )
+    max_contact_error: Annotated[
+        float | None, Row("largest contact error", (0.001, 50.0), 3, 0.01, start=0.1)
+    ] = knob(None, "Or: 95 % of contacts move by less than this.", unit="mm", none="0.1")
     forces: tuple[float, float] = knob((8.0, 10.0), "Expected touch forces, N.", metavar="LOW,HIGH")
     engine: Literal["auto", "fast-simplification", "meshlab", "best"] = knob(
         "auto", "From earlier versions; has no effect.", hidden=True
     )
-    region_ratio: float = knob(1.0, "Facet density in regions relative to the rest.")
+    region_ratio: Annotated[float, Row("Finer in regions", (1.0, 100.0), 1, suffix=": 1")] = knob(
+        1.0, "Facet density inside regions relative to outside."
+    )
 
 
 class SimplifySettings(LadderSettings, FacetSettings):
@@ -457,7 +491,9 @@ class ReadingSettings(MountSettings):
     """What a recording does not say itself."""
 
     delay: float = knob(0.0, "Delay of a wrench after its pose, s.")
-    min_force: float = knob(0.5, "In a recording, a touch is above this force, N.")
+    min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), 1)] = knob(
+        0.5, "Force above which a touch is counted in a recording.", unit="N"
+    )
 
 
 class HeatmapSettings(ReadingSettings):
@@ -474,3 +510,19 @@ class HeatmapSettings(ReadingSettings):
     least_force: float | None = knob(None, "Only contacts with this force or more, N.", option="--force-from")
     most_force: float | None = knob(None, "Only contacts with this force or less, N.", option="--force-to")
     by_confidence: bool = knob(False, "Weight each contact by the confidence of its place, 0 to 1.")
+
+
+# ---- motion control in simulation --------------------------------------------------------------
+
+
+class PhantomSettings(Settings):
+    """How the phantom under a virtual robot moves, and how its motion is met."""
+
+    motion: Literal["none", "vertical", "in-plane", "out-of-plane"] = knob(
+        "in-plane", "Motion of the phantom."
+    )
+    period: Annotated[float, Field(ge=0.5, le=1000)] = knob(10.0, "Period of that motion, s.")
+    size: Annotated[float, Field(ge=0, le=30)] = knob(10.0, "Size of that motion, mm or degrees.")
+    variant: Literal["plain", "aware"] | None = knob(
+        None, "The paper's control, or with motion feed-forward [the bundle's]."
+    )

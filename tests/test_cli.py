@@ -134,16 +134,12 @@ def leaves(group: Any, *words: str) -> Iterator[tuple[str, ...]]:
 
 
 @pytest.mark.parametrize("words", list(leaves(typer.main.get_command(cli.app))), ids=" ".join)
-def test_every_command_has_an_example_of_itself(words):
+def test_every_command_has_an_example_of_itself_and_says_what_its_options_are_for(words):
     result = run(*words, "-h")
     assert result.exit_code == 0
     text = " ".join(result.stdout.split())
     assert f"Example: contactbench {' '.join(words)}" in text
     assert "--quiet" in text
-
-
-@pytest.mark.parametrize("words", list(leaves(typer.main.get_command(cli.app))), ids=" ".join)
-def test_every_option_says_what_it_is_for(words):
     command = typer.main.get_command(cli.app)
     for word in words:
         command = command.get_command(None, word)

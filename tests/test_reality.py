@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.driver import AddressError
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 

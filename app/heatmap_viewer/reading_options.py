@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QGroupBox, QWidget
 from contactbench.pipeline.settings import ReadingSettings
 from contactbench.widgets.controls import HIGH, form, named, row
 from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.settings_rows import rows_of
 
 _PATIENCE = 600  # ms without a change before recordings are read again
 
@@ -37,14 +38,14 @@ class ReadingBox(QGroupBox):
         self.delay = self._field(
             -1000.0, 1000.0, "", " ms", self.tr("Delay of the wrench relative to its pose, ms")
         )
-        self.least = self._field(0.0, 100.0, "", " N", self.tr("Force above which a touch is counted, N"))
-        self.least.setValue(ReadingSettings().min_force)
+        (self.least,) = rows_of(ReadingSettings).values()
+        self.least.show(ReadingSettings().min_force)
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
         self._said = self.how()
         self._lay_out()
         self.own_mount.toggled.connect(self._show_mount)
         self.own_mount.toggled.connect(lambda _: self._patience.start())
-        for field in (*self.mount, self.delay, self.least):
+        for field in (*self.mount, self.delay, self.least.field):
             field.valueChanged.connect(lambda _: self._patience.start())
         self._patience.timeout.connect(self._tell)
         self._show_mount(False)
@@ -60,14 +61,16 @@ class ReadingBox(QGroupBox):
         rows.addRow(self.own_mount)
         rows.addRow(row(*((field, 1) for field in self.mount), space=4))
         rows.addRow(self.tr("Delay"), self.delay)
-        rows.addRow(self.tr("Touch threshold"), self.least)
+        rows.addRow(self.least.title, self.least.field)
 
     def how(self) -> ReadingSettings:
         """Return what is chosen."""
         x, y, z = (field.value() for field in self.mount)
         own = self.own_mount.isChecked()
         return ReadingSettings(
-            mount=(x, y, z) if own else None, delay=self.delay.value() / 1e3, min_force=self.least.value()
+            mount=(x, y, z) if own else None,
+            delay=self.delay.value() / 1e3,
+            min_force=self.least.field.value(),
         )
 
     def _show_mount(self, own: bool) -> None:

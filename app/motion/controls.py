@@ -178,7 +178,7 @@ class MotionControls(QWidget):
         return MotionChoice(
             robot=self.robot.currentData(),
             motion=self.motion.currentData(),
-            period_s=self.period.currentData(),
+            period=self.period.currentData(),
             size=self.size_of.value(),
             variant=self.variant.currentData(),
         )

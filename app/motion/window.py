@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -196,7 +195,8 @@ class MotionWindow(QWidget):
             return
         self._forget_run()
         try:
-            self.run = MotionRun(self._bundle, replace(self.controls.choice(), unturned=self._unturned))
+            choice = self.controls.choice().model_copy(update={"unturned": self._unturned})
+            self.run = MotionRun(self._bundle, choice)
         except ValueError as error:
             self.controls.say(in_words(error)[0], bad=True)
             return

@@ -17,7 +17,8 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.assets import PROBE_NAMES
-from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.driver import Carrier
+from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
 from contactbench.widgets.messages import translated

@@ -8,12 +8,17 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QFileDialog, QLineEdit, QToolButton, QWidget
 
+from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.widgets.controls import check_box, form, named, push_button, row, show_quietly
 from contactbench.widgets.icons import icon
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.numbers import filled
+from contactbench.widgets.settings_rows import rows_of
 
 if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.options import ExportOptions
+
+
+_BELOW = {"rate": "smooth", "cutoff": "region_only"}  # boxes to tick, by the number that they stand below
 
 
 class ExportSettingsPanel(QWidget):
@@ -49,23 +54,16 @@ class ExportSettingsPanel(QWidget):
         ):
             self.texts[option] = self._text(name, otherwise, option)
             layout.addRow(words, self.texts[option])
-        self.rate = self._number(
-            10e3, " Hz", self.tr("Readings per second, Hz"), self.tr("as verified"), "rate"
-        )
+        self.rows = rows_of(ExportKnobs)
+        for option, each in self.rows.items():
+            each.changed.connect(lambda _, option=option, row=each: self._say(option, row.value, row.name))
         self.smooth = self._switch(self.tr("Filter wrench"), self.tr("Kalman filter: less noise, slight lag"))
         self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
-        self.cutoff = self._number(
-            5e3, " Hz", self.tr("Low-pass cutoff of the contact point, Hz"), self.tr("none"), "cutoff"
-        )
         self.region_only = self._switch(
             self.tr("Accept contacts on regions only"),
             self.tr("The runtime rejects contacts outside all painted regions"),
         )
         self.region_only.toggled.connect(lambda on: self._say("region_only", on, self.region_only.text()))
-        self.force = self._number(1e3, " N", self.tr("Force limit for the controller, N"), "", "max_force")
-        self.torque = self._number(
-            100.0, " N·m", self.tr("Torque limit for the controller, N·m"), "", "max_torque"
-        )
         self.gains, self.no_gains = push_button("", self._ask_gains, "folder"), QToolButton()
         self.gains.setAccessibleName(self.tr("Controller gains"))
         self.gains.setToolTip(
@@ -77,12 +75,10 @@ class ExportSettingsPanel(QWidget):
         self.no_gains.setAccessibleName(self.tr("Remove gains"))
         self.no_gains.setToolTip(self.no_gains.accessibleName())
         self.no_gains.clicked.connect(lambda: self._say("controller", None, self.no_gains.toolTip()))
-        layout.addRow(self.tr("Readings"), self.rate)
-        layout.addRow(self.smooth)
-        layout.addRow(self.tr("Low-pass"), self.cutoff)
-        layout.addRow(self.region_only)
-        layout.addRow(self.tr("Maximum force"), self.force)
-        layout.addRow(self.tr("Maximum torque"), self.torque)
+        for option, each in self.rows.items():
+            layout.addRow(each.title, each.field)
+            if option in _BELOW:
+                layout.addRow(getattr(self, _BELOW[option]))
         layout.addRow(self.tr("Gains"), row((self.gains, 1), self.no_gains))
 
     def _ask_gains(self) -> None:
@@ -111,14 +107,6 @@ class ExportSettingsPanel(QWidget):
         field.editingFinished.connect(lambda: self._say(option, field.text().strip() or None, name))
         return field
 
-    def _number(self, most: float, unit: str, name: str, otherwise: str, option: str) -> NumberBox:
-        field = NumberBox(decimals=1, minimum=0.0 if otherwise else 0.1, maximum=most, suffix=unit)
-        field.setSpecialValueText(otherwise)
-        field.valueChanged.connect(
-            lambda value: self._say(option, None if otherwise and value == 0.0 else value, name)
-        )
-        return named(field, name)
-
     def _tip(self, name: str, otherwise: str) -> str:
         return self.tr("{name}; left empty: {otherwise}").format(name=name, otherwise=otherwise)
 
@@ -132,15 +120,10 @@ class ExportSettingsPanel(QWidget):
             show_quietly(field, "" if (option, known) == ("sensor", "unknown") else known)
         if known_serial:
             self.texts["serial"].setPlaceholderText(known_serial)
-        for widget, value in (
-            (self.rate, options.rate or 0.0),
-            (self.cutoff, options.cutoff or 0.0),
-            (self.force, options.max_force),
-            (self.torque, options.max_torque),
-            (self.smooth, not options.no_filter),
-            (self.region_only, options.region_only),
-        ):
-            show_quietly(widget, value)
+        for option, each in self.rows.items():
+            each.show(getattr(options, option))
+        show_quietly(self.smooth, not options.no_filter)
+        show_quietly(self.region_only, options.region_only)
         part = options.controller
         self.gains.setText(
             self.tr("left out")

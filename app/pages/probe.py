@@ -65,9 +65,7 @@ class ProbePage(Page):
         self.mesh_section.choose.clicked.connect(self._choose)
         self.mesh_section.housing.clicked.connect(stages.take_housing)
         self.mesh_section.unit_said.connect(stages.say_unit)
-        self.surface.changed.connect(
-            lambda: stages.close_by(self.surface.closings, self.surface.alpha.value() or None)
-        )
+        self.surface.changed.connect(lambda: stages.close_by(self.surface.closings, self.surface.alpha.value))
         self.facets.changed.connect(lambda: stages.aim(replace(stages.plan, **self.facets.chosen)))
         self.facets.chart.chosen.connect(stages.keep)
         self.facets.overlay.toggled.connect(self._show_overlay)

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.pipeline.mesh.units import NAMES
+from contactbench.pipeline.settings import ProbeSettings
 from contactbench.widgets.controls import (
     check_box,
     choice,
@@ -24,10 +25,10 @@ from contactbench.widgets.controls import (
     plain_label,
     push_button,
     sentence_label,
-    show_quietly,
 )
 from contactbench.widgets.mesh_report import MeshReport
 from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
@@ -113,20 +114,18 @@ class SurfaceSection(QGroupBox):
         tip = self.tr("Method for closing openings such as the cable outlet")
         self.close_by = choice(zip(ways, _CLOSINGS, strict=True), self.tr("Close openings"), tip=tip)
         rows.addRow(self.tr("Close openings"), self.close_by)
-        tip = self.tr("Facet size of the outer surface, mm; 0: 1/190 of the probe length")
-        self.alpha = _number(0.0, 50.0, " mm", 2, self.tr("Facet size"), tip)
-        self.alpha.setSpecialValueText(self.tr("Automatic"))
-        rows.addRow(self.tr("Facet size"), self.alpha)
+        self.alpha = rows_of(ProbeSettings, ("alpha",))["alpha"]
+        rows.addRow(self.alpha.title, self.alpha.field)
         layout.addLayout(rows)
         self.report = MeshReport(1)
         layout.addWidget(self.report)
         self.close_by.activated.connect(lambda _index: self.changed.emit())
-        self.alpha.valueChanged.connect(lambda _value: self.changed.emit())
+        self.alpha.changed.connect(lambda _value: self.changed.emit())
 
     def show_plan(self, close: tuple[str, ...], alpha: float | None) -> None:
         """Show what is chosen."""
         self.close_by.setCurrentIndex(_CLOSINGS.index(close[0]) if close else 0)
-        show_quietly(self.alpha, alpha or 0.0)
+        self.alpha.show(alpha)
 
     @property
     def closings(self) -> tuple[str, ...]:
@@ -161,24 +160,21 @@ class FacetsSection(QGroupBox):
 
     def _target_form(self) -> QFormLayout:
         rows = form()
-        targets = (
-            self.tr("number of facets"),
-            self.tr("largest deviation"),
-            self.tr("largest contact error"),
+        self._targets = rows_of(ProbeSettings, _TARGETS)
+        self.target = choice(
+            ((row.title, name) for name, row in self._targets.items()), self.tr("Limit by"), tip=""
         )
-        self.target = choice(zip(targets, _TARGETS, strict=True), self.tr("Limit by"), tip="")
-        self.value = _number(4.0, 2e6, "", 0, self.tr("Number of facets, or mm"), "")
+        self.value = named(NumberBox(), self.tr("Number of facets, or mm"), tip="")
         rows.addRow(self.tr("Limit by"), self.target)
         rows.addRow(self.tr("Limit"), self.value)
-        tip = self.tr("Facet density inside regions relative to outside")
-        self.ratio = _number(1.0, 100.0, " : 1", 1, self.tr("Finer in regions"), tip)
-        self.ratio_label = QLabel(self.tr("Finer in regions"))
-        rows.addRow(self.ratio_label, self.ratio)
+        self.ratio = rows_of(ProbeSettings, ("region_ratio",))["region_ratio"]
+        self.ratio_label = QLabel(self.ratio.title)
+        rows.addRow(self.ratio_label, self.ratio.field)
         self.painted = check_box(self.tr("Copy painted regions"))
         self.painted.setChecked(True)
         rows.addRow(self.painted)
         self.target.activated.connect(self._target_changed)
-        for spin in (self.value, self.ratio):
+        for spin in (self.value, self.ratio.field):
             spin.valueChanged.connect(lambda _value: self.changed.emit())
         self.painted.toggled.connect(
             lambda _on: self.changed.emit()
@@ -186,34 +182,25 @@ class FacetsSection(QGroupBox):
         return rows
 
     def _target_changed(self, index: int) -> None:
-        self._show_target(index, (2_000.0, 0.1, 0.1)[index])
+        self._show_target(index, self._targets[_TARGETS[index]].row.start)
         self.changed.emit()
 
     def _show_target(self, index: int, value: float) -> None:
         self.target.setCurrentIndex(index)
-        self.value.setToolTip(
-            (
-                self.tr("Number of facets"),
-                self.tr("Maximum distance, mm"),
-                self.tr("95 % of contacts within, mm"),
-            )[index]
-        )
-        self.value.blockSignals(True)
-        self.value.setDecimals(0 if index == 0 else 3)
-        self.value.setSuffix("" if index == 0 else " mm")
-        self.value.setRange(*((4.0, 2e6) if index == 0 else (0.001, 50.0)))
-        self.value.setSingleStep((100.0, 0.01, 0.01)[index])
-        self.value.setValue(value)
-        self.value.blockSignals(False)
+        target = self._targets[_TARGETS[index]]
+        self.value.setToolTip(target.name)
+        with QSignalBlocker(self.value):
+            target.put_into(self.value)
+            self.value.setValue(value)
 
     def show_plan(self, target: dict[str, float], ratio: float, regions: bool, painted: bool) -> None:
         """Show what is chosen; `regions`: whether there are any."""
         name = next(iter(target), "max_contact_error")
         self._show_target(_TARGETS.index(name), target.get(name, 0.1))
-        show_quietly(self.ratio, ratio)
+        self.ratio.show(ratio)
         with QSignalBlocker(self.painted):
             self.painted.setChecked(painted)
-        for each in (self.ratio, self.ratio_label, self.painted):
+        for each in (self.ratio.field, self.ratio_label, self.painted):
             each.setVisible(regions)
 
     @property
@@ -225,7 +212,7 @@ class FacetsSection(QGroupBox):
         }
         return {
             **wanted,
-            "region_ratio": self.ratio.value(),
+            "region_ratio": self.ratio.value,
             "painted": self.painted.isChecked(),
         }
 
@@ -237,11 +224,6 @@ class FacetsSection(QGroupBox):
         self.meaning.setVisible(bool(meaning))
         for each in (self.overlay, self.deviation):
             each.setEnabled(facets is not None)
-
-
-def _number(low: float, high: float, unit: str, decimals: int, name: str, tip: str) -> NumberBox:
-    field = NumberBox(decimals=decimals, minimum=low, maximum=high, suffix=unit)
-    return named(field, name, tip=tip)
 
 
 def _metres(unit: str) -> float:

@@ -960,18 +960,6 @@
         <translation>Bedienperson</translation>
     </message>
     <message>
-        <source>as verified</source>
-        <translation>wie geprüft</translation>
-    </message>
-    <message>
-        <source>Readings per second, Hz</source>
-        <translation>Messwerte pro Sekunde, Hz</translation>
-    </message>
-    <message>
-        <source>Readings</source>
-        <translation>Messwerte</translation>
-    </message>
-    <message>
         <source>Filter wrench</source>
         <translation>Kraft/Moment filtern</translation>
     </message>
@@ -980,40 +968,12 @@
         <translation>Kalman-Filter: weniger Rauschen, etwas Verzögerung</translation>
     </message>
     <message>
-        <source>none</source>
-        <translation>keiner</translation>
-    </message>
-    <message>
-        <source>Low-pass cutoff of the contact point, Hz</source>
-        <translation>Grenzfrequenz des Tiefpasses für den Kontaktpunkt, Hz</translation>
-    </message>
-    <message>
-        <source>Low-pass</source>
-        <translation>Tiefpass</translation>
-    </message>
-    <message>
         <source>Accept contacts on regions only</source>
         <translation>Nur Kontakte auf Regionen annehmen</translation>
     </message>
     <message>
         <source>The runtime rejects contacts outside all painted regions</source>
         <translation>Der Robotercomputer verwirft Kontakte außerhalb aller gemalten Regionen</translation>
-    </message>
-    <message>
-        <source>Force limit for the controller, N</source>
-        <translation>Kraftgrenze für die Regelung, N</translation>
-    </message>
-    <message>
-        <source>Maximum force</source>
-        <translation>Maximale Kraft</translation>
-    </message>
-    <message>
-        <source>Torque limit for the controller, N·m</source>
-        <translation>Momentgrenze für die Regelung, N·m</translation>
-    </message>
-    <message>
-        <source>Maximum torque</source>
-        <translation>Maximales Moment</translation>
     </message>
     <message>
         <source>Controller gains</source>
@@ -1079,18 +1039,6 @@
         <translation>Abstand der Außenfläche zur vereinfachten Fläche, mm</translation>
     </message>
     <message>
-        <source>number of facets</source>
-        <translation>Anzahl Facetten</translation>
-    </message>
-    <message>
-        <source>largest deviation</source>
-        <translation>größte Abweichung</translation>
-    </message>
-    <message>
-        <source>largest contact error</source>
-        <translation>größter Kontaktfehler</translation>
-    </message>
-    <message>
         <source>Number of facets, or mm</source>
         <translation>Anzahl der Facetten, oder mm</translation>
     </message>
@@ -1103,28 +1051,8 @@
         <translation>Grenze</translation>
     </message>
     <message>
-        <source>Facet density inside regions relative to outside</source>
-        <translation>Facettendichte in Regionen im Verhältnis zu außerhalb</translation>
-    </message>
-    <message>
-        <source>Finer in regions</source>
-        <translation>Feiner in Regionen</translation>
-    </message>
-    <message>
         <source>Copy painted regions</source>
         <translation>Gemalte Regionen übernehmen</translation>
-    </message>
-    <message>
-        <source>Number of facets</source>
-        <translation>Anzahl der Facetten</translation>
-    </message>
-    <message>
-        <source>Maximum distance, mm</source>
-        <translation>Größter Abstand, mm</translation>
-    </message>
-    <message>
-        <source>95 % of contacts within, mm</source>
-        <translation>95 % der Kontakte innerhalb, mm</translation>
     </message>
     <message>
         <source>{:,} facets</source>
@@ -3307,16 +3235,8 @@ oder einen Sitzungsordner, der alles enthält.</translation>
         <translation>Verzögerung des Messwerts gegenüber seiner Pose, ms</translation>
     </message>
     <message>
-        <source>Force above which a touch is counted, N</source>
-        <translation>Kraft, ab der eine Berührung zählt, N</translation>
-    </message>
-    <message>
         <source>Delay</source>
         <translation>Verzug</translation>
-    </message>
-    <message>
-        <source>Touch threshold</source>
-        <translation>Berührschwelle</translation>
     </message>
 </context>
 <context>
@@ -4299,14 +4219,6 @@ Mittelwerte: Streuung der gemittelten Werte. Größte Kraft: Rauschen des Sensor
         <source>Close openings</source>
         <translation>Öffnungen schließen</translation>
     </message>
-    <message>
-        <source>Facet size of the outer surface, mm; 0: 1/190 of the probe length</source>
-        <translation>Facettengröße der Außenfläche, mm; 0: 1/190 der Länge der Sonde</translation>
-    </message>
-    <message>
-        <source>Facet size</source>
-        <translation>Facettengröße</translation>
-    </message>
 </context>
 <context>
     <name>TimeBar</name>
@@ -5008,14 +4920,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Obere Kraftgrenze, N</translation>
     </message>
     <message>
-        <source>Accepted touches required per marker</source>
-        <translation>Nötige gezählte Berührungen je Marker</translation>
-    </message>
-    <message>
-        <source>Samples per touch after settling</source>
-        <translation>Messwerte je Berührung nach dem Beruhigen</translation>
-    </message>
-    <message>
         <source>any order</source>
         <translation>beliebig</translation>
     </message>
@@ -5032,14 +4936,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Beliebig: Eine Berührung zählt für den nächstgelegenen Marker. Wie in der Tabelle: Sie zählt für den nächsten Marker der Reihe.</translation>
     </message>
     <message>
-        <source>Largest permitted mean error, mm</source>
-        <translation>Größter zulässiger mittlerer Fehler, mm</translation>
-    </message>
-    <message>
-        <source>Largest permitted error, mm</source>
-        <translation>Größter zulässiger Fehler, mm</translation>
-    </message>
-    <message>
         <source>Press with</source>
         <translation>Drücken mit</translation>
     </message>
@@ -5048,44 +4944,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>bis</translation>
     </message>
     <message>
-        <source>Per marker</source>
-        <translation>Je Marker</translation>
-    </message>
-    <message>
-        <source>Samples</source>
-        <translation>Messwerte</translation>
-    </message>
-    <message>
         <source>Touch order</source>
         <translation>Reihenfolge</translation>
     </message>
     <message>
-        <source>Mean error up to</source>
-        <translation>Mittel bis</translation>
-    </message>
-    <message>
-        <source>Single error up to</source>
-        <translation>Einzeln bis</translation>
-    </message>
-    <message>
         <source>Order of touches</source>
         <translation>Reihenfolge der Berührungen</translation>
-    </message>
-    <message>
-        <source>Touches per marker</source>
-        <translation>Berührungen je Marker</translation>
-    </message>
-    <message>
-        <source>Samples per touch</source>
-        <translation>Messwerte je Berührung</translation>
-    </message>
-    <message>
-        <source>Mean error limit</source>
-        <translation>Grenze des mittleren Fehlers</translation>
-    </message>
-    <message>
-        <source>Single error limit</source>
-        <translation>Grenze des einzelnen Fehlers</translation>
     </message>
     <message>
         <source>Force window</source>
@@ -10107,10 +9971,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>den größten Teil</translation>
     </message>
     <message>
-        <source>motion: a period of {0} s, a size of {1}: give 0.5 to 1000 s, and 0 to 30 mm or degrees.</source>
-        <translation>Bewegung: Periode {0} s, Ausschlag {1}: Geben Sie 0.5 bis 1000 s und 0 bis 30 mm oder Grad an.</translation>
-    </message>
-    <message>
         <source>mount has shape {0}: give a 4 x 4 transform T_SP.</source>
         <translation>mount hat die Form {0}: eine 4 x 4-Transformation T_SP angeben.</translation>
     </message>
@@ -12195,10 +12055,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Es gibt keine berührbare Region {0}; die Sonde hat {1}: eine wählen, oder --all.</translation>
     </message>
     <message>
-        <source>there is no {0} {1}: choose one of {2}.</source>
-        <translation>unbekannt: {0} {1}: Wählen Sie eines von diesen: {2}.</translation>
-    </message>
-    <message>
         <source>there is nothing to keep</source>
         <translation>es gibt nichts zu behalten</translation>
     </message>
@@ -12593,10 +12449,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>virtual bench: {0} {1} Hz: give one above 0, up to {2}.</source>
         <translation>virtueller Messplatz: {0} {1} Hz: Geben Sie einen Wert über 0 und bis {2} an.</translation>
-    </message>
-    <message>
-        <source>virtual robot</source>
-        <translation>virtueller Roboter</translation>
     </message>
     <message>
         <source>warm: {0} K: give at most 100 K either way.</source>

@@ -310,7 +310,8 @@ def emulate(
         raise typer.BadParameter("--pty and --port contradict each other: give only one.")
     if seconds is not None and not 0 < seconds < 1e9:
         raise typer.BadParameter(f"--seconds {seconds}: give a positive number.")
-    from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, socket_of, swinging
+    from contactbench.pipeline.devices.emulate import emulator, socket_of, swinging
+    from contactbench.pipeline.devices.faults import FaultEvent, Script
 
     script = Script([FaultEvent.parse(text) for text in fault or ()])
     device, _, carrier = device.partition("+")

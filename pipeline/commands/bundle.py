@@ -35,23 +35,19 @@ BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder o
 
 @bundle_app.command(example="bundle export bench-1 --model M8128 --rate 1000 --out runtime.zip")
 def export(
-    out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
+    session: Path | None = None,
+    /,
+    *,
+    out: Path,
     chosen: ExportKnobs,
-    session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
-    calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate fit.")] = None,
-    probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
-    verification: Annotated[Path | None, typer.Option(help="JSON file of verify touches.")] = None,
-    report: Annotated[Path | None, typer.Option(help="HTML report to include.")] = None,
-    known_weight: Annotated[Path | None, typer.Option(help="JSON file of calibrate check weight.")] = None,
-    known_touch: Annotated[Path | None, typer.Option(help="JSON file of calibrate check touch.")] = None,
-    settings_file: Annotated[
-        Path | None,
-        typer.Option("--settings", help="JSON file with any of: controller, limits, gates, filters."),
-    ] = None,
-    unverified: Annotated[
-        bool,
-        typer.Option("--unverified", help="Write the bundle anyway, marked as unverified: for trials only."),
-    ] = False,
+    calibration: Path | None = None,
+    probe: Path | None = None,
+    verification: Path | None = None,
+    report: Path | None = None,
+    known_weight: Path | None = None,
+    known_touch: Path | None = None,
+    settings: Path | None = None,
+    unverified: bool = False,
 ) -> None:
     """Write a bundle: from a session's newest calibration and probe, or from files.
 
@@ -61,6 +57,29 @@ def export(
     Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe,
     and none of its inputs is stale; also if a known weight or a known touch failed. An earlier bundle at
     --out stays until the new one is complete.
+
+    Parameters
+    ----------
+    out
+        Folder to write, or a zip file if it ends in .zip.
+    session
+        Folder of a session.
+    calibration
+        JSON file of calibrate fit.
+    probe
+        PLY file of probe prepare.
+    verification
+        JSON file of verify touches.
+    report
+        HTML report to include.
+    known_weight
+        JSON file of calibrate check weight.
+    known_touch
+        JSON file of calibrate check touch.
+    settings
+        JSON file with any of: controller, limits, gates, filters.
+    unverified
+        Write the bundle anyway, marked as unverified: for trials only.
     """
     files = _inputs(session, calibration, probe, verification, report, known_weight, known_touch)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
@@ -72,13 +91,13 @@ def export(
     said = {name: getattr(chosen, name) for name in chosen.model_fields_set}
     try:
         if session is not None:
-            made = _of_session(session, said, settings_file, unverified)
+            made = _of_session(session, said, settings, unverified)
         else:
             made = export_from_files(
                 *files,
                 verification,
                 report,
-                _settings({}, said, settings_file),
+                _settings({}, said, settings),
                 created=creation_time(),
                 known_weight=known_weight,
                 known_touch=known_touch,
@@ -129,11 +148,16 @@ def check(bundle: BundleArgument) -> None:
 
 
 @bundle_app.command(example="bundle diff old.zip new.zip")
-def diff(
-    one: Annotated[Path, typer.Argument(metavar="A", help="Folder or zip file.")],
-    other: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
-) -> None:
-    """Compare two bundles: the fields that differ, their meaning, and the distance between the surfaces."""
+def diff(one: Path, other: Path, /) -> None:
+    """Compare two bundles: the fields that differ, their meaning, and the distance between the surfaces.
+
+    Parameters
+    ----------
+    one : A
+        Folder or zip file.
+    other : B
+        Another.
+    """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.differ import differences
 
@@ -147,12 +171,13 @@ def diff(
 )
 def payload(
     bundle: BundleArgument,
+    /,
     turned: MountSettings,
-    robot: Annotated[RobotMaker, typer.Option(help="Whose controller is to be told.")],
+    robot: RobotMaker,
     sensor_at: SensorAtArgument,
     sensor_body: SensorBodyOption = None,
     index: Annotated[int, typer.Option(min=1, max=16, help="Number of the tool, for KUKA and ABB.")] = 1,
-    out: Annotated[Path | None, typer.Option(help="Text file to write [standard output].")] = None,
+    out: Path | None = None,
 ) -> None:
     """Print mass and centre of mass of the payload as a robot's own controller takes them.
 
@@ -162,6 +187,13 @@ def payload(
 
     Exit code 1, and no line: the calibration was refused, the mass of the load is not known within 10 %, or the centre
     of mass not within 10 mm (one standard deviation).
+
+    Parameters
+    ----------
+    robot
+        Whose controller is to be told.
+    out
+        Text file to write [standard output].
     """
     from contactbench.pipeline.calibration.payload import CAUTIONS
     from contactbench.pipeline.config.runtime import RuntimeConfig

@@ -20,7 +20,7 @@ from contactbench.pipeline.console import (
 )
 from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.settings import MountSettings
+from contactbench.pipeline.settings import MountSettings, PhantomSettings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,32 +75,16 @@ control_app = Noun(
 _NOT_GOOD_ENOUGH = 1
 _BEGIN_S = 4.0  # by then it tracks
 _END_S = 5.0  # it may take that long to go back
-_MOTIONS = {"none": None, "vertical": "z", "in-plane": "ry", "out-of-plane": "rx"}
-
-
-def variants_of(text: str) -> tuple[Variant, ...]:
-    """
-    Return what ``--variant`` names.
-
-    Raises
-    ------
-    InputError
-        There is none of that name.
-    """
-    from contactbench.pipeline.control.settings import Variant
-
-    if text == "both":
-        return tuple(Variant)
-    if text not in set(map(str, Variant)):
-        raise InputError(f"--variant {text!r}: give plain, aware or both.")
-    return (Variant(text),)
+_AXES = {"none": None, "vertical": "z", "in-plane": "ry", "out-of-plane": "rx"}
 
 
 def _variant_of(text: str) -> Variant:
-    chosen = variants_of(text)
-    if len(chosen) != 1:
-        raise InputError("--variant both: only one is possible here: give plain or aware.")
-    return chosen[0]
+    from contactbench.pipeline.control.settings import Variant
+
+    try:
+        return Variant(text)
+    except ValueError:
+        raise InputError(f"--variant {text!r}: give {' or '.join(Variant)}.") from None
 
 
 @control_app.command(example="bench control tune --probe convex --stiffness 2000 --out gains")
@@ -181,11 +165,8 @@ def run(
     /,
     robot: str,
     turned: MountSettings,
-    motion: str = "in-plane",
-    period: float = 10.0,
-    size: float = 10.0,
+    phantom: PhantomSettings,
     seconds: float = 15.0,
-    variant: str | None = None,
     method: str = "contactbench",
     stiffness: float | None = None,
     friction: float = 0.1,
@@ -209,16 +190,8 @@ def run(
         Folder or zip file of a runtime config.
     robot : ADDRESS
         virtual://arm or virtual://platform.
-    motion : none|vertical|in-plane|out-of-plane
-        Motion of the phantom.
-    period
-        Period of that motion, s.
-    size
-        Size of that motion, mm or degrees.
     seconds
         Time until it retracts, s.
-    variant : plain|aware
-        The paper's control, or with motion feed-forward [the bundle's].
     method
         Method that locates contacts.
     stiffness
@@ -239,6 +212,7 @@ def run(
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles
     from contactbench.pipeline.control.loop import run_loop
+    from contactbench.pipeline.control.settings import Variant
     from contactbench.pipeline.control.virtual import check_address, virtual_robot
     from contactbench.pipeline.runtime.run import check_runnable
 
@@ -249,15 +223,14 @@ def run(
         raise InputError(
             "--frames and --json cannot be combined: the last line of --frames is what --json prints."
         )
-    chosen = None if variant is None else _variant_of(variant)
     config = RuntimeConfig.load(bundle)
     check_runnable(config, unverified=unverified)
     made = virtual_robot(
         config,
         robot,
-        variant=chosen,
+        variant=None if phantom.variant is None else Variant(phantom.variant),
         method=method,
-        motion=_motion(motion, size, period),
+        motion=_motion(phantom),
         stiffness=stiffness,
         friction=friction,
         quaternion_ES=mount_of_angles(turned.mount),
@@ -290,21 +263,16 @@ def run(
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-def _motion(name: str, size: float, period: float) -> PlatformMotion | None:
+def _motion(given: PhantomSettings) -> PlatformMotion | None:
     import math
 
     from contactbench.pipeline.simulation.scenes import PlatformMotion
 
-    if name not in _MOTIONS:
-        raise InputError(f"--motion {name!r}: give one of {', '.join(_MOTIONS)}.")
-    axis = _MOTIONS[name]
+    axis = _AXES[given.motion]
     if axis is None:
         return None
-    if not (0 <= size <= 30 and 0.5 <= period <= 1000):
-        raise InputError(
-            f"--size {size:g}, --period {period:g}: give 0 to 30 mm or degrees, and 0.5 to 1000 s."
-        )
-    return PlatformMotion.along(axis, size / 1000 if axis == "z" else math.radians(size), period, _BEGIN_S)
+    size = given.size / 1000 if axis == "z" else math.radians(given.size)
+    return PlatformMotion.along(axis, size, given.period, _BEGIN_S)
 
 
 def _paced(watch: Callable[[ControlCommand, Loop], None]) -> Callable[[ControlCommand, Loop], None]:

@@ -198,15 +198,15 @@ class WayToAlign:
         start = self.placed()
         if start is None:
             raise typer.BadParameter("--touches needs the probe's present pose: give --place or --alignment.")
-        force = 0.05 if self.noise_force is None else self.noise_force
-        torque = 0.002 if self.noise_torque is None else self.noise_torque
+        noise = {"force": self.noise_force, "torque": self.noise_torque}
+        hit: dict[str, Any] = {} if self.placement is None else {"placement": self.placement / 1000}
         with Bar("cross-validating", counted=True) as bar:
             return align_touches(
                 content.probe,
                 read_touches(touches),
                 start.T_SP,
-                WrenchNoise(force, torque),
-                placement=(0.3 if self.placement is None else self.placement) / 1000,
+                WrenchNoise(**{name: sigma for name, sigma in noise.items() if sigma is not None}),
+                **hit,
                 progress=share(bar),
             )
 

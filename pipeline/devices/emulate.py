@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.device_line import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
+from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.faults import (
     SYNTHETIC,
     EmulatorError,
@@ -20,15 +21,13 @@ from contactbench.pipeline.devices.faults import (
     Script,
     SensorReading,
     Signal,
-    Six,
     Truth,
     constant,
-    recorded,
     sine,
 )
-from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
-from contactbench.pipeline.devices.url import Carrier, options_query, read_options
+from contactbench.pipeline.devices.url import options_query, read_options
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
@@ -37,30 +36,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.devices.driver import Driver
     from contactbench.pipeline.devices.faults import Emission
-
-__all__ = [
-    "JOINTS",
-    "SYNTHETIC",
-    "Emulator",
-    "EmulatorError",
-    "Fault",
-    "FaultEvent",
-    "FrameMoment",
-    "Quirk",
-    "Script",
-    "SensorReading",
-    "Sent",
-    "Signal",
-    "Six",
-    "constant",
-    "emulated",
-    "emulator",
-    "possible_faults",
-    "recorded",
-    "sine",
-    "socket_of",
-    "swinging",
-]
 
 _IDLE_S = 0.05  # how long a stop may go unnoticed
 _BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again

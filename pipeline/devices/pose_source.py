@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
 

@@ -9,10 +9,10 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
 from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
 from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine
-from contactbench.pipeline.devices.url import Carrier
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:

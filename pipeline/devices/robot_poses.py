@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.protocols.parser import ASSUMED_RATE_HZ
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import line_to
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.errors import arg
 

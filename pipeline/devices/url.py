@@ -29,17 +29,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.driver import Driver
     from contactbench.pipeline.reality import Reality
 
-__all__ = [
-    "STEPWISE",
-    "AddressError",
-    "BenchOptions",
-    "Carrier",
-    "DeviceAddress",
-    "Protocol",
-    "options_query",
-    "read_options",
-]
-
 
 class Protocol(StrEnum):
     """What stands in for a device; devices themselves go by the schemes of their drivers."""

@@ -9,9 +9,10 @@ from itertools import chain, groupby, islice
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.info import (

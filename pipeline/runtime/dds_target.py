@@ -15,6 +15,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.outlet import OutletTarget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,7 +43,7 @@ _LOOPBACK = """
 """
 
 
-class DdsTarget:
+class DdsTarget(OutletTarget):
     """
     ``geometry_msgs/msg/WrenchStamped`` and ``contactbench_msgs/msg/Contact``, as ROS 2 names and encodes them.
 
@@ -61,8 +62,6 @@ class DdsTarget:
     RunError
         It is no domain, or DDS does not start.
     """
-
-    pace, trouble = 0.0, ""
 
     def __init__(self, domain: str, context: OutputContext) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
@@ -89,7 +88,7 @@ class DdsTarget:
             ) from error
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`."""
+        """As `OutletTarget`."""
         written = 0
         for answer in answers:
             try:
@@ -99,11 +98,8 @@ class DdsTarget:
             written += 1
         return written
 
-    def flush(self) -> None:
-        """As `Target`: nothing is held back."""
-
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         # Each is deleted with its last reference, and a writer refers to its topic and to the participant.
         self._writers = self._participant = self._domain = None
 

@@ -35,6 +35,7 @@ from contactbench.pipeline.errors import arg
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names, number
+from contactbench.pipeline.runtime.outlet import OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ _RED = Color(r=0.85, g=0.2, b=0.15, a=1.0)
 _BLUE = Color(r=0.1, g=0.4, b=0.85, a=0.5)
 
 
-class FoxgloveTarget:
+class FoxgloveTarget(OutletTarget):
     """
     A server of the Foxglove WebSocket protocol, for several clients.
 
@@ -84,8 +85,6 @@ class FoxgloveTarget:
     RunError
         It is no address, one that other machines reach without leave, or in use.
     """
-
-    pace, trouble = 0.0, ""
 
     def __init__(self, address: str, context: OutputContext) -> None:
         place = resolve("--foxglove", address, socket.SOCK_STREAM, remote=context.remote, listens=True)
@@ -118,7 +117,7 @@ class FoxgloveTarget:
         self._shown, self._shown_at = False, -math.inf
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`."""
+        """As `OutletTarget`."""
         self.flush()
         written = 0
         for answer in answers:
@@ -131,14 +130,14 @@ class FoxgloveTarget:
         return written
 
     def flush(self) -> None:
-        """As `Target`: whoever has just subscribed gets the probe and the health."""
+        """As `OutletTarget`: whoever has just subscribed gets the probe and the health."""
         if self._subscribed.news.is_set():
             self._subscribed.news.clear()
             self._scene.log(self._probe)
             self._said = None
 
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         self._server.stop()
 
     def _publish(self, answer: Answer, stamp: int) -> None:

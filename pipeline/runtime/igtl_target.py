@@ -13,6 +13,7 @@ from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.outlet import OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _WELL, _UNKNOWN, _TIMED_OUT, _NOT_READY, _HARDWARE = 1, 2, 7, 13, 18  # the prot
 _CODES = {"silent": _TIMED_OUT, "frozen": _HARDWARE, "flagged": _HARDWARE, "no_pose": _NOT_READY}
 
 
-class IgtlTarget:
+class IgtlTarget(OutletTarget):
     """
     A server of OpenIGTLink, protocol version 2, for several clients.
 
@@ -54,8 +55,6 @@ class IgtlTarget:
     RunError
         It is no address, one that other machines reach without leave, or in use.
     """
-
-    pace, trouble = 0.0, ""
 
     def __init__(self, address: str, context: OutputContext) -> None:
         place = resolve("--igtl", address, socket.SOCK_STREAM, remote=context.remote, listens=True)
@@ -80,7 +79,7 @@ class IgtlTarget:
         self._said_at = -np.inf
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`: a contact that a client could not take is not published; without clients all of them are."""
+        """As `OutletTarget`: a contact that a client could not take is not published; without clients all are."""
         self._accept()
         missed = 0
         for answer in answers:
@@ -94,12 +93,12 @@ class IgtlTarget:
         return len(answers) - missed
 
     def flush(self) -> None:
-        """As `Target`: take new clients, and bring out what waits for the others."""
+        """As `OutletTarget`: take new clients, and bring out what waits for the others."""
         self._accept()
         self._push()
 
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         self._push()
         for client in self._clients:
             client.close()

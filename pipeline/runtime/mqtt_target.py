@@ -15,6 +15,7 @@ from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.contact_json import contact_message
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.runtime.outlet import OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ _MOST_WAITING = 1_000  # messages: a second at 1 kHz
 _LONGEST_TOPIC = 200
 
 
-class MqttTarget:
+class MqttTarget(OutletTarget):
     """
     ``TOPIC/contact``: every contact as JSON. ``TOPIC/health``: what is wrong, retained, when it changes.
 
@@ -47,8 +48,6 @@ class MqttTarget:
     RunError
         It is no address, or on another machine without leave.
     """
-
-    pace = 0.0
 
     def __init__(self, address: str, context: OutputContext) -> None:
         where, _, topic = address.partition("/")
@@ -76,14 +75,11 @@ class MqttTarget:
         self._client.loop_start()
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`: what does not go to the broker at once is not published."""
+        """As `OutletTarget`: what does not go to the broker at once is not published."""
         return sum(map(self._publish, answers))
 
-    def flush(self) -> None:
-        """As `Target`: nothing is held back."""
-
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         if self._client.is_connected():
             self._client.publish(self._health, json.dumps({"state": "offline"}), retain=True)
         self._client.disconnect()

@@ -41,9 +41,9 @@ class OutletTarget(Protocol):
     """Where contacts go."""
 
     name: str
-    pace: float
+    pace: float = 0.0
     """How long contacts may be gathered before they are written, s: 0 where somebody waits for them."""
-    trouble: str
+    trouble: str = ""
     """Why it takes nothing now, a sentence; empty: it does, or does not know."""
 
     def write(self, answers: Sequence[Answer]) -> int:
@@ -57,7 +57,8 @@ class OutletTarget(Protocol):
         """
 
     def flush(self) -> None:
-        """Bring out what is held back; called when nothing comes, too. Raises as `write`."""
+        """Bring out what is held back, if anything is; called when nothing comes, too. Raises as `write`."""
+        return  # so that it is not abstract
 
     def close(self) -> None:
         """End it. Raises as `write`."""

@@ -15,6 +15,7 @@ from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
+from contactbench.pipeline.runtime.outlet import OutletTarget
 from contactbench.pipeline.runtime.places import resolve
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ _FILE_PACE_S = (
 )
 
 
-class LineTarget:
+class LineTarget(OutletTarget):
     """
     Contacts as lines of JSON, into a file that is made for them or into what is open already.
 
@@ -45,10 +46,8 @@ class LineTarget:
     descriptor : int
         To write to; closed at the end.
     pace : float
-        As `Target`.
+        As `OutletTarget`.
     """
-
-    trouble = ""
 
     def __init__(self, name: str, descriptor: int, *, pace: float = 0.0) -> None:
         self.name, self._file, self.pace = name, descriptor, pace
@@ -76,7 +75,7 @@ class LineTarget:
         return cls(str(path), file, pace=_FILE_PACE_S)
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`."""
+        """As `OutletTarget`."""
         left = memoryview(b"".join([answer.line for answer in answers]))
         try:
             while left:
@@ -89,11 +88,8 @@ class LineTarget:
             ) from error
         return len(answers)
 
-    def flush(self) -> None:
-        """As `Target`: nothing is held back."""
-
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         try:
             os.close(self._file)
         except OSError as error:
@@ -117,7 +113,7 @@ def line_target(address: str, _context: OutputContext) -> LineTarget:
     return LineTarget(message("standard output"), os.dup(sys.stdout.fileno()))
 
 
-class UdpTarget:
+class UdpTarget(OutletTarget):
     """
     One datagram of JSON for every contact; what the system does not take at once is not sent.
 
@@ -133,8 +129,6 @@ class UdpTarget:
         It is no address, or on another machine without leave.
     """
 
-    pace, trouble = 0.0, ""
-
     def __init__(self, address: str, context: OutputContext) -> None:
         self.name = f"udp {address}"
         family, self._to = resolve("--udp", address, socket.SOCK_DGRAM, remote=context.remote)
@@ -142,7 +136,7 @@ class UdpTarget:
         self._socket.setblocking(False)
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`."""
+        """As `OutletTarget`."""
         sent = 0
         for answer in answers:
             try:
@@ -152,15 +146,12 @@ class UdpTarget:
             sent += 1
         return sent
 
-    def flush(self) -> None:
-        """As `Target`: nothing is held back."""
-
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         self._socket.close()
 
 
-class McapTarget:
+class McapTarget(OutletTarget):
     """
     Contacts on ``/contact`` of a new MCAP file, as JSON; all but the last half second survives a crash.
 
@@ -176,7 +167,7 @@ class McapTarget:
         It is there already, or cannot be made.
     """
 
-    pace, trouble = _FILE_PACE_S, ""
+    pace = _FILE_PACE_S
 
     def __init__(self, address: str, context: OutputContext) -> None:
         about = context.about
@@ -193,7 +184,7 @@ class McapTarget:
         self._chunked = self._synced = time.monotonic()
 
     def write(self, answers: Sequence[Answer]) -> int:
-        """As `Target`; a sample whose time is no time is left out."""
+        """As `OutletTarget`; a sample whose time is no time is left out."""
         written = 0
         try:
             for answer in answers:
@@ -210,7 +201,7 @@ class McapTarget:
         return written
 
     def flush(self) -> None:
-        """As `Target`: at most twice a second, for small chunks make a large file."""
+        """As `OutletTarget`: at most twice a second, for small chunks make a large file."""
         now = time.monotonic()
         try:
             if now - self._chunked >= _CHUNK_S:
@@ -223,7 +214,7 @@ class McapTarget:
             raise OutputError(str(error)) from error
 
     def close(self) -> None:
-        """As `Target`."""
+        """As `OutletTarget`."""
         try:
             self._file.finish()
         except RecordingError as error:

@@ -407,7 +407,7 @@ def _plain(settings: VerifySettings, placing: TouchLocator, rate: float | None) 
     if not plain["left_out"]:  # as before there was such a thing: the same inputs give the same bytes
         del plain["left_out"]
     noise = np.sqrt(np.diag(placing.noise.covariance)).tolist()
-    gates = {name: _finite(value) for name, value in asdict(placing.solver.gates).items()}
+    gates = {name: _finite(value) for name, value in placing.solver.gates.told().items()}
     touch = placing.solver.model
     floor = np.sqrt(np.diag(touch.model_error.covariance)).tolist()
     assumed = {"torsion_arm_m": touch.torsion_arm, "model_error": floor}

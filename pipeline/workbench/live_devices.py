@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
+from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.protocols.registry import drivers
-from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.why import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.session import State
+
+
+# Fields of `Devices`, by the settings of a session that they are.
+_TEXTS = {"sensor": SENSOR, "poses": POSES, "serial": SERIAL, "certificate": CERTIFICATE, "due": DUE}
 
 
 @dataclass(frozen=True)
@@ -36,32 +41,15 @@ class Devices:
     @classmethod
     def of(cls, state: State) -> Devices:
         """Return what a session's settings say; what makes no sense counts as not set."""
-
-        def text(key: str) -> str:
-            found = state.setting(key)
-            return found if isinstance(found, str) else ""
-
-        return cls(
-            text(SENSOR),
-            text(POSES) or None,
-            _angles(state.setting(MOUNT)),
-            text(SERIAL),
-            text(CERTIFICATE),
-            text(DUE),
-        )
+        said = {name: state.setting(key) for name, key in _TEXTS.items()}
+        texts = {name: text for name, text in said.items() if isinstance(text, str) and text}
+        return cls(**texts, mount=_angles(state.setting(MOUNT)))
 
     @property
     def settings(self) -> dict[str, Any]:
         """The session's settings that say the same."""
-        mount = list(self.mount) if any(self.mount) else None
-        return {
-            SENSOR: self.sensor,
-            POSES: self.poses,
-            SERIAL: self.serial or None,
-            MOUNT: mount,
-            CERTIFICATE: self.certificate or None,
-            DUE: self.due or None,
-        }
+        texts = {key: getattr(self, name) or None for name, key in _TEXTS.items()}
+        return {**texts, SENSOR: self.sensor, MOUNT: list(self.mount) if any(self.mount) else None}
 
     @property
     def R_ES(self) -> NDArray[np.float64] | None:

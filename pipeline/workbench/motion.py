@@ -17,22 +17,19 @@ import time
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, Any, cast
+from typing import IO, TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import module_command
+from contactbench.pipeline.settings import PhantomSettings
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
-
-MOTIONS = ("none", "vertical", "in-plane", "out-of-plane")
-ROBOTS = ("virtual://arm", "virtual://platform")
-VARIANTS = ("plain", "aware")
 
 _LONGEST_S = 600.0
 _KEPT = 6_000  # frames: two minutes
@@ -41,53 +38,12 @@ _PATIENCE_S = 5.0
 _LAST_WORDS = 2_000
 
 
-@dataclass(frozen=True)
-class MotionChoice:
-    """
-    What is run, as the options of ``contactbench bench control run``.
+class MotionChoice(PhantomSettings):
+    """What is run, as the options of ``contactbench bench control run``."""
 
-    Attributes
-    ----------
-    robot : str
-        One of `ROBOTS`.
-    motion : str
-        Of the phantom, one of `MOTIONS`.
-    period_s : float
-        Of that motion.
-    size : float
-        Of that motion, mm or degrees.
-    variant : str or None
-        One of `VARIANTS`; None: the bundle's.
-    unturned : bool
-        The sensor sits on the flange as it is: for a bundle that does not say how it is turned.
-
-    Raises
-    ------
-    InputError
-        There is no such robot, motion or variant, or a number is out of its range.
-    """
-
-    robot: str = ROBOTS[0]
-    motion: str = "in-plane"
-    period_s: float = 10.0
-    size: float = 10.0
-    variant: str | None = None
+    robot: Literal["virtual://arm", "virtual://platform"] = "virtual://arm"
     unturned: bool = False
-
-    def __post_init__(self) -> None:
-        for given, known, what in (
-            (self.robot, ROBOTS, message("virtual robot")),
-            (self.motion, MOTIONS, "motion"),
-            (self.variant, (None, *VARIANTS), "variant"),
-        ):
-            if given not in known:
-                named = ", ".join(str(each) for each in known if each is not None)
-                raise InputError(f"there is no {arg(what)} {arg(given)!r}: choose one of {arg(named)}.")
-        if not (0.5 <= self.period_s <= 1000 and 0 <= self.size <= 30):
-            raise InputError(
-                f"motion: a period of {arg(self.period_s):g} s, a size of {arg(self.size):g}: give 0.5 to"
-                " 1000 s, and 0 to 30 mm or degrees."
-            )
+    """The sensor sits on the flange as it is: for a bundle that does not say how it is turned."""
 
     def arguments(self, bundle: Path) -> list[str]:
         """Return what the command is given, after ``contactbench``."""
@@ -95,7 +51,7 @@ class MotionChoice:
         chosen += ["--mount", "0,0,0"] if self.unturned else []
         return [
             *("bench", "control", "run", str(bundle), "--robot", self.robot, "--motion", self.motion),
-            *("--period", f"{self.period_s:g}", "--size", f"{self.size:g}", "--seconds", f"{_LONGEST_S:g}"),
+            *("--period", f"{self.period:g}", "--size", f"{self.size:g}", "--seconds", f"{_LONGEST_S:g}"),
             *(*chosen, "--unverified", "--real-time", "--frames"),
         ]
 

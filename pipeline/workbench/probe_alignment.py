@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import (
     align_axes,
@@ -29,8 +28,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.preparation.alignment import Alignment
 
 FEWEST_PAIRS = 3
-# As ``contactbench probe align`` takes them.
-_NOISE_FORCE, _NOISE_TORQUE, _PLACEMENT_M = 0.05, 0.002, 0.0003
 _LARGEST_FILE = 2**20
 
 
@@ -98,9 +95,7 @@ def by_touches(
         Why to take it, or rather not.
     """
     starts = align_axes(probe_P).alternatives if mount is None else mount.T_SP
-    noise = WrenchNoise(_NOISE_FORCE, _NOISE_TORQUE)
-    touches = read_touches(file)
-    found = align_touches(probe_P, touches, starts, noise, placement=_PLACEMENT_M, progress=progress)
+    found = align_touches(probe_P, read_touches(file), starts, progress=progress)
     return found.fitted, tuple(found.reasons)
 
 

@@ -7,7 +7,8 @@ from contactbench.app.bench import Bench
 from contactbench.app.pages.devices import DevicesPage
 from contactbench.app.trouble_watch import TroubleWatch
 from contactbench.app.undo import SessionCommand, SetParameters
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.transport.ports import SerialPort
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step

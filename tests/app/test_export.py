@@ -113,7 +113,7 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
         "or enter Readings under Settings to match the sensor"
     ) in page.standing.text()  # in the window's words, not the command line's
     assert "--" not in page.standing.text()
-    page.settings.rate.setValue(200.0)
+    page.settings.rows["rate"].field.setValue(200.0)
     window.wait(lambda: "Not verified" in page.standing.text())
     assert not page.zip.isEnabled()
     page.unverified.setChecked(True)

@@ -191,7 +191,7 @@ def pick(made):
 
 
 def repeats(made):
-    made.page(Step.VERIFY).panel_how.repeats.setValue(3)
+    made.page(Step.VERIFY).panel_how.rows["repeats"].field.setValue(3)
 
 
 def force(made):

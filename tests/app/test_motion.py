@@ -135,4 +135,4 @@ def test_only_what_moves_has_a_size_and_a_period(window):
     controls.motion.setCurrentIndex(controls.motion.findData("vertical"))
     controls.period.setCurrentIndex(controls.period.findData(5.0))
     chosen = controls.choice()
-    assert (chosen.motion, chosen.period_s, chosen.size, chosen.variant) == ("vertical", 5.0, 10.0, None)
+    assert (chosen.motion, chosen.period, chosen.size, chosen.variant) == ("vertical", 5.0, 10.0, None)

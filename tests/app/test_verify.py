@@ -232,7 +232,7 @@ def test_a_marker_is_left_out_only_with_a_reason(window):
 
 def test_settings_are_those_of_the_session_and_can_be_undone(window):
     page = window.page
-    page.panel_how.repeats.setValue(3)
+    page.panel_how.rows["repeats"].field.setValue(3)
     window.wait(lambda: "verification.repeats" in window.desk.state.settings)
     assert window.desk.state.settings["verification.repeats"].value == 3
     page.panel_how.low.setValue(7.0)
@@ -241,7 +241,7 @@ def test_settings_are_those_of_the_session_and_can_be_undone(window):
     window.bench.undo.undo()
     window.bench.undo.undo()
     window.wait(lambda: window.desk.state.settings["verification.repeats"].value == 1)
-    window.wait(lambda: page.panel_how.repeats.value() == 1 and page.panel_how.low.value() == 8.0)
+    window.wait(lambda: page.panel_how.rows["repeats"].value == 1 and page.panel_how.low.value() == 8.0)
 
 
 def test_without_calibration_or_devices_the_page_says_what_to_do(qtbot, tmp_path):

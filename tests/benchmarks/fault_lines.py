@@ -8,21 +8,15 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.emulate import (
-    Fault,
-    FaultEvent,
-    Script,
-    Six,
-    emulator,
-    possible_faults,
-    swinging,
-)
+from contactbench.pipeline.devices.driver import Carrier
+from contactbench.pipeline.devices.emulate import emulator, possible_faults, swinging
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, Six
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Health
-from contactbench.pipeline.devices.url import Carrier, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

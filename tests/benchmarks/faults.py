@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.fault_lines import LINES, FaultLine, Outcome, cases, run_case
 
-from contactbench.pipeline.devices.emulate import Fault
+from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError

@@ -8,7 +8,8 @@ import pytest
 from benchmarks.fault_lines import LINES, Outcome, cases, compare
 from benchmarks.faults import matrix, run
 
-from contactbench.pipeline.devices.emulate import Fault, possible_faults
+from contactbench.pipeline.devices.emulate import possible_faults
+from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.errors import InputError
 
 pytestmark = pytest.mark.alone  # it judges how soon things happen

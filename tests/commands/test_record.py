@@ -21,7 +21,8 @@ from waiting import be_slow
 from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
 from contactbench.pipeline.console import Ended
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.stream import Health, StreamState
 from contactbench.pipeline.recording import (

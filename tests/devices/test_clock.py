@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.emulate import SYNTHETIC, Fault, FaultEvent, Script, constant
-from contactbench.pipeline.devices.faults import Truth
+from contactbench.pipeline.devices.faults import SYNTHETIC, Fault, FaultEvent, Script, Truth, constant
 from contactbench.pipeline.devices.protocols import bota, robotiq, sri
 from contactbench.pipeline.devices.protocols.bota import BotaModel
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel

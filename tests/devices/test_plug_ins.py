@@ -11,10 +11,12 @@ import pytest
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
-from contactbench.pipeline.devices.emulate import EmulatorError, emulator
+from contactbench.pipeline.devices.driver import AddressError
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import EmulatorError
 from contactbench.pipeline.devices.protocols import registry
 from contactbench.pipeline.devices.transport.ports import guess_device
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.streams import open_sensor
 from contactbench.pipeline.workbench.live_devices import serial_sensors
 

@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.pose_source import file_track, still_track
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.streams import PoseTrackError, open_poses
 
 

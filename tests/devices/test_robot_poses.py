@@ -10,16 +10,17 @@ from devices.test_reconnecting_stream import Script
 from devices.test_sensor import Heard, fault
 from waiting import until
 
-from contactbench.pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
-from contactbench.pipeline.devices.faults import FrameMoment, SensorReading
+from contactbench.pipeline.devices.driver import AddressError
+from contactbench.pipeline.devices.emulate import emulator, swinging
+from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, constant
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
-from contactbench.pipeline.devices.protocols.device_model import Quirk
+from contactbench.pipeline.devices.protocols.device_model import JOINTS, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
 from contactbench.pipeline.devices.protocols.elfin_pose import ElfinPoses
 from contactbench.pipeline.devices.protocols.ur_pose import UrPoses
 from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.robot import Robot
 
 

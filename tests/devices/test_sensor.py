@@ -7,12 +7,14 @@ import time
 
 import pytest
 
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.driver import AddressError
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]
 PATIENCE_S = 5.0

@@ -12,7 +12,8 @@ from devices.test_sensor import Heard, fault
 from scipy.spatial.transform import Rotation
 from waiting import until
 
-from contactbench.pipeline.devices.emulate import Fault, constant, emulator, swinging
+from contactbench.pipeline.devices.emulate import emulator, swinging
+from contactbench.pipeline.devices.faults import Fault, constant
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.igtl import IgtlError
 from contactbench.pipeline.devices.protocols.igtl_pose import BODY, BodyStream, IgtlModel

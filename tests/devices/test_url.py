@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contactbench.pipeline.devices.url import STEPWISE, AddressError, Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.driver import AddressError, Carrier
+from contactbench.pipeline.devices.url import STEPWISE, DeviceAddress, Protocol
 
 parse = DeviceAddress.parse
 

@@ -8,12 +8,13 @@ from itertools import count
 import pytest
 from benchmarks.fault_lines import LINES, cases, expectation, resting
 
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
-from contactbench.pipeline.devices.faults import Mangler, Truth
+from contactbench.pipeline.devices.driver import Carrier
+from contactbench.pipeline.devices.emulate import possible_faults
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Mangler, Script, Truth
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.protocols.registry import driver_for, driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.devices.url import Carrier, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
 
 SENSORS = [line for line in LINES if not line.robot]

@@ -12,9 +12,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from recording.recording_cases import flange_samples, record, wrench_samples
 
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
 

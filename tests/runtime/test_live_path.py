@@ -15,8 +15,7 @@ from verification.touch_cases import MODEL, RATE, Push, protocol, stream
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script
-from contactbench.pipeline.devices.faults import Truth
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, Truth
 from contactbench.pipeline.devices.protocols import bota, rdt, robotiq, sri
 from contactbench.pipeline.devices.protocols.bota import BotaModel
 from contactbench.pipeline.devices.protocols.rdt import RdtModel

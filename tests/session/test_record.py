@@ -15,7 +15,8 @@ from typer.testing import CliRunner
 from waiting import until
 
 from contactbench.pipeline import cli
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.recorder import Recorder

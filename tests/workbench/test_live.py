@@ -8,11 +8,12 @@ from waiting import until
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import ContactSolver
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.driver import AddressError
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, PoseTrack
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.kernel import Reason

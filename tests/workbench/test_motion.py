@@ -28,7 +28,7 @@ def begin(bundle):
     made = []
 
     def run(choice=None, of=bundle):
-        made.append(MotionRun(of, choice or MotionChoice(PLATFORM, period_s=2.0)))
+        made.append(MotionRun(of, choice or MotionChoice(robot=PLATFORM, period=2.0)))
         return made[-1]
 
     yield run
@@ -37,8 +37,8 @@ def begin(bundle):
 
 
 def test_the_command_is_given_what_was_chosen():
-    chosen = MotionChoice("virtual://arm", "vertical", 5.0, 8.0, "plain").arguments(Path("b.zip"))
-    assert " ".join(chosen) == (
+    chosen = MotionChoice(motion="vertical", period=5.0, size=8.0, variant="plain")
+    assert " ".join(chosen.arguments(Path("b.zip"))) == (
         "bench control run b.zip --robot virtual://arm --motion vertical --period 5 --size 8 --seconds 600"
         " --variant plain --unverified --real-time --frames"
     )
@@ -47,18 +47,19 @@ def test_the_command_is_given_what_was_chosen():
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    "wrong",
     [
-        ({"robot": "elfin+tcp://10.0.0.2"}, "no virtual robot"),
-        ({"motion": "sideways"}, "no motion"),
-        ({"variant": "bold"}, "no variant"),
-        ({"period_s": 0.1}, "0.5 to 1000 s"),
-        ({"size": 31.0}, "0 to 30 mm"),
+        {"robot": "elfin+tcp://10.0.0.2"},
+        {"motion": "sideways"},
+        {"variant": "bold"},
+        {"period": 0.1},
+        {"size": 31.0},
     ],
+    ids=lambda wrong: next(iter(wrong)),
 )
-def test_a_wrong_choice_is_refused(wrong, says):
-    with pytest.raises(InputError, match=says):
-        MotionChoice(**wrong)
+def test_a_wrong_choice_is_refused(wrong):
+    with pytest.raises(InputError, match=f"parameter {next(iter(wrong))}: Input should be"):
+        MotionChoice.checked(wrong)
 
 
 def test_it_is_followed_and_stopped(begin):

@@ -1,7 +1,8 @@
 import pytest
 from waiting import until
 
-from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.errors import RecordingError

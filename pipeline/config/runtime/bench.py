@@ -313,7 +313,7 @@ def export_from_session(
         _probe_of(folder, probe),
         None if verification is None else _read(folder / verification.file.path),
         None if report is None else _read(folder / report.file.path),
-        replace(options, serial=serial, operator=operator),
+        options.model_copy(update={"serial": serial, "operator": operator}),
         session=session.state.id,
         created=datetime.fromisoformat(newest.at) if created is None else created,
         sources=[

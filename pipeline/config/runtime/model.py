@@ -10,9 +10,16 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, create_model
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    create_model,
+    model_serializer,
+)
 
-from contactbench.pipeline.gates import gate_forms
+from contactbench.pipeline.gates import gate_forms, later_gates
 
 SCHEMA: Final = "contactbench.runtime"
 VERSION: Final = 4
@@ -240,9 +247,11 @@ class StreamsPart(ConfigPart):
     motion: MotionPart | None
 
 
-_Gates: Any = create_model(
-    "_Gates", __base__=ConfigPart, **{form.stored: form.way.part for _, form in gate_forms()}
-)
+_LATER_GATES = later_gates()
+_gate_fields: dict[str, Any] = {
+    form.stored: (form.way.part, _LATER_GATES.get(form.stored, ...)) for _, form in gate_forms()
+}
+_Gates: Any = create_model("_Gates", __base__=ConfigPart, **_gate_fields)
 
 
 class GatesPart(_Gates):  # type: ignore[misc]
@@ -253,6 +262,15 @@ class GatesPart(_Gates):  # type: ignore[misc]
     ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
     its range looks like a touch: give them, or pass NaN for samples that the sensor itself flags.
     """
+
+    @model_serializer(mode="wrap")
+    def _as_ever(self, written: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out later gates that have their default."""
+        return {
+            name: value
+            for name, value in written(self).items()
+            if name not in _LATER_GATES or value != _LATER_GATES[name]
+        }
 
 
 class ProbePart(ConfigPart):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.transport.serial_line import SerialLine
 from contactbench.pipeline.devices.transport.sockets import TcpLine, UdpLine
-from contactbench.pipeline.devices.url import AddressError, Carrier
 from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.emulate import Emulator, Six
+    from contactbench.pipeline.devices.emulate import Emulator
+    from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.given import Batch
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from contactbench.pipeline.devices.emulate import SYNTHETIC
+from contactbench.pipeline.devices.faults import SYNTHETIC
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.bota import bota_frame
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25

@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, FrameMoment, SensorReading
+from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, FrameMoment, SensorReading
 from contactbench.pipeline.devices.protocols.bota import BotaModel
-from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
+from contactbench.pipeline.devices.protocols.device_model import JOINTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel
 from contactbench.pipeline.devices.protocols.kunwei import KunweiModel
 from contactbench.pipeline.devices.protocols.rdt import RdtModel

@@ -7,18 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contactbench.pipeline.devices.emulate import (
+from contactbench.pipeline.devices.emulate import possible_faults
+from contactbench.pipeline.devices.faults import (
     SYNTHETIC,
     EmulatorError,
     Fault,
     FaultEvent,
+    Mangler,
     Script,
+    Truth,
     constant,
-    possible_faults,
     recorded,
     sine,
 )
-from contactbench.pipeline.devices.faults import Mangler, Truth
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
 from contactbench.pipeline.devices.protocols.sri import SriModel, sri_frame
 

@@ -13,7 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.emulate import Fault, Quirk, Script, constant, emulator
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.faults import Fault, Script, constant
+from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.ur_pose import UrStage, UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     OutputRecipe,

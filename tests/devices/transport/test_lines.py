@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import pytest
 from waiting import until
 
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.transport import (
     Line,
     LineLost,
@@ -26,7 +27,7 @@ from contactbench.pipeline.devices.transport import (
     line_to,
     list_ports,
 )
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 
 
 @dataclass

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from waiting import until
 
+from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
 

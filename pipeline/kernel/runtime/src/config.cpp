@@ -108,26 +108,21 @@ void read_streams(const Json& streams, RuntimeSettings& s) {
 // What so many to one are worth in d2; by the same function as the Python runtime, to the last bit.
 double cost_of(double odds) { return 2.0 * std::log(odds); }
 
-struct GateReader {
-    const Json& gates;
-
-    void operator()(const char* stored, const char*, double& to, From from) const {
-        to = gates[stored].number;
-        if (from == From::odds) to = cost_of(to);
-        if (from != From::angle) return;
-        // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
-        const double degrees = to * (180.0 / M_PI);
-        if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, std::string("gates.") + stored, "not below a right angle");
-        to = std::cos(degrees * (M_PI / 180.0));
-    }
-    void operator()(const char* stored, const char*, std::int64_t& to, From) const { to = gates[stored].integer; }
-    void operator()(const char* stored, const char*, bool& to, From) const { to = gates[stored].boolean; }
-    void operator()(const char* stored, const char*, double (&to)[6], From) const {
-        const auto& limits = gates[stored].items;
-        std::transform(limits.begin(), limits.end(), to,
-                       [](const Json& limit) { return is_null(limit) ? HUGE_VAL : limit.number; });
-    }
-};
+void read_gate(const Json& json, double& to, From from) {
+    to = json.number;
+    if (from == From::odds) to = cost_of(to);
+    if (from != From::angle) return;
+    // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
+    const double degrees = to * (180.0 / M_PI);
+    if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, "gates.friction_angle_rad", "not below a right angle");
+    to = std::cos(degrees * (M_PI / 180.0));
+}
+void read_gate(const Json& json, std::int64_t& to, From) { to = json.integer; }
+void read_gate(const Json& json, bool& to, From) { to = json.boolean; }
+void read_gate(const Json& json, double (&to)[6], From) {
+    std::transform(json.items.begin(), json.items.end(), to,
+                   [](const Json& limit) { return is_null(limit) ? HUGE_VAL : limit.number; });
+}
 
 void read_probe_part(const Json& probe, Config& c) {
     c.probe_file = probe["file"].text;
@@ -347,7 +342,9 @@ Config read_config(std::string_view text) {
     read_noise(root["noise"], c.settings, calibration);
     read_touch(root["touch"], c);
     read_streams(root["streams"], c.settings);
-    each_gate(c.settings.gates, GateReader{root["gates"]});
+    each_gate(c.settings.gates, [&](const char* stored, const char*, auto& to, From from) {
+        if (const Json* found = root["gates"].find(stored)) read_gate(*found, to, from);
+    });
     read_probe_part(root["probe"], c);
     read_regions(root["regions"].items, c);
     read_planes(root["planes"], c);

@@ -22,14 +22,13 @@ std::string below(const std::string& path, std::string_view name) {
     return path.empty() ? std::string(name) : path + "." + std::string(name);
 }
 
-template <class Names>
-void check_members(const Json& value, const std::string& path, const Names& names) {
+void check_members(const Json& value, const std::string& path, const std::vector<Member>& members) {
     if (value.type != Json::Type::object) fail(CB_ERROR_SCHEMA, path.empty() ? "the file" : path, "not an object");
-    for (const std::string_view name : names)
-        if (!value.find(name)) fail(CB_ERROR_SCHEMA, below(path, name), "missing");
-    for (const auto& member : value.members)
-        if (std::find(names.begin(), names.end(), member.first) == names.end())
-            fail(CB_ERROR_SCHEMA, below(path, member.first.substr(0, 100)), "unknown");
+    for (const Member& member : members)
+        if (!member.optional && !value.find(member.name)) fail(CB_ERROR_SCHEMA, below(path, member.name), "missing");
+    for (const auto& found : value.members)
+        if (std::none_of(members.begin(), members.end(), [&](const Member& m) { return m.name == found.first; }))
+            fail(CB_ERROR_SCHEMA, below(path, found.first.substr(0, 100)), "unknown");
 }
 
 bool alphanumeric(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); }
@@ -130,7 +129,9 @@ void fail(int code, const std::string& field, const std::string& what) {
 }
 
 void check_names(const Json& value, const std::string& path, std::initializer_list<std::string_view> names) {
-    check_members(value, path, names);
+    std::vector<Member> members;
+    for (const std::string_view name : names) members.push_back({name, flag});
+    check_members(value, path, members);
 }
 
 void check(const Json& value, const Shape& s, const std::string& path) {
@@ -148,11 +149,9 @@ void check(const Json& value, const Shape& s, const std::string& path) {
         case Kind::files: return check_files(value, s, path);
         case Kind::object: break;
     }
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < s.count; ++i) names.push_back(s.members[i].name);
-    check_members(value, path, names);
-    for (std::size_t i = 0; i < s.count; ++i)
-        check(value[s.members[i].name], s.members[i].shape, below(path, s.members[i].name));
+    check_members(value, path, {s.members, s.members + s.count});
+    for (const Member* member = s.members; member != s.members + s.count; ++member)
+        if (const Json* found = value.find(member->name)) check(*found, member->shape, below(path, member->name));
 }
 
 }  // namespace contactbench::runtime

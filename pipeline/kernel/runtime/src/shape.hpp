@@ -22,7 +22,7 @@ struct Shape {
     bool null = false;                  // or null
     Format format = Format::hash;
     std::string_view words{};           // one|another
-    const Member* members = nullptr;    // exactly these, in any order
+    const Member* members = nullptr;    // these and no others, in any order
     std::size_t count = 0;
     const Shape* item = nullptr;        // each entry
 };
@@ -30,6 +30,7 @@ struct Shape {
 struct Member {
     std::string_view name;
     Shape shape;
+    bool optional = false;
 };
 
 constexpr Shape number(double least, double most, bool above = false, bool below = false) {

@@ -35,6 +35,7 @@ _SOURCE = "en"
 _IN_USE = "language"
 # Rooms whose texts are seen in a terminal or in a document, not in a window.
 _IN_TERMINALS = {("pipeline", room) for room in ("commands", "study", "demo", "report", "page", "fleet")}
+_OF_SETTINGS = {"knob": 1, "Row": 0}  # which argument has the words that a form shows
 _WORD = re.compile(r"[A-Za-z]{2}", re.ASCII)
 
 
@@ -124,8 +125,13 @@ def _errors(trees: list[ast.Module]) -> set[str]:
 
 def _texts(tree: ast.Module, kinds: set[str]) -> Iterator[str]:
     for each in ast.walk(tree):
-        if isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id in kinds:
-            text = each.args[0] if each.args else None
+        if not isinstance(each, ast.Call) or not isinstance(each.func, ast.Name):
+            continue
+        place = 0 if each.func.id in kinds else _OF_SETTINGS.get(each.func.id)
+        if place is None:
+            continue
+        words = [key.value for key in each.keywords if key.arg == "none" and each.func.id in _OF_SETTINGS]
+        for text in (*each.args[place : place + 1], *words):
             if isinstance(text, ast.JoinedStr):
                 yield _template(text)
             elif isinstance(text, ast.Constant) and isinstance(text.value, str):

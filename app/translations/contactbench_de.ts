@@ -5207,6 +5207,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> {0}, aber {1}.</translation>
     </message>
     <message>
+        <source>% of a channel&apos;s load: crosstalk into the others.</source>
+        <translation>% der Last eines Kanals: Übersprechen in die anderen.</translation>
+    </message>
+    <message>
+        <source>% of a load: added to the reading after the load has stayed for minutes.</source>
+        <translation>% einer Last: was zusätzlich angezeigt wird, wenn sie Minuten bleibt.</translation>
+    </message>
+    <message>
+        <source>% of full scale: width of the loop between loading and unloading.</source>
+        <translation>% des Messbereichs: Breite der Schleife zwischen Be- und Entlasten.</translation>
+    </message>
+    <message>
+        <source>% of the largest load so far: the same, growing with it.</source>
+        <translation>% der bisher größten Last: dasselbe, mit ihr wachsend.</translation>
+    </message>
+    <message>
         <source>&apos;#&apos;: write it as %23 if it belongs to the path</source>
         <translation>&apos;#&apos;: als %23 schreiben, wo es zum Pfad gehört</translation>
     </message>
@@ -5375,6 +5391,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>1 zu {0}</translation>
     </message>
     <message>
+        <source>1/190 of the size</source>
+        <translation>1/190 der Größe</translation>
+    </message>
+    <message>
         <source>95th percentile</source>
         <translation>95. Perzentil</translation>
     </message>
@@ -5435,6 +5455,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein Kontakt lässt sich nicht lokalisieren, es fehlt {0}: {1}.</translation>
     </message>
     <message>
+        <source>A contact farther than this from every marker touched none, mm.</source>
+        <translation>Ein Kontakt, der von jedem Marker weiter als das entfernt ist, hat keinen berührt, mm.</translation>
+    </message>
+    <message>
         <source>A delay above {0} ms is unlikely: check that both use one clock, and that this robot holds the sensor.</source>
         <translation>Ein Verzug über {0} ms ist unwahrscheinlich: Prüfen Sie, ob beide dieselbe Uhr benutzen und ob dieser Roboter den Sensor trägt.</translation>
     </message>
@@ -5463,12 +5487,36 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ein Sensor, der dem Roboter voraus ist, ist unwahrscheinlich: Prüfen Sie, ob der Roboter seine Posen verspätet sendet.</translation>
     </message>
     <message>
+        <source>A touch begins at this |F|, N [2, less for windows below].</source>
+        <translation>Ab diesem |F| beginnt eine Berührung, N [2, weniger bei kleineren Fenstern].</translation>
+    </message>
+    <message>
+        <source>A touch ends below this |F|, N [1, less for windows below].</source>
+        <translation>Unter diesem |F| endet eine Berührung, N [1, weniger bei kleineren Fenstern].</translation>
+    </message>
+    <message>
+        <source>A touch of an untouchable facet is less likely than any other by this factor.</source>
+        <translation>Eine Berührung einer unberührbaren Facette ist um diesen Faktor unwahrscheinlicher als jede andere.</translation>
+    </message>
+    <message>
         <source>ATI or OnRobot (RDT)</source>
         <translation>ATI oder OnRobot (RDT)</translation>
     </message>
     <message>
         <source>ATI sensor</source>
         <translation>ATI-Sensor</translation>
+    </message>
+    <message>
+        <source>Accept, and follow when tracking, contacts whose place is certain only because of the regions of the mesh.</source>
+        <translation>Kontakte annehmen und beim Verfolgen weiterführen, deren Ort nur durch die Regionen des Netzes sicher ist.</translation>
+    </message>
+    <message>
+        <source>Accepted touches required per marker.</source>
+        <translation>Nötige gezählte Berührungen je Marker.</translation>
+    </message>
+    <message>
+        <source>Accuracy of hitting the point, 1 sigma, mm.</source>
+        <translation>Wie genau der Punkt getroffen wird, 1 Sigma, mm.</translation>
     </message>
     <message>
         <source>All poses have the same orientation to within half a degree. Turn the wrist between poses, or check that the orientation columns are the ones the robot updates.</source>
@@ -5499,6 +5547,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Auch möglich: {0}.</translation>
     </message>
     <message>
+        <source>Angles are in rad, not degrees.</source>
+        <translation>Winkel in rad, nicht in Grad.</translation>
+    </message>
+    <message>
         <source>Angles reach {0} rad, more than two turns: if they are in degrees, leave out --radians.</source>
         <translation>Winkel reichen bis {0} rad, mehr als zwei Umdrehungen: Falls sie in Grad sind, lassen Sie --radians weg.</translation>
     </message>
@@ -5513,6 +5565,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>At least one record is lost after record {0}.</source>
         <translation>Nach Eintrag {0} ist mindestens ein Eintrag verloren.</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
     </message>
     <message>
         <source>Average more samples, use a stronger filter or press harder. Look for vibration, and for markers that were not hit exactly.</source>
@@ -5747,6 +5803,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ausgelassene Datagramme: {0}, das letzte von {1}, Port {2}. Angenommen wird nur, was von Port {3} von {4} kommt: Beenden Sie den anderen Sender, oder geben Sie jedem einen eigenen Port dieses Rechners.</translation>
     </message>
     <message>
+        <source>Delay of a wrench after its pose in a recording of both; auto: estimated from the motion. A doubtful estimate is reported but not applied [0].</source>
+        <translation>Verzug eines Messwerts gegenüber seiner Pose in einer Aufzeichnung von beidem; auto: aus der Bewegung geschätzt. Eine zweifelhafte Schätzung wird gemeldet, aber nicht angewendet [0].</translation>
+    </message>
+    <message>
+        <source>Delay of a wrench after its pose, s.</source>
+        <translation>Verzögerung eines Messwerts gegen seine Pose, s.</translation>
+    </message>
+    <message>
+        <source>Direction of gravity in the world frame of the orientations, of any length; 0,0,1 for a robot that hangs from the ceiling and reports poses in its base frame.</source>
+        <translation>Richtung der Schwerkraft im Weltsystem der Orientierungen, beliebig lang; 0,0,1 für einen Roboter, der an der Decke hängt und Posen im System seiner Basis meldet.</translation>
+    </message>
+    <message>
         <source>Distance from the visible outside of the original to the shell: median {0} mm, 95 % below {1} mm, at most {2} mm.</source>
         <translation>Abstand von der sichtbaren Außenseite des Originals zur Außenfläche: Median {0} mm, 95 % unter {1} mm, höchstens {2} mm.</translation>
     </message>
@@ -5761,6 +5829,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Divide mx, my and mz by 1000.</source>
         <translation>mx, my und mz durch 1000 teilen.</translation>
+    </message>
+    <message>
+        <source>Do not filter the wrench.</source>
+        <translation>Die Kräfte und Momente nicht filtern.</translation>
     </message>
     <message>
         <source>Drift, cable, hysteresis and mount change each wrench by about this much; the bundle allows for it.</source>
@@ -5807,6 +5879,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ende der Aufzeichnung: Wählen Sie sie noch einmal, um sie erneut abzuspielen.</translation>
     </message>
     <message>
+        <source>Error that drift, cable and hysteresis leave in a force, 1 sigma.</source>
+        <translation>Fehler, den Drift, Kabel und Hysterese in einer Kraft lassen, 1 Sigma.</translation>
+    </message>
+    <message>
         <source>Euler angles about the fixed axes {0}</source>
         <translation>Eulerwinkel um die festen Achsen {0}</translation>
     </message>
@@ -5835,8 +5911,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Jede Pose hat dieselbe Neigung (sie unterscheiden sich nur durch eine Drehung um die Senkrechte), deshalb hat die Schwerkraft im Sensor immer dieselbe Richtung, und Gewicht und Nullpunktfehler sind nicht zu trennen. Drehen Sie das Handgelenk um eine waagerechte Achse.</translation>
     </message>
     <message>
+        <source>Expected touch forces, N.</source>
+        <translation>Kräfte der erwarteten Berührungen, N.</translation>
+    </message>
+    <message>
         <source>Export the config again.</source>
         <translation>Die Konfiguration erneut exportieren.</translation>
+    </message>
+    <message>
+        <source>Facet density inside regions relative to outside.</source>
+        <translation>Facettendichte in Regionen im Verhältnis zu außerhalb.</translation>
+    </message>
+    <message>
+        <source>Facet size</source>
+        <translation>Facettengröße</translation>
+    </message>
+    <message>
+        <source>Facet size of the outer surface.</source>
+        <translation>Facettengröße der Außenfläche.</translation>
     </message>
     <message>
         <source>Facets are turned against the original surface (facets: {0}, by up to {1}°). {2}</source>
@@ -5867,6 +5959,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Facetten kommen mehrfach vor (überzählig: {0}). Sie bremsen die Suche und antworten doppelt. Entfernen Sie doppelte Facetten im CAD-Programm.</translation>
     </message>
     <message>
+        <source>Facets to keep.</source>
+        <translation>So viele Facetten behalten.</translation>
+    </message>
+    <message>
         <source>Facets touch without sharing a vertex or edge (pairs: {0}): two walls meet there. No action needed if the bodies are meant to touch.</source>
         <translation>Facetten berühren sich, ohne einen Eckpunkt oder eine Kante gemeinsam zu haben (Paare: {0}): Dort stoßen zwei Wände aneinander. Wo sich Körper berühren sollen, ist nichts zu tun.</translation>
     </message>
@@ -5887,6 +5983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Weniger Facetten würden die Grenze überschreiten: Die Oberfläche blieb unverändert.</translation>
     </message>
     <message>
+        <source>Finer in regions</source>
+        <translation>Feiner in Regionen</translation>
+    </message>
+    <message>
         <source>Finish a verification: its report is part of the bundle.</source>
         <translation>Beenden Sie eine Überprüfung: Ihr Bericht gehört ins Bundle.</translation>
     </message>
@@ -5901,6 +6001,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>For a ROS 2 bag use: contactbench record import-ros2.</source>
         <translation>Für ein ROS-2-Bag benutzen Sie: contactbench record import-ros2.</translation>
+    </message>
+    <message>
+        <source>Force above which a touch is counted in a recording.</source>
+        <translation>Kraft, ab der eine Berührung in einer Aufzeichnung zählt.</translation>
+    </message>
+    <message>
+        <source>Force limit for the controller.</source>
+        <translation>Kraftgrenze für die Regelung.</translation>
+    </message>
+    <message>
+        <source>Force of those touches, N.</source>
+        <translation>Kraft dieser Berührungen, N.</translation>
     </message>
     <message>
         <source>Forces are in kgf</source>
@@ -5937,6 +6049,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Found {0}</source>
         <translation>Gefunden: {0}</translation>
+    </message>
+    <message>
+        <source>From earlier versions; has no effect.</source>
+        <translation>Aus früheren Versionen; ohne Wirkung.</translation>
+    </message>
+    <message>
+        <source>Gaps narrower than this are bridged, mm [1/65 of the size].</source>
+        <translation>Schmalere Spalte werden überbrückt, mm [1/65 der Größe].</translation>
     </message>
     <message>
         <source>Gates.{0}: {1}: correct it.</source>
@@ -6003,6 +6123,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Halten Sie das Werkzeug in etwa sechs Orientierungen still; die nächste wird gezeigt.</translation>
     </message>
     <message>
+        <source>How to close the openings, largest first, one entry each; the last entry applies to all others. fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]</source>
+        <translation>Wie die Öffnungen geschlossen werden, größte zuerst, je ein Eintrag; der letzte gilt für alle übrigen. fair: geringste Biegung. ruled: gerade Linien zwischen den langen Rändern. hull: keine Delle. open: offen lassen. [auto]</translation>
+    </message>
+    <message>
         <source>Identical, byte for byte.</source>
         <translation>Identisch, Byte für Byte.</translation>
     </message>
@@ -6025,6 +6149,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>In {0} new {1} the residuals move a contact by {2} mm rms, at most {3} mm ({4})</source>
         <translation>In {0} {1} verschieben die Restabweichungen einen Kontakt um {2} mm (quadratisches Mittel), höchstens {3} mm ({4})</translation>
+    </message>
+    <message>
+        <source>Integral of a density over the surface.</source>
+        <translation>Integral einer Dichte über die Oberfläche.</translation>
     </message>
     <message>
         <source>Invert the orientations</source>
@@ -6063,6 +6191,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Teile, die laut 3MF-Datei nicht gedruckt werden, wurden ausgelassen (Anzahl: {0}).</translation>
     </message>
     <message>
+        <source>K: warming of the sensor after the calibration.</source>
+        <translation>K: so viel wärmer wird der Sensor nach der Kalibrierung.</translation>
+    </message>
+    <message>
         <source>Kalman filter with Q = {0}, R = {1}</source>
         <translation>Kalman-Filter mit Q = {0}, R = {1}</translation>
     </message>
@@ -6093,6 +6225,26 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Known weight</source>
         <translation>Bekanntes Gewicht</translation>
+    </message>
+    <message>
+        <source>Largest error that passes, mm.</source>
+        <translation>Größter Fehler, der besteht, mm.</translation>
+    </message>
+    <message>
+        <source>Largest permitted error.</source>
+        <translation>Größter zulässiger Fehler.</translation>
+    </message>
+    <message>
+        <source>Largest permitted mean error.</source>
+        <translation>Größter zulässiger mittlerer Fehler.</translation>
+    </message>
+    <message>
+        <source>Largest plausible distance of the weight&apos;s string from the sensor, mm.</source>
+        <translation>Größter glaubhafter Abstand der Schnur des Gewichts vom Sensor, mm.</translation>
+    </message>
+    <message>
+        <source>Largest scale error that passes, %.</source>
+        <translation>Größter Maßstabsfehler, der besteht, %.</translation>
     </message>
     <message>
         <source>Leave it out</source>
@@ -6151,6 +6303,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Live wurden {0} Berührungen gezählt; die Aufzeichnung ergibt {1}. Es zählt die Aufzeichnung.</translation>
     </message>
     <message>
+        <source>Local acceleration of free fall, m/s² [9.80665 ± 0.015].</source>
+        <translation>Örtliche Fallbeschleunigung, m/s² [9.80665 ± 0.015].</translation>
+    </message>
+    <message>
+        <source>Low-pass</source>
+        <translation>Tiefpass</translation>
+    </message>
+    <message>
+        <source>Low-pass cutoff of the contact point.</source>
+        <translation>Grenzfrequenz des Tiefpasses für den Kontaktpunkt.</translation>
+    </message>
+    <message>
         <source>LowPass.cutoff must be above 0 and below half the rate, {0} Hz, not {1} Hz</source>
         <translation>LowPass.cutoff muss über 0 und unter der halben Rate liegen, {0} Hz, nicht bei {1} Hz</translation>
     </message>
@@ -6187,8 +6351,32 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Machen Sie die Außenfläche: Sie schließt die Mündungen von Hohlräumen, behält aber Rillen und Durchgangslöcher.</translation>
     </message>
     <message>
+        <source>Mass of the sensor with its adapters, kg, and its centre of mass in the flange&apos;s frame, mm.</source>
+        <translation>Masse des Sensors mit seinen Adaptern, kg, und sein Schwerpunkt im Flanschsystem, mm.</translation>
+    </message>
+    <message>
+        <source>Maximum force</source>
+        <translation>Maximale Kraft</translation>
+    </message>
+    <message>
+        <source>Maximum torque</source>
+        <translation>Maximales Moment</translation>
+    </message>
+    <message>
+        <source>Mean error up to</source>
+        <translation>Mittel bis</translation>
+    </message>
+    <message>
         <source>Model error: {0} (95 % upper limit {1}; the touches count as {2} independent one{3}).</source>
         <translation>Modellfehler: {0} (obere 95-%-Grenze {1}; die Berührungen zählen wie {2} unabhängige).{3}</translation>
+    </message>
+    <message>
+        <source>Model of the force/torque sensor; for the report.</source>
+        <translation>Modell des Kraft-Momenten-Sensors; für den Bericht.</translation>
+    </message>
+    <message>
+        <source>Model of the sensor.</source>
+        <translation>Modell des Sensors.</translation>
     </message>
     <message>
         <source>More of it is damaged in the same way.</source>
@@ -6209,6 +6397,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Most likely {0}: {1} of {2} rows ({3} %) are then plausible. {4}{5}</source>
         <translation>Am wahrscheinlichsten: {0}. Dann sind {1} von {2} Zeilen ({3} %) plausibel. {4}{5}</translation>
+    </message>
+    <message>
+        <source>Motion of the phantom.</source>
+        <translation>Bewegung des Phantoms.</translation>
     </message>
     <message>
         <source>MountBelief.{0}: {1} is not above 0 and at most {2} (m, rad).</source>
@@ -6239,12 +6431,32 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>N*m: Waren es N*mm?</translation>
     </message>
     <message>
+        <source>N: pull of an operator&apos;s hand at the handle while the probe is pressed, root mean square.</source>
+        <translation>N: eine Hand zieht am Griff, während die Sonde gedrückt wird, quadratisches Mittel.</translation>
+    </message>
+    <message>
+        <source>N: pull of the cable when the tool is turned away from the cable&apos;s free hanging direction.</source>
+        <translation>N: Zug des Kabels, wenn das Werkzeug von der freien Hängerichtung des Kabels weggedreht ist.</translation>
+    </message>
+    <message>
         <source>NOT READY: </source>
         <translation>NICHT BEREIT: </translation>
     </message>
     <message>
         <source>NOT verified</source>
         <translation>NICHT überprüft</translation>
+    </message>
+    <message>
+        <source>Name of frame S in the robot description.</source>
+        <translation>Name des Koordinatensystems S in der Roboterbeschreibung.</translation>
+    </message>
+    <message>
+        <source>Name of frame W in the robot description.</source>
+        <translation>Name des Koordinatensystems W in der Roboterbeschreibung.</translation>
+    </message>
+    <message>
+        <source>Name of the sensor in the robot description&apos;s ros2_control tag, for ros2.yaml.</source>
+        <translation>Name des Sensors im ros2_control-Element der Roboterbeschreibung, für ros2.yaml.</translation>
     </message>
     <message>
         <source>Name the columns {0}.</source>
@@ -6391,8 +6603,40 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nicht bestanden: {0}. Prüfen Sie erneut.</translation>
     </message>
     <message>
+        <source>Number of the sensor&apos;s calibration certificate; for the report.</source>
+        <translation>Nummer des Kalibrierscheins des Sensors; für den Bericht.</translation>
+    </message>
+    <message>
+        <source>Number of the weight&apos;s certificate.</source>
+        <translation>Nummer des Zertifikats des Gewichts.</translation>
+    </message>
+    <message>
+        <source>Odds of a touch in the region of highest priority relative to elsewhere; each further region has a tenth of it, at least 10.</source>
+        <translation>Chance einer Berührung in der Region mit der höchsten Priorität gegenüber anderswo; jede weitere Region hat ein Zehntel davon, mindestens 10.</translation>
+    </message>
+    <message>
+        <source>Odds that the first surface on the line of force is touched rather than one behind it.</source>
+        <translation>Chance, dass die erste Fläche auf der Kraftlinie berührt wird und nicht eine dahinter.</translation>
+    </message>
+    <message>
         <source>On held-out touches the fitted mount errs by {0}, the first mount by {1}; on its own touches the fit errs by {2}; noise and placement alone give {3}.</source>
         <translation>Bei Berührungen, die neu für sie sind, liegt die angepasste Montage um {0} daneben, die anfängliche um {1}; bei ihren eigenen Berührungen liegt die Anpassung um {2} daneben; Rauschen und Platzierung allein ergeben {3}.</translation>
+    </message>
+    <message>
+        <source>Only contacts from here on, s after the first sample.</source>
+        <translation>Nur Kontakte ab hier, s nach dem ersten Messwert.</translation>
+    </message>
+    <message>
+        <source>Only contacts up to here, s after the first sample.</source>
+        <translation>Nur Kontakte bis hier, s nach dem ersten Messwert.</translation>
+    </message>
+    <message>
+        <source>Only contacts with this force or less, N.</source>
+        <translation>Nur Kontakte mit höchstens dieser Kraft, N.</translation>
+    </message>
+    <message>
+        <source>Only contacts with this force or more, N.</source>
+        <translation>Nur Kontakte mit mindestens dieser Kraft, N.</translation>
     </message>
     <message>
         <source>Only origin and date differ.</source>
@@ -6439,8 +6683,40 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Oder das angegebene Rauschen ist {0}-mal zu groß: Wiegen Sie das Werkzeug, um sicher zu sein.</translation>
     </message>
     <message>
+        <source>Or: 95 % of contacts move by less than this.</source>
+        <translation>Oder: 95 % der Kontakte verschieben sich um weniger als dies.</translation>
+    </message>
+    <message>
+        <source>Or: largest distance from the outer surface.</source>
+        <translation>Oder: größter Abstand von der Außenfläche.</translation>
+    </message>
+    <message>
+        <source>Orientation is rx,ry,rz: angles about these axes, in the order of the columns; xyz: fixed axes, ZYX: rotating axes.</source>
+        <translation>Die Orientierung ist rx,ry,rz: Winkel um diese Achsen, in der Reihenfolge der Spalten; xyz: feste Achsen, ZYX: mitdrehende Achsen.</translation>
+    </message>
+    <message>
+        <source>Orientation is rx,ry,rz: axis times angle.</source>
+        <translation>Die Orientierung ist rx,ry,rz: Achse mal Winkel.</translation>
+    </message>
+    <message>
+        <source>Orientation is that of a robot&apos;s flange, by joints j1, j2, ...: elfin3, or a URDF or MJCF file.</source>
+        <translation>Die Ausrichtung ist die des Roboterflansches, aus den Gelenken j1, j2, ...: elfin3 oder eine URDF- oder MJCF-Datei.</translation>
+    </message>
+    <message>
         <source>Orientations and readings are shifted by one row: each reading belongs to the {0} row&apos;s orientation</source>
         <translation>Orientierungen und Messwerte sind um eine Zeile verschoben: Jeder Messwert gehört zur Orientierung einer Nachbarzeile ({0})</translation>
+    </message>
+    <message>
+        <source>Orientations are those of the flange, and the rotation of the sensor on it is unknown.</source>
+        <translation>Die Orientierungen sind die des Flansches, und wie der Sensor darauf gedreht ist, ist unbekannt.</translation>
+    </message>
+    <message>
+        <source>Orientations are those of the flange; the sensor is turned on it by these angles about the fixed axes x, then y, then z of the flange, degrees.</source>
+        <translation>Die Orientierungen sind die des Flansches, und der Sensor ist darauf um diese Winkel gedreht, um die festen Achsen x, dann y, dann z des Flansches, Grad.</translation>
+    </message>
+    <message>
+        <source>Orientations turn world into sensor components (R_SW).</source>
+        <translation>Die Orientierungen drehen Weltkomponenten in Sensorkomponenten (R_SW).</translation>
     </message>
     <message>
         <source>Outside every region</source>
@@ -6487,12 +6763,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Bestanden: {0}.</translation>
     </message>
     <message>
+        <source>Per marker</source>
+        <translation>Je Marker</translation>
+    </message>
+    <message>
+        <source>Period of that motion, s.</source>
+        <translation>Periode dieser Bewegung, s.</translation>
+    </message>
+    <message>
         <source>Polygons cross themselves, so their triangles overlap (polygons: {0}).</source>
         <translation>Vielecke schneiden sich selbst, deshalb überlappen ihre Dreiecke (Vielecke: {0}).</translation>
     </message>
     <message>
         <source>Polygons of fewer than three corners were left out (polygons: {0}).</source>
         <translation>Vielecke mit weniger als drei Ecken wurden ausgelassen (Vielecke: {0}).</translation>
+    </message>
+    <message>
+        <source>Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh stays in its own frame.</source>
+        <translation>Lage des Netzes in S: mm, und Grad um die festen Achsen x, dann y, dann z. Ohne Angabe bleibt das Netz in seinem eigenen Koordinatensystem.</translation>
     </message>
     <message>
         <source>PoseNoise.orientation: give a finite angle of at least 0, rad, not {0}</source>
@@ -6583,6 +6871,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Q und R folgen der Zeit</translation>
     </message>
     <message>
+        <source>Quantity to show.</source>
+        <translation>Gezeigte Größe.</translation>
+    </message>
+    <message>
         <source>RDT: counts per unit must be finite and above 0, not {0}: read them from the sensor&apos;s configuration page.</source>
         <translation>RDT: Zählschritte pro Einheit müssen endlich und größer als 0 sein, nicht {0}: auf der Konfigurationsseite des Sensors ablesen.</translation>
     </message>
@@ -6615,8 +6907,44 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>RawOrientations.values: Geben Sie endliche Zahlen der Form (n, {0}) an, Spalten {1}, nicht der Form {2}.</translation>
     </message>
     <message>
+        <source>Readings</source>
+        <translation>Messwerte</translation>
+    </message>
+    <message>
+        <source>Readings per second.</source>
+        <translation>Messwerte pro Sekunde.</translation>
+    </message>
+    <message>
         <source>Realign the probe with touches on all of its sides. If the refined alignment helps, it is enough.</source>
         <translation>Richten Sie die Sonde mit Berührungen auf allen ihren Seiten neu aus. Wenn die verfeinerte Ausrichtung hilft, genügt sie.</translation>
+    </message>
+    <message>
+        <source>Reason ambiguous unless the likeliest place is this many times likelier than any other.</source>
+        <translation>Grund „ambiguous“, wenn der wahrscheinlichste Ort nicht um diesen Faktor wahrscheinlicher ist als jeder andere.</translation>
+    </message>
+    <message>
+        <source>Reason ambiguous when another likely place is this far away, or 4.5 standard deviations if that is more.</source>
+        <translation>Grund „ambiguous“, wenn ein anderer wahrscheinlicher Ort so weit entfernt ist, oder 4,5 Standardabweichungen, wenn das mehr ist.</translation>
+    </message>
+    <message>
+        <source>Reason implausible if a touch leaves a misfit that chance alone reaches with at most this probability.</source>
+        <translation>Grund „implausible“, wenn eine Berührung eine Abweichung lässt, die der Zufall höchstens mit dieser Wahrscheinlichkeit erreicht.</translation>
+    </message>
+    <message>
+        <source>Reason low_force below this force.</source>
+        <translation>Grund „low_force“ unterhalb dieser Kraft.</translation>
+    </message>
+    <message>
+        <source>Reason saturated when a channel reaches this.</source>
+        <translation>Grund „saturated“, wenn ein Kanal das erreicht.</translation>
+    </message>
+    <message>
+        <source>Reason stale when a sample is older; when tracking, a longer gap starts anew.</source>
+        <translation>Grund „stale“, wenn ein Messwert älter ist; beim Verfolgen beginnt nach einer längeren Lücke alles neu.</translation>
+    </message>
+    <message>
+        <source>Reason tangential beyond this angle to the normal.</source>
+        <translation>Grund „tangential“ jenseits dieses Winkels zur Normalen.</translation>
     </message>
     <message>
         <source>Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and the cable routed as in use.</source>
@@ -6639,12 +6967,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Einträge waren in falscher Reihenfolge; anhand ihrer Hashwerte ist sie wiederhergestellt.</translation>
     </message>
     <message>
+        <source>Refuse contacts outside every region of the mesh.</source>
+        <translation>Kontakte außerhalb aller Regionen des Netzes ablehnen.</translation>
+    </message>
+    <message>
         <source>Regions are painted but not applied to the probe yet: apply them.</source>
         <translation>Regionen sind gemalt, aber noch nicht auf die Sonde angewendet: Wenden Sie sie an.</translation>
     </message>
     <message>
         <source>Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use them as a loaddata for GripLoad, which is in the tool frame.</source>
         <translation>Ersetzen Sie probe_tool durch den Namen Ihres tooldata. Die Werte gelten im Handgelenksystem: Verwenden Sie sie nicht als loaddata für GripLoad, das im Werkzeugsystem gilt.</translation>
+    </message>
+    <message>
+        <source>Responsible person.</source>
+        <translation>Verantwortliche Person.</translation>
     </message>
     <message>
         <source>Results have changed since the last export: export again.</source>
@@ -6695,12 +7031,24 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Aus einer beschädigten Sitzung gerettet.</translation>
     </message>
     <message>
+        <source>Samples</source>
+        <translation>Messwerte</translation>
+    </message>
+    <message>
         <source>Samples arrive at {0}: check the rate and the line speed.</source>
         <translation>Rate der Messwerte: {0}. Die Rate und die Geschwindigkeit der Leitung prüfen.</translation>
     </message>
     <message>
+        <source>Samples per touch after settling.</source>
+        <translation>Messwerte je Berührung nach dem Beruhigen.</translation>
+    </message>
+    <message>
         <source>Seams are not joined: {0} of open edges lie right beside another edge. The surface looks closed there but counts as open. Export again with a finer tolerance, or make the outer shell.</source>
         <translation>Nähte sind nicht verbunden; offene Kanten liegen direkt neben anderen: {0}. Die Oberfläche sieht dort geschlossen aus, gilt aber als offen. Exportieren Sie erneut mit feinerer Toleranz, oder machen Sie die Außenfläche.</translation>
+    </message>
+    <message>
+        <source>Seed of the bootstrap.</source>
+        <translation>Startwert des Bootstraps.</translation>
     </message>
     <message>
         <source>Send each contact there as a UDP datagram.</source>
@@ -6717,6 +7065,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Serial number missing: the bundle would say &apos;unknown&apos;. Enter it below.</source>
         <translation>Seriennummer fehlt: Im Bundle stünde „unknown“. Geben Sie sie unten ein.</translation>
+    </message>
+    <message>
+        <source>Serial number of the sensor.</source>
+        <translation>Seriennummer des Sensors.</translation>
     </message>
     <message>
         <source>Serial number {0}.</source>
@@ -6747,6 +7099,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Verschieben Sie die Orientierungen um eine Zeile, und entfernen Sie die Zeile, die dann keine hat.</translation>
     </message>
     <message>
+        <source>Single error up to</source>
+        <translation>Einzeln bis</translation>
+    </message>
+    <message>
+        <source>Size of that motion, mm or degrees.</source>
+        <translation>Größe dieser Bewegung, mm oder Grad.</translation>
+    </message>
+    <message>
         <source>Skipped on purpose: {0}: contacts there are not verified.</source>
         <translation>Absichtlich ausgelassen: {0}: Kontakte dort sind nicht geprüft.</translation>
     </message>
@@ -6761,6 +7121,38 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Specks next to the part were left out (facets: {0}).</source>
         <translation>Flecken neben dem Teil wurden weggelassen (Facetten: {0}).</translation>
+    </message>
+    <message>
+        <source>Speed of the tip that a controller must never exceed.</source>
+        <translation>Geschwindigkeit der Spitze, die eine Regelung nie überschreiten darf.</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a force.</source>
+        <translation>Standardabweichung einer Kraft.</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a pose&apos;s mean force, N [estimated from the poses].</source>
+        <translation>Standardabweichung der mittleren Kraft einer Pose, N [aus den Posen geschätzt].</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a sample, N [measured in the touches].</source>
+        <translation>Standardabweichung eines Messwerts, N [an den Berührungen gemessen].</translation>
+    </message>
+    <message>
+        <source>Standard deviation of a torque.</source>
+        <translation>Standardabweichung eines Moments.</translation>
+    </message>
+    <message>
+        <source>Standard deviation of one reading.</source>
+        <translation>Standardabweichung eines Messwerts.</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian, mm [the contacts&apos; own uncertainty, at least 1.5].</source>
+        <translation>Standardabweichung der Gaußfunktion, mm [die Unsicherheit der Kontakte selbst, mindestens 1,5].</translation>
+    </message>
+    <message>
+        <source>Standard uncertainty of the mass, kg; half of a certificate&apos;s U (k = 2).</source>
+        <translation>Standardunsicherheit der Masse, kg; die Hälfte des U eines Zertifikats (k = 2).</translation>
     </message>
     <message>
         <source>Still, after settling late: {0} s averaged so far.</source>
@@ -7267,6 +7659,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Außenseite wurde in eine geschlossene Fläche gehüllt; innere Wände und Teile sind weg.</translation>
     </message>
     <message>
+        <source>The paper&apos;s control, or with motion feed-forward [the bundle&apos;s].</source>
+        <translation>Die Regelung der Veröffentlichung, oder mit Vorsteuerung der Bewegung [die des Bündels].</translation>
+    </message>
+    <message>
         <source>The parameter {0}.{1} was set to {2} on {3}; this was computed with {4}.</source>
         <translation>Der Parameter {0}.{1} wurde am {3} auf {2} gesetzt; berechnet wurde es mit {4}.</translation>
     </message>
@@ -7451,6 +7847,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Mit denselben Q und R ist es ein anderer Filter</translation>
     </message>
     <message>
+        <source>The same for a torque, N·m.</source>
+        <translation>Das Gleiche für ein Drehmoment, N·m.</translation>
+    </message>
+    <message>
+        <source>The same for a torque.</source>
+        <translation>Dasselbe für ein Moment.</translation>
+    </message>
+    <message>
+        <source>The same for a torque; give both or neither.</source>
+        <translation>Dasselbe für ein Moment; beide angeben oder keines.</translation>
+    </message>
+    <message>
+        <source>The same for its torque, N·m; give both or neither.</source>
+        <translation>Das Gleiche für ihr Drehmoment, N·m; beide oder keines.</translation>
+    </message>
+    <message>
         <source>The sample times went back, so the captures start over: {0}</source>
         <translation>Die Zeiten der Messwerte liefen zurück, deshalb beginnen die Aufnahmen neu: {0}</translation>
     </message>
@@ -7573,6 +7985,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The sensor&apos;s orientation is unknown: choose a source of poses in step 1, Devices.</source>
         <translation>Die Orientierung des Sensors ist unbekannt: Wählen Sie in Schritt 1, Geräte, eine Quelle der Posen.</translation>
+    </message>
+    <message>
+        <source>The sensor&apos;s origin in the flange&apos;s frame, mm.</source>
+        <translation>Ursprung des Sensors im Flanschsystem, mm.</translation>
     </message>
     <message>
         <source>The sensor&apos;s z axis points away from the tool</source>
@@ -7851,6 +8267,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Seit {0} s zu wenige Messwerte oder keine: Prüfen Sie Stecker, Verbindung und Rate des Sensors.</translation>
     </message>
     <message>
+        <source>Torque limit for the controller.</source>
+        <translation>Momentgrenze für die Regelung.</translation>
+    </message>
+    <message>
         <source>Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often</source>
         <translation>Momente sind 1000-mal zu klein, als wäre N·m für N·mm gehalten und einmal zu oft geteilt worden</translation>
     </message>
@@ -7871,12 +8291,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Momente sind in lbf·in</translation>
     </message>
     <message>
+        <source>Torsion that a touch may have, 1 sigma: local torque over force. A hard tip has 0.3, soft tissue 1 to 5.</source>
+        <translation>Torsion, die eine Berührung haben darf, 1 Sigma: örtliches Moment durch Kraft. Eine harte Spitze hat 0,3, weiches Gewebe 1 bis 5.</translation>
+    </message>
+    <message>
         <source>Touch the markers to check that contacts are correct.</source>
         <translation>Berühren Sie die Marker, um zu prüfen, ob Kontakte stimmen.</translation>
     </message>
     <message>
         <source>Touch the markers to verify contacts.</source>
         <translation>Berühren Sie die Marker, um Kontakte zu überprüfen.</translation>
+    </message>
+    <message>
+        <source>Touch threshold</source>
+        <translation>Berührschwelle</translation>
     </message>
     <message>
         <source>TouchModel.{0} must be between 0 and 1000 m, not {1}</source>
@@ -7901,6 +8329,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Turn the tool to a new pose: {0}. Then keep still.</source>
         <translation>Drehen Sie das Werkzeug in eine neue Pose: {0}. Dann stillhalten.</translation>
+    </message>
+    <message>
+        <source>Turning speed that a controller must never exceed.</source>
+        <translation>Drehgeschwindigkeit, die eine Regelung nie überschreiten darf.</translation>
     </message>
     <message>
         <source>Typed: the mesh&apos;s origin at ({0}, {1}, {2}) mm in the sensor frame, the mesh {3}.</source>
@@ -7963,8 +8395,16 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>UR: {0} Variablen sind zu viele für ein Paket: weniger anfordern.</translation>
     </message>
     <message>
+        <source>Uncertainty of the orientations, 1 sigma about each axis: degrees, or their source (robot 0.05, tracker 0.2, hand 0.5) [estimated from the poses].</source>
+        <translation>Unsicherheit der Orientierungen, 1 Sigma um jede Achse: in Grad, oder ihre Quelle (robot 0.05, tracker 0.2, hand 0.5) [aus den Posen geschätzt].</translation>
+    </message>
+    <message>
         <source>Undone: adding {0} {1}. It stays in the session, unused.</source>
         <translation>Rückgängig gemacht, hinzugefügt war: {0} {1}. Es bleibt unbenutzt in der Sitzung.</translation>
+    </message>
+    <message>
+        <source>Unit of the file&apos;s numbers; auto guesses it from the size and says why.</source>
+        <translation>Einheit der Zahlen der Datei; auto schließt sie aus der Größe und sagt warum.</translation>
     </message>
     <message>
         <source>Units: {0}. {1}</source>
@@ -7975,12 +8415,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Ausgelassene unerreichbare Facetten (Innenwände und Wiederholungen): {0}.</translation>
     </message>
     <message>
+        <source>Until when that certificate is valid; for the report.</source>
+        <translation>Bis wann dieser Kalibrierschein gilt; für den Bericht.</translation>
+    </message>
+    <message>
         <source>Unused points that are not numbers were left out (points: {0}).</source>
         <translation>Unbenutzte Punkte, die keine Zahlen sind, wurden ausgelassen (Punkte: {0}).</translation>
     </message>
     <message>
         <source>Use a finer mesh, or rescan the probe where the markers do not lie on its surface.</source>
         <translation>Verwenden Sie ein feineres Netz, oder scannen Sie die Sonde dort neu, wo die Marker nicht auf ihr liegen.</translation>
+    </message>
+    <message>
+        <source>Usual local torque over the force: hard tip 0.3, soft tissue 1 to 5.</source>
+        <translation>Übliches örtliches Moment durch Kraft: harte Spitze 0,3, weiches Gewebe 1 bis 5.</translation>
     </message>
     <message>
         <source>Verified on {0}.</source>
@@ -8011,8 +8459,36 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Wiegen Sie das Werkzeug und geben Sie seine Masse an.</translation>
     </message>
     <message>
+        <source>Weight each contact by the confidence of its place, 0 to 1.</source>
+        <translation>Jeden Kontakt mit der Sicherheit seines Ortes gewichten, 0 bis 1.</translation>
+    </message>
+    <message>
         <source>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</source>
         <translation>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</translation>
+    </message>
+    <message>
+        <source>When tracking: forget the last contact after this many samples in a row without an accepted one.</source>
+        <translation>Beim Verfolgen: den letzten Kontakt nach so vielen Messwerten in Folge ohne angenommenen vergessen.</translation>
+    </message>
+    <message>
+        <source>When tracking: odds that a touch stays near the previous one rather than jumps.</source>
+        <translation>Beim Verfolgen: Chance, dass eine Berührung nahe der vorigen bleibt und nicht springt.</translation>
+    </message>
+    <message>
+        <source>When tracking: prefer places this near the last contact.</source>
+        <translation>Beim Verfolgen: Orte so nahe am letzten Kontakt bevorzugen.</translation>
+    </message>
+    <message>
+        <source>Where the probe will be touched, mm in the sensor frame.</source>
+        <translation>Wo die Sonde berührt werden wird, mm im Sensorsystem.</translation>
+    </message>
+    <message>
+        <source>Who measured; for the report.</source>
+        <translation>Wer gemessen hat; für den Bericht.</translation>
+    </message>
+    <message>
+        <source>Whose controller is to be told.</source>
+        <translation>Hersteller der Robotersteuerung.</translation>
     </message>
     <message>
         <source>With an unknown mount, a left-handed sensor frame (one axis with the wrong sign) also looks like gravity that points up.</source>
@@ -8239,6 +8715,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ein Spitzenwert ist die größte Kraft, seine Kontakte lassen sich also nicht gewichten: Wählen Sie eine andere Größe, oder gewichten Sie nicht nach Sicherheit.</translation>
     </message>
     <message>
+        <source>a placeholder</source>
+        <translation>ein Platzhalter</translation>
+    </message>
+    <message>
         <source>a plan has 3 to {0} poses, not {1}</source>
         <translation>ein Plan hat 3 bis {0} Posen, nicht {1}</translation>
     </message>
@@ -8377,6 +8857,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>above the phantom</source>
         <translation>über dem Phantom</translation>
+    </message>
+    <message>
+        <source>accept</source>
+        <translation>annehmen</translation>
     </message>
     <message>
         <source>accuracy: {0} m is not above 0 and under 1: give one standard deviation.</source>
@@ -8527,6 +9011,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>eine andere Einheit als Meter</translation>
     </message>
     <message>
+        <source>anywhere</source>
+        <translation>überall</translation>
+    </message>
+    <message>
         <source>are the numbers {0}? Give --units {1} instead of {2}.</source>
         <translation>sind die Zahlen {0}? Geben Sie --units {1} statt {2} an.</translation>
     </message>
@@ -8549,6 +9037,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>as many as before, because no smaller number tried keeps the limit</source>
         <translation>so viele wie zuvor, weil keine kleinere Zahl, die versucht wurde, die Grenze einhält</translation>
+    </message>
+    <message>
+        <source>as verified</source>
+        <translation>wie geprüft</translation>
+    </message>
+    <message>
+        <source>as verified, if the verification states it</source>
+        <translation>wie geprüft, wenn die Prüfung es sagt</translation>
     </message>
     <message>
         <source>assign to {0}</source>
@@ -8823,6 +9319,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>an Durchdringungen zerteilen</translation>
     </message>
     <message>
+        <source>deg: bend of the head against the handle.</source>
+        <translation>Grad: Der Kopf ist gegen den Griff gebogen.</translation>
+    </message>
+    <message>
+        <source>deg: error of the probe&apos;s declared rotation, with a shift of 1 mm per degree.</source>
+        <translation>Grad: Fehler der angegebenen Drehung der Sonde, mit 1 mm Verschiebung je Grad.</translation>
+    </message>
+    <message>
+        <source>deg: tilt of the pad on the surface.</source>
+        <translation>Grad: So schief steht das Kissen auf der Oberfläche.</translation>
+    </message>
+    <message>
         <source>depth for {0} N: at {1} mm this tissue already pushes with {2} N: choose a smaller force, or a stiffer tissue.</source>
         <translation>Tiefe für {0} N: Bei {1} mm drückt dieses Gewebe mit {2} N: Verlangen Sie weniger, oder nehmen Sie ein steiferes.</translation>
     </message>
@@ -9043,6 +9551,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>fields: {0} fehlen: Geben Sie alle an: {1}</translation>
     </message>
     <message>
+        <source>filter</source>
+        <translation>filtern</translation>
+    </message>
+    <message>
         <source>filters.location.order is {0}: a runtime supports at most {1}.</source>
         <translation>filters.location.order ist {0}: Ein Robotercomputer nimmt höchstens {1}.</translation>
     </message>
@@ -9121,6 +9633,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>from a clock that went back</source>
         <translation>Uhr lief zurück</translation>
+    </message>
+    <message>
+        <source>from the poses</source>
+        <translation>aus den Posen</translation>
     </message>
     <message>
         <source>from {0} s on</source>
@@ -9739,6 +10255,14 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Verzögerung und Rauschen von Kraft/Moment</translation>
     </message>
     <message>
+        <source>largest contact error</source>
+        <translation>größter Kontaktfehler</translation>
+    </message>
+    <message>
+        <source>largest deviation</source>
+        <translation>größte Abweichung</translation>
+    </message>
+    <message>
         <source>layout {0}: more than {1} bytes: choose another file</source>
         <translation>layout {0}: mehr als {1} Bytes: Wählen Sie eine andere Datei</translation>
     </message>
@@ -9943,6 +10467,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>mm, im Sensorsystem S</translation>
     </message>
     <message>
+        <source>mm: distance of the acoustic face outside its mesh.</source>
+        <translation>mm: So weit liegt die Schallfläche außerhalb ihres Netzes.</translation>
+    </message>
+    <message>
+        <source>mm: position error of marked points, root mean square in each direction along the surface.</source>
+        <translation>mm: So weit liegen Markierungen daneben, quadratisches Mittel je Richtung längs der Oberfläche.</translation>
+    </message>
+    <message>
+        <source>mm: radius of a soft pad that presses in place of the tip.</source>
+        <translation>mm: Radius eines weichen Kissens, das anstelle der Spitze drückt.</translation>
+    </message>
+    <message>
+        <source>mm: radius of the ball aimed at a mark; a tilted one touches beside it by this times sin(tilt).</source>
+        <translation>mm: Radius der Kugel, mit der auf eine Marke gezielt wird; eine geneigte berührt um das mal sin(Neigung) daneben.</translation>
+    </message>
+    <message>
         <source>model and serial number missing</source>
         <translation>Modell und Seriennummer fehlen</translation>
     </message>
@@ -10013,6 +10553,22 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>moved on without release</source>
         <translation>ohne Loslassen weiterbewegt</translation>
+    </message>
+    <message>
+        <source>mrad/N·m: rotation of the probe against its sensor under a torque.</source>
+        <translation>mrad/N·m: So weit dreht sich die Sonde unter einem Moment gegen ihren Sensor.</translation>
+    </message>
+    <message>
+        <source>ms: additional random delay, on average.</source>
+        <translation>ms: zusätzlicher zufälliger Verzug, im Mittel.</translation>
+    </message>
+    <message>
+        <source>ms: age of poses at their stated time.</source>
+        <translation>ms: Alter der Posen zu ihrer angegebenen Zeit.</translation>
+    </message>
+    <message>
+        <source>ms: delay of the wrenches.</source>
+        <translation>ms: Verzug der Messwerte.</translation>
     </message>
     <message>
         <source>multiple of the pace of the file</source>
@@ -10175,6 +10731,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>noise.extra: Der Anteil der Kalibrierung kommt von selbst hinzu: weglassen.</translation>
     </message>
     <message>
+        <source>none</source>
+        <translation>keiner</translation>
+    </message>
+    <message>
         <source>none of the {0} facets has an area: export the part again, as a surface.</source>
         <translation>keine der {0} Facetten hat eine Fläche: Exportieren Sie das Teil neu, als Oberfläche.</translation>
     </message>
@@ -10217,6 +10777,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>not verified</source>
         <translation>nicht geprüft</translation>
+    </message>
+    <message>
+        <source>number of facets</source>
+        <translation>Anzahl Facetten</translation>
     </message>
     <message>
         <source>numbers in column name</source>
@@ -10803,6 +11367,18 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Nullpunkt, der erst zur Ruhe kommt</translation>
     </message>
     <message>
+        <source>share: a second tip presses with this part of the force, 30 mm away.</source>
+        <translation>Anteil: Eine zweite Spitze drückt mit diesem Teil der Kraft, 30 mm entfernt.</translation>
+    </message>
+    <message>
+        <source>share: of the cable&apos;s pull held by friction, so that it depends on the way the tool got there.</source>
+        <translation>Anteil: des Kabelzugs, den Reibung hält, sodass er davon abhängt, wie das Werkzeug dorthin kam.</translation>
+    </message>
+    <message>
+        <source>share: of the pad&apos;s friction (0.4 times its pressure) used by a twist.</source>
+        <translation>Anteil: der Reibung des Kissens, 0,4-mal sein Druck, den eine Drehung nimmt.</translation>
+    </message>
+    <message>
         <source>signal: {0} numbers were given: give six.</source>
         <translation>Signal: {0} Zahlen: sechs angeben.</translation>
     </message>
@@ -11025,6 +11601,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the arm&apos;s wrist does not reach that orientation: turn the bench another way.</source>
         <translation>das Handgelenk des Arms erreicht diese Orientierung nicht: Drehen Sie den Messplatz anders.</translation>
+    </message>
+    <message>
+        <source>the author of the session&apos;s newest result</source>
+        <translation>der Autor des neuesten Ergebnisses der Sitzung</translation>
     </message>
     <message>
         <source>the box goes from {0} to {1} m: each low value must be below the high one.</source>
@@ -11497,6 +12077,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>the numbers span {0}, which cannot be a probe in millimetres, metres, centimetres or inches (5 mm to 2 m). Check that the right part was exported.</source>
         <translation>die Zahlen umfassen {0}, was in Millimetern, Metern, Zentimetern oder Zoll keine Sonde sein kann (5 mm bis 2 m). Prüfen Sie, ob das richtige Teil exportiert wurde.</translation>
+    </message>
+    <message>
+        <source>the one in the session</source>
+        <translation>das in der Sitzung</translation>
     </message>
     <message>
         <source>the orientation of the flange is a reflection</source>
@@ -12177,6 +12761,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>times: give one per sample, {0}, not shape {1}</source>
         <translation>times: eine Zeit pro Messwert angeben, {0}, nicht die Form {1}</translation>
+    </message>
+    <message>
+        <source>times: size of the probe relative to its mesh.</source>
+        <translation>mal: Größe der Sonde durch die ihres Netzes.</translation>
     </message>
     <message>
         <source>times[{0}] is {1} s{2}: times must be finite and increase; sort the samples or drop those with a repeated time</source>

@@ -10,7 +10,7 @@ from pathlib import Path
 import typer
 
 from contactbench.pipeline.console import Noun
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.installation import remedy
 
 gui_app = Noun()
@@ -50,7 +50,7 @@ def check_screen() -> None:
     missing = [name for name in ("PySide6", "pyvista", "pyvistaqt", "pyqtgraph") if not find_spec(name)]
     if missing:
         raise InputError(
-            f"the window needs {', '.join(missing)}, which is not installed: {remedy('gui')}."
+            f"the window needs {arg(', '.join(missing))}, which is not installed: {arg(remedy('gui'))}."
             " All other commands work without it."
         )
     chosen = os.environ.get("QT_QPA_PLATFORM", "")

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox
 
 from contactbench.app.bench import Weight
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -78,7 +78,7 @@ class Departure(QObject):
             return ()
         from contactbench.pipeline.session.why import GOING_ON  # it is there, for a session is open
 
-        return tuple(said(words) for step, words in GOING_ON.items() if step in bench.running)
+        return tuple(translated(words) for step, words in GOING_ON.items() if step in bench.running)
 
     def _ask(self, go: Callable[[], object], stay: Callable[[], object]) -> None:
         bench = self._window.bench

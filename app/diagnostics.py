@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.commands.info import facts
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.session import Session, SessionError
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def save_diagnostics(
                 archive.writestr(name, scrubbed(text, session))
     except OSError as error:
         raise InputError(
-            f"{file}: the diagnostics cannot be written ({error.strerror}): choose another place."
+            f"{arg(file)}: the diagnostics cannot be written ({arg(error.strerror)}): choose another place."
         ) from error
 
 

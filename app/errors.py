@@ -86,7 +86,7 @@ class Faults(QObject):
     expected, that is, an error with its remedy.
     """
 
-    happened = Signal(str, str, bool)
+    happened = Signal(object, str, bool)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from contactbench.app.bench import Weight
 from contactbench.app.errors import LOG, in_words
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +36,7 @@ class MessageRouter(QObject):
         Weight and text of a message that matters.
     """
 
-    told = Signal(str, str)
+    told = Signal(str, object)
 
     def __init__(self, docks: Docks, bench: Callable[[], Bench | None], parent: QObject) -> None:
         super().__init__(parent)
@@ -59,7 +60,7 @@ class MessageRouter(QObject):
             sentence = self.tr(
                 "Unexpected error: {}. Your session is safe. Try again. If the error persists, save"
                 " diagnostics (File menu) and send them to your support contact."
-            ).format(sentence)
+            ).format(translated(sentence))
         self.tell(Weight.WARNING if expected else Weight.ERROR, sentence, details)
         bench = self._bench()
         if bench is not None and sentence not in self._noted:
@@ -73,7 +74,7 @@ class MessageRouter(QObject):
         """Tell why long work came to no end."""
         sentence, details, expected = in_words(error)
         if expected or isinstance(error, OSError):
-            self.tell(Weight.ERROR, self.tr("{}: {}").format(job.title, sentence), details)
+            self.tell(Weight.ERROR, self.tr("{}: {}").format(job.title, translated(sentence)), details)
         else:
             LOG.error("%s", details)
             self.fault(sentence, details, False)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from datetime import date
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -85,7 +85,7 @@ def new_session(folder: Path) -> OpenedSession:
         folder.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SessionError(
-            f"{folder.parent}: the folder cannot be made ({error}): choose another place."
+            f"{arg(folder.parent)}: the folder cannot be made ({arg(error)}): choose another place."
         ) from error
     return OpenedSession(Desk(Session.create(folder)), (), history=UndoHistory())
 

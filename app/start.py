@@ -22,8 +22,8 @@ from PySide6.QtWidgets import (
 from contactbench.app.opening import holds_session
 from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import date_and_time
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -202,7 +202,7 @@ class QuestionCard(QFrame):
         """
         self.clear()
         self._icon.show_icon(icon(kind, "warning" if kind == "warning" else "accent"))
-        self._words.setText(said(sentence))
+        self._words.setText(translated(sentence))
         for number, (words, action) in enumerate(answers):
             button = QPushButton(words)
             button.setProperty("primary", number == 0)

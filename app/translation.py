@@ -1,32 +1,42 @@
 """
 Other languages: loading them, and keeping them complete.
 
-``python -m contactbench.app.translation update`` takes new strings of `app` and `widgets` into every
-language's .ts file and makes
-the .qm files that the window loads, and new sentences of `pipeline` into its phrase book; ``check`` says what is not
+``python -m contactbench.app.translation update`` takes new strings of `app` and `widgets` and messages of
+`pipeline` into every language's .ts file and makes the .qm files that the window loads; ``check`` says what is not
 translated, with exit code 1 if anything.
 """
 
 from __future__ import annotations
 
+import ast
+import itertools
 import json
+import re
 import subprocess
 import sys
+from collections import defaultdict
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from contactbench.app.sentences import templates
-from contactbench.widgets import phrases
+from contactbench.widgets.messages import CONTEXT
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 """Code to name, each in its own words."""
 _HERE = Path(__file__).parent
 _FOLDER = _HERE / "translations"
-_PIPELINE = _HERE.parent / "pipeline"
 _SOURCE = "en"
 _IN_USE = "language"
+# Rooms whose texts are seen in a terminal or in a document, not in a window.
+_IN_TERMINALS = {("pipeline", room) for room in ("commands", "study", "demo", "report", "page", "fleet")}
+_OF_SETTINGS = {"knob": 1, "Row": 0}  # which argument has the words that a form shows
+_WORD = re.compile(r"[A-Za-z]{2}", re.ASCII)
 
 
 def load(application: QCoreApplication, language: str = "") -> str:
@@ -50,7 +60,6 @@ def load(application: QCoreApplication, language: str = "") -> str:
         code = _SOURCE
     QLocale.setDefault(_readers(code))
     application.setProperty(_IN_USE, _SOURCE)
-    phrases.use(None)
     if code == _SOURCE:
         return code
     own = QTranslator(application)
@@ -60,7 +69,6 @@ def load(application: QCoreApplication, language: str = "") -> str:
     qt = QTranslator(application)
     if qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         application.installTranslator(qt)
-    phrases.use(phrases.PhraseBook(sentences(code)))
     application.setProperty(_IN_USE, code)
     return code
 
@@ -69,12 +77,6 @@ def _readers(code: str) -> QLocale:
     """Return how those who read a language write numbers and dates: as on this computer, where it speaks it too."""
     system = QLocale.system()
     return system if system.name().partition("_")[0] == code else QLocale(code)
-
-
-def sentences(language: str) -> dict[str, str]:
-    """Return the phrase book of a language: the templates of what `pipeline` says, and what they are in it."""
-    file = _book_file(language)
-    return dict(json.loads(file.read_text("utf-8"))) if file.is_file() else {}
 
 
 def in_use() -> str:
@@ -93,8 +95,59 @@ def unfinished(language: str) -> tuple[str, ...]:
             made = message.find("translation")
             if made is None or not (made.text or "").strip() or made.get("type") == "unfinished":
                 missing.append(f"{name}: {message.findtext('source', '')}")
-    known = sentences(language)
-    return (*missing, *(f"pipeline: {each}" for each in templates(_PIPELINE) if not known.get(each)))
+    return tuple(missing)
+
+
+def messages() -> frozenset[str]:
+    """Return the templates of all messages; what is filled in is {0}, {1}, ..."""
+    trees = [
+        ast.parse(file.read_text("utf-8"))
+        for folder in ("app", "widgets", "pipeline")
+        for file in (_HERE.parent / folder).rglob("*.py")
+        if file.relative_to(_HERE.parent).parts[:2] not in _IN_TERMINALS
+    ]
+    kinds = {"message", *_errors(trees)}
+    return frozenset(text for tree in trees for text in _texts(tree, kinds) if _WORD.search(text))
+
+
+def _errors(trees: list[ast.Module]) -> set[str]:
+    """Return the names of the errors whose text is a message."""
+    found = {"InputError"}
+    bases: defaultdict[str, set[str]] = defaultdict(set)
+    for tree in trees:
+        for each in ast.walk(tree):
+            if isinstance(each, ast.ClassDef):
+                bases[each.name].update(base.id for base in each.bases if isinstance(base, ast.Name))
+    while more := {name for name, those in bases.items() if those & found} - found:
+        found |= more
+    return found
+
+
+def _texts(tree: ast.Module, kinds: set[str]) -> Iterator[str]:
+    for each in ast.walk(tree):
+        if not isinstance(each, ast.Call) or not isinstance(each.func, ast.Name):
+            continue
+        place = 0 if each.func.id in kinds else _OF_SETTINGS.get(each.func.id)
+        if place is None:
+            continue
+        words = [key.value for key in each.keywords if key.arg == "none" and each.func.id in _OF_SETTINGS]
+        for text in (*each.args[place : place + 1], *words):
+            if isinstance(text, ast.JoinedStr):
+                yield _template(text)
+            elif isinstance(text, ast.Constant) and isinstance(text.value, str):
+                yield text.value
+
+
+def _template(text: ast.JoinedStr) -> str:
+    template, place = "", itertools.count()
+    for part in text.values:
+        if isinstance(part, ast.FormattedValue):
+            if not (isinstance(part.value, ast.Call) and ast.unparse(part.value.func) == "arg"):
+                raise ValueError(f"{ast.unparse(text)}: each value in a message is given as arg(value)")
+            template += f"{{{next(place)}}}"
+        elif isinstance(part, ast.Constant):
+            template += str(part.value)
+    return template
 
 
 def update(language: str) -> None:
@@ -102,12 +155,15 @@ def update(language: str) -> None:
     sources = sorted(
         str(file) for folder in ("app", "widgets") for file in (_HERE.parent / folder).rglob("*.py")
     )
-    file = _file(language)
-    _run("pyside6-lupdate", *sources, "-ts", str(file), "-no-obsolete", "-locations", "none")
+    with TemporaryDirectory() as folder:
+        ours = Path(folder, "pipeline.py")  # Qt's tool reads neither f-strings nor what they are given to
+        ours.write_text(
+            "".join(f"translate({json.dumps(CONTEXT)}, {json.dumps(each)})\n" for each in sorted(messages())),
+            "utf-8",
+        )
+        options = ("-ts", str(_file(language)), "-no-obsolete", "-locations", "none")
+        _run("pyside6-lupdate", *sources, str(ours), *options)
     release(language)
-    known = sentences(language)
-    book = {each: known.get(each, "") for each in templates(_PIPELINE)}
-    _book_file(language).write_text(json.dumps(book, ensure_ascii=False, indent=1) + "\n", "utf-8")
 
 
 def release(language: str) -> None:
@@ -118,10 +174,6 @@ def release(language: str) -> None:
 
 def _file(language: str) -> Path:
     return _FOLDER / f"contactbench_{language}.ts"
-
-
-def _book_file(language: str) -> Path:
-    return _FOLDER / f"sentences_{language}.json"
 
 
 def _run(program: str, *arguments: str) -> None:

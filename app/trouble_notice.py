@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout
 from contactbench.pipeline.steps import StepState
 from contactbench.widgets.controls import sentence_label
 from contactbench.widgets.icons import Sign, state_icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
@@ -51,4 +51,4 @@ def show_trouble(page: QWidget, status: StepStatus) -> None:
             return
         notice = TroubleNotice(page)
         layout.insertWidget(0, notice)
-    notice.say(said(status.sentence) if status.broken else "")
+    notice.say(translated(status.sentence) if status.broken else "")

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ class LiveView(QObject):
         def failed(error: BaseException) -> None:
             words = self.tr("Could not open this session's devices: {} Choose them again in step 1.")
             reason = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}."
-            bench.tell(Weight.WARNING, words.format(reason))
+            bench.tell(Weight.WARNING, words.format(translated(reason)))
 
         bench.jobs.start(self.tr("Opening devices"), work, None, failed)
 

@@ -28,6 +28,7 @@ from contactbench.app.qt_classes import QtClasses
 from contactbench.app.read_only_view import ReadOnlyView
 from contactbench.app.start import session_name
 from contactbench.pipeline.steps import Step
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -86,7 +87,7 @@ class Sessions(QObject):
 
     opened = Signal(object, object)
     wanted = Signal()
-    told = Signal(str, str, str)
+    told = Signal(str, object, str)
 
     def __init__(self, start: StartPage, jobs: Jobs, settings: WindowSettings, window: MainWindow) -> None:
         super().__init__(window)
@@ -315,7 +316,9 @@ class Sessions(QObject):
         problem = problem_with(error)
         if problem is None:
             sentence, details, _ = in_words(error)
-            problem = OpeningProblem(self.tr("Could not open the session: {}").format(sentence), False)
+            problem = OpeningProblem(
+                self.tr("Could not open the session: {}").format(translated(sentence)), False
+            )
             self.told.emit("error", problem.sentence, details)
         if folder is not None and problem.damaged:
             self._look_at_damage(problem, folder)

@@ -4,7 +4,7 @@ import os
 import secrets
 from pathlib import Path
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 
 def write_durably(file: Path, data: bytes) -> None:
@@ -34,7 +34,7 @@ def write_file(file: Path, data: bytes) -> None:
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise InputError(
-            f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
+            f"{arg(file)}: the file cannot be written ({arg(error)}): choose a folder that is writable and has space."
         ) from error
 
 
@@ -66,8 +66,10 @@ def make_folder(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError) as error:
         taken = next((path for path in (folder, *folder.parents) if path.is_file()), folder)
-        raise InputError(f"{folder}: {taken} is a file: choose another name for the folder.") from error
+        raise InputError(
+            f"{arg(folder)}: {arg(taken)} is a file: choose another name for the folder."
+        ) from error
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise InputError(
-            f"{folder}: the folder cannot be made ({error}): choose one in a place that is writable."
+            f"{arg(folder)}: the folder cannot be made ({arg(error)}): choose one in a place that is writable."
         ) from error

@@ -1,9 +1,189 @@
-"""The one base class of every error that wrong input causes."""
+"""
+What is said to people: messages, and the one base class of every error that wrong input causes.
+
+A message is English text that keeps the template it was made from and what was filled in.
+``message(f"{arg(file)}: row {arg(row)} has no time")`` is "touches.csv: row 7 has no time" wherever a string is of
+use: in a file, a log or a terminal. A window asks for it in another language, by the template
+"{0}: row {1} has no time". The text of an `InputError` is a message by itself.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from typing import TYPE_CHECKING, SupportsIndex
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from typing import Self
+
+# Noncharacters, which Unicode keeps for use inside a program: they show where a message and what is filled in begin
+# and end, and what is done to the next one in every language.
+_OPEN, _CLOSE, _FILL, _FILLED = "\ufdd0", "\ufdd1", "\ufdd2", "\ufdd3"
+_CAPITAL, _STRIP = "\ufdd4", "\ufdd5"
+_MARK = re.compile("([\ufdd0-\ufdd5])")
+_FIELD = re.compile(r"\{(\d+)\}")
+_LATELY: dict[str, str] = {}  # texts said lately -> with marks: files and Qt keep the text alone
+_AT_MOST = 10_000
+
+
+class Message(str):
+    """A text that a window can show in another language; everything else sees English."""
+
+    __slots__ = ("_marked",)
+    _marked: str
+
+    def __new__(cls, marked: str) -> Self:
+        """Take a text with its marks."""
+        made = super().__new__(cls, _said(marked, str))
+        made._marked = marked
+        if len(_LATELY) >= _AT_MOST:
+            _LATELY.clear()
+        _LATELY[made[:]] = marked
+        return made
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[type[Message], tuple[str]]:
+        del protocol
+        return Message, (self._marked,)
+
+    def __str__(self) -> str:
+        return self
+
+    def __format__(self, spec: str) -> str:
+        return format(self[:], spec) if spec else self
+
+    def strip(self, characters: str | None = None) -> str:
+        """Return it without blanks at its ends, in any language."""
+        if characters is not None:
+            return super().strip(characters)
+        return Message(f"{_STRIP}{self._marked}{_FILLED}")
+
+    def __add__(self, other: str) -> str:
+        return join("", (self, other))
+
+    def __radd__(self, other: str) -> str:
+        return join("", (other, self))
+
+    def translated(self, of: Callable[[str], str]) -> str:
+        """
+        Return it in another language.
+
+        Parameters
+        ----------
+        of : callable
+            Gives the template or the word of the other language for an English one, or what it was given.
+        """
+        return _said(self._marked, of)
+
+
+class _Argument:
+    """A value within a message."""
+
+    __slots__ = ("_value",)
+
+    def __init__(self, value: object) -> None:
+        self._value = value
+
+    def __format__(self, spec: str) -> str:
+        return _filled(format(self._value, spec))
+
+    def __str__(self) -> str:
+        return _filled(str(self._value))
+
+    def __repr__(self) -> str:
+        return _filled(repr(self._value))
+
+
+def message(text: str) -> str:
+    """
+    Return a text as a `Message`.
+
+    Parameters
+    ----------
+    text : str
+        An f-string in which each value is given as `arg`. A message stays as it is.
+    """
+    return text if isinstance(text, Message) else _made(_OPEN + text + _CLOSE)
+
+
+def arg(value: object) -> _Argument:
+    """Return a value for use in the f-string of a message; an own message keeps what it knows."""
+    return _Argument(value)
+
+
+def said_lately(text: str) -> str:
+    """Return a text that came back from a file or from Qt as the message that it was, if it was said lately."""
+    return Message(_LATELY[text]) if text in _LATELY and not isinstance(text, Message) else text
+
+
+def join(separator: str, parts: Iterable[str]) -> str:
+    """Return parts one after the other, as `str.join` does; messages among them keep what they know."""
+    return Message(separator.join(map(_filled, parts)))
+
+
+def capitalised(text: str) -> str:
+    """Return a text with a capital letter first, a message in any language."""
+    return Message(f"{_CAPITAL}{_filled(text)}{_FILLED}")
 
 
 class InputError(ValueError):
-    """Input that cannot be used: the message names where it is wrong and the remedy.
+    """
+    Input that cannot be used: the message names where it is wrong and the remedy.
 
     Commands turn it into exit code 2. Modules derive their own error from it
     when a caller may want to tell them apart.
+
+    Parameters
+    ----------
+    text : str
+        An f-string in which each value is given as `arg`, a plain text, or a message.
     """
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(message(text))
+
+
+@lru_cache(1000)  # a loop says the same thing again and again
+def _made(marked: str) -> Message:
+    return Message(marked)
+
+
+def _filled(text: str) -> str:
+    return f"{_FILL}{text._marked if isinstance(text, Message) else _MARK.sub('', text)}{_FILLED}"
+
+
+def _said(marked: str, of: Callable[[str], str]) -> str:
+    return _text(iter(_MARK.split(marked)), of)
+
+
+def _text(tokens: Iterator[str], of: Callable[[str], str]) -> str:
+    """Return what stands before the end of what is filled in."""
+    text = ""
+    for token in tokens:
+        if token == _FILLED:
+            break
+        if token == _CAPITAL:
+            words = _text(tokens, of)
+            text += words[:1].upper() + words[1:]
+        elif token == _STRIP:
+            text += _text(tokens, of).strip()
+        elif token == _OPEN:
+            text += _message(tokens, of)
+        else:
+            text += _text(tokens, of) if token == _FILL else of(token)
+    return text
+
+
+def _message(tokens: Iterator[str], of: Callable[[str], str]) -> str:
+    template = ""
+    values: list[str] = []
+    for token in tokens:
+        if token == _CLOSE:
+            break
+        if token == _FILL:
+            template += f"{{{len(values)}}}"
+            values.append(_text(tokens, of))
+        else:
+            template += token
+    known = dict(enumerate(values))
+    return _FIELD.sub(lambda field: known.get(int(field[1]), field[0]), of(template))

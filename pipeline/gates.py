@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.knobs import Settings, first_fault, knob
 
 if TYPE_CHECKING:
@@ -203,7 +203,7 @@ class Gates(GateSettings):
                 super().__init__(**given)
             except ValidationError as error:
                 where, what = first_fault(error)
-                raise InputError(f"Gates.{where}: {what}: correct it.") from None
+                raise InputError(f"Gates.{arg(where)}: {arg(what)}: correct it.") from None
 
     @property
     def implausible_misfit(self) -> float:

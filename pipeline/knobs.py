@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -104,10 +104,12 @@ class Settings(BaseModel):
             return cls.model_validate(dict(values))
         except ValidationError as error:
             where, what = first_fault(error)
-            raise InputError(f"parameter {where}: {what}: correct it.") from error
+            raise InputError(f"parameter {arg(where)}: {arg(what)}: correct it.") from error
 
 
 def first_fault(error: ValidationError) -> tuple[str, str]:
     """Return the field that is wrong, and what is wrong with it."""
     first = error.errors(include_url=False)[0]
-    return ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
+    raised = first.get("ctx", {}).get("error")  # of our own: its text is a message
+    what = str(raised) if isinstance(raised, ValueError) else first["msg"]
+    return ".".join(map(str, first["loc"])), what

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Union, get_args, get_origin
 
 import typer
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -42,7 +44,11 @@ def documented(made: Callable[..., Any]) -> tuple[str, Notes]:
             sentence = ""
         notes[name] = metavar or None, sentence
     if unknown := notes.keys() - inspect.signature(made).parameters:
-        raise ValueError(f"{made.__name__} documents {', '.join(sorted(unknown))}, but has no such parameter")
+        raise ValueError(
+            message(
+                f"{arg(made.__name__)} documents {arg(', '.join(sorted(unknown)))}, but has no such parameter"
+            )
+        )
     return text, notes
 
 
@@ -59,7 +65,11 @@ def numbers(text: str, count: int, option: str) -> list[float]:
     except ValueError:
         values = []
     if len(values) != count or not all(math.isfinite(value) for value in values):
-        raise typer.BadParameter(f"{option} needs {count} finite numbers separated by commas, not {text!r}.")
+        raise typer.BadParameter(
+            message(
+                f"{arg(option)} needs {arg(count)} finite numbers separated by commas, not {arg(text)!r}."
+            )
+        )
     return values
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.knobs import Settings, first_fault, knob
 
 if TYPE_CHECKING:
@@ -106,26 +106,32 @@ class Reality(Settings):
             name, equals, size = (each.strip() for each in part.partition("="))
             if not equals:
                 if number or name not in MIXES:
-                    what = f"{name!r} must stand alone" if number else f"there is no mix {name!r}"
+                    what = (
+                        message(f"{arg(name)!r} must stand alone")
+                        if number
+                        else message(f"there is no mix {arg(name)!r}")
+                    )
                     raise InputError(
-                        f"reality: {what}: start with one of {', '.join(MIXES)}, and write effects"
+                        f"reality: {arg(what)}: start with one of {arg(', '.join(MIXES))}, and write effects"
                         " as NAME=SIZE."
                     )
                 values = MIXES[name].model_dump()
                 continue
             if name not in cls.model_fields:
                 raise InputError(
-                    f"reality: there is no effect {name!r}: choose from {', '.join(cls.model_fields)}."
+                    f"reality: there is no effect {arg(name)!r}: choose from {arg(', '.join(cls.model_fields))}."
                 )
             if name in given:
-                raise InputError(f"reality: {name} appears twice: keep one.")
+                raise InputError(f"reality: {arg(name)} appears twice: keep one.")
             given.add(name)
             values[name] = _number(name, size)
         try:
             return cls.model_validate(values)
         except ValidationError as error:
             where, what = first_fault(error)
-            raise InputError(f"reality: {where} {values[where]:g}: {what} ({cls.unit(where)}).") from error
+            raise InputError(
+                f"reality: {arg(where)} {arg(values[where]):g}: {arg(what)} ({arg(cls.unit(where))})."
+            ) from error
 
     def __str__(self) -> str:
         """Return the shortest text that `parse` reads back: the nearest mix, and what differs from it."""
@@ -165,7 +171,9 @@ def _number(name: str, text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise InputError(f"reality: {name} {text[:40]!r}: give a number, {Reality.unit(name)}.") from None
+        raise InputError(
+            f"reality: {arg(name)} {arg(text[:40])!r}: give a number, {arg(Reality.unit(name))}."
+        ) from None
 
 
 def _differences(name: str, mix: Reality, wanted: Reality) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 import typer
 from pydantic import ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.knobs import first_fault, with_unit
 from contactbench.pipeline.parameter_options import numbers
 
@@ -119,4 +119,4 @@ def _chosen(model: type[Settings], **given: Any) -> Settings:
         where, what = first_fault(error)
         name = where.partition(".")[0]
         option = option_name(name, model.model_fields[name])
-        raise InputError(f"{option}: {what}: correct it.") from None
+        raise InputError(f"{arg(option)}: {arg(what)}: correct it.") from None

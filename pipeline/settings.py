@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.knobs import NotNegative, Number, Positive, Row, Settings, Three, knob
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _delay(value: object) -> object:
     try:
         return value if value in (None, "auto") else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise ValueError("give seconds, or auto") from None
+        raise ValueError(message("give seconds, or auto")) from None
 
 
 class DelaySettings(Settings):
@@ -144,7 +144,9 @@ def _orientation_noise(value: object) -> object:
     except (TypeError, ValueError):
         degrees = math.nan
     if not 0 <= degrees < 180:
-        raise ValueError(f"give degrees, at least 0, or one of {', '.join(ORIENTATION_NOISE_DEG)}")
+        raise ValueError(
+            message(f"give degrees, at least 0, or one of {arg(', '.join(ORIENTATION_NOISE_DEG))}")
+        )
     return degrees
 
 
@@ -264,7 +266,7 @@ def _iso_date(value: object) -> object:
     try:
         return date.fromisoformat(str(value)).isoformat()
     except ValueError:
-        raise ValueError("give a date as 2027-03-31") from None
+        raise ValueError(message("give a date as 2027-03-31")) from None
 
 
 _Line = Annotated[str, Field(max_length=200)]

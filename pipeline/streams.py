@@ -14,6 +14,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Source, SourceStream, Stream
 from contactbench.pipeline.devices.url import STEPWISE, DeviceAddress, Protocol
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.replay import Player
 from contactbench.pipeline.simulation.virtual.world import World, world_at
@@ -165,7 +166,9 @@ class Pair:
         """
         if isinstance(self.sensor, SourceStream):
             return self.sensor.step(count)
-        raise RuntimeError("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+        raise RuntimeError(
+            message("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+        )
 
     def now(self) -> float:
         """Return the present time on the samples' clock, s."""
@@ -260,12 +263,12 @@ def _parsed(address: DeviceAddress | str) -> DeviceAddress:
 def _check_kinds(sensor: DeviceAddress | None, poses: DeviceAddress | None) -> None:
     if sensor is not None and not sensor.gives_wrenches:
         raise AddressError(
-            f"address {str(sensor)!r}: not a force/torque sensor: give the address of a sensor or"
+            f"address {arg(str(sensor))!r}: not a force/torque sensor: give the address of a sensor or"
             " of a recording."
         )
     if poses is not None and not poses.gives_poses:
         raise AddressError(
-            f"address {str(poses)!r}: it provides no poses: give the address of a robot, a"
+            f"address {arg(str(poses))!r}: it provides no poses: give the address of a robot, a"
             " recording, poses:///file.csv or still://?rpy=0,0,0."
         )
 
@@ -277,21 +280,21 @@ def _check_clock(sensor: DeviceAddress, poses: DeviceAddress) -> None:
     )
     if (stepped or all(virtual)) and str(sensor) != str(poses):
         raise AddressError(
-            f"address {str(poses)!r}: not the sensor's bench or clock: give {str(sensor)!r} for both."
+            f"address {arg(str(poses))!r}: not the sensor's bench or clock: give {arg(str(sensor))!r} for both."
         )
     recorded = [address.protocol is Protocol.REPLAY for address in (sensor, poses)]
     if poses.protocol in _TRACKS or not any(recorded):
         return
     if not all(recorded):
         raise AddressError(
-            f"address {str(poses)!r}: a recording and a device have different clocks: give the"
+            f"address {arg(str(poses))!r}: a recording and a device have different clocks: give the"
             " same recording for sensor and poses, still:// or poses:// beside it, or two"
             " devices."
         )
     if Path(sensor.path) != Path(poses.path) or sensor.speed != poses.speed:
         raise AddressError(
-            f"address {str(poses)!r}: sensor and poses must come from the same recording at the same speed: give"
-            f" {str(replace(sensor, topic=poses.topic))!r} here."
+            f"address {arg(str(poses))!r}: sensor and poses must come from the same recording at the same speed: give"
+            f" {arg(str(replace(sensor, topic=poses.topic)))!r} here."
         )
 
 

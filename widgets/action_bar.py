@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, set_role
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -78,7 +78,7 @@ class ActionBar(QWidget):
 
     def say(self, words: str, bad: bool = False) -> None:
         """Show a message instead of the one before; empty: none."""
-        words = said(words)
+        words = translated(words)
         if words != self._message.text():
             self._message.setText(words)
         role = "bad" if bad else ""

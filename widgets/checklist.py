@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,7 +58,7 @@ class Checklist(QFrame):
         sign.setAccessibleName(self.word(item.state))
         self._grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
         name = self.name_of(item)
-        words = QLabel(f"<b>{name}</b> · {self.word(item.state)}<br>{_plain(said(item.sentence))}")
+        words = QLabel(f"<b>{name}</b> · {self.word(item.state)}<br>{_plain(translated(item.sentence))}")
         words.setTextFormat(Qt.TextFormat.RichText)
         words.setWordWrap(True)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)

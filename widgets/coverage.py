@@ -11,7 +11,7 @@ from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QP
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Colours, colours, is_dark
 
 if TYPE_CHECKING:
@@ -220,7 +220,7 @@ class Coverage(QWidget):
         for row in self._rows:
             away = self.spot_of(row) - at
             if away.x() ** 2 + away.y() ** 2 < _NEAR**2:
-                return f"{said(row.name)}: {said(row.words)}. {said(row.reason)}".strip()
+                return f"{translated(row.name)}: {translated(row.words)}. {translated(row.reason)}".strip()
         return self.tr(
             "Gravity directions in the sensor frame. Filled: captured; hollow: left out; cross: rejected;"
             " ring: next pose; dark dot: now. Well-spread poses give the best calibration."

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live_trial import ConnectionTrial
@@ -56,7 +56,7 @@ class DeviceTrial(QFrame):
         self._facts.setText("" if trial is None else self._counted(trial))
         self._facts.setVisible(trial is not None)
         self._findings.setText(
-            "" if trial is None else "\n\n".join(said(sentence) for sentence in trial.sentences)
+            "" if trial is None else "\n\n".join(translated(sentence) for sentence in trial.sentences)
         )
         self._findings.setVisible(trial is not None and bool(trial.sentences))
 

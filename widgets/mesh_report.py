@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,7 +86,7 @@ class MeshReport(QWidget):
         mark.setToolTip(self._word(level))
         mark.setAccessibleName(self._word(level))
         line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
-        words = QLabel(said(text))
+        words = QLabel(translated(text))
         words.setWordWrap(True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)

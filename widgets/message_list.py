@@ -32,8 +32,8 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.icons import icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import time_of_day
-from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ class NewestMessage(QToolButton):
 
     def show_message(self, weight: str, text: str) -> None:
         """Show a message instead of the one before."""
-        self._words, self._weight = said(text), weight
+        self._words, self._weight = translated(text), weight
         self.setToolTip(self._words)
         self.setAccessibleDescription(self._words)
         self.setIcon(icon(*_ICONS[weight]))
@@ -191,7 +191,7 @@ class MessageList(QWidget):
 
     def add(self, weight: str, text: str, details: str = "", at: datetime | None = None) -> None:
         """Put a message on top; the same one again, among the newest, is counted and moved there."""
-        text, at = said(text), at or datetime.now().astimezone()
+        text, at = translated(text), at or datetime.now().astimezone()
         for row in range(min(self._list.count(), _NEWEST)):
             told = self._told(row)
             if (told.weight, told.text) == (weight, text):

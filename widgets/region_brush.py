@@ -35,7 +35,7 @@ class RegionBrush(QObject):
 
     drawn = Signal(str)  # a stroke has ended; what the step is called
     resized = Signal(float)  # radius, m
-    refused = Signal(str)  # why nothing is painted
+    refused = Signal(object)  # why nothing is painted
 
     def __init__(self, scene: Scene, parent: QObject | None = None) -> None:
         super().__init__(parent)

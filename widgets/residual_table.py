@@ -28,8 +28,8 @@ from PySide6.QtWidgets import (
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
 from contactbench.widgets.controls import StretchedColumn
 from contactbench.widgets.icons import icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.phrases import said
 from contactbench.widgets.theme import colours, is_dark
 
 NAME, STANDS, SIGMAS, STATE = range(4)
@@ -90,23 +90,29 @@ class PoseModel(QAbstractTableModel):
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return (row.name.removeprefix("pose "), said(row.words), self._sigmas(row), self._state(row))[
-                    column
-                ]
+                return (
+                    row.name.removeprefix("pose "),
+                    translated(row.words),
+                    self._sigmas(row),
+                    self._state(row),
+                )[column]
             case Qt.ItemDataRole.DecorationRole if column == STATE:
                 return self._icon(row.state)
             case Qt.ItemDataRole.ToolTipRole:
                 return self._tip(row)
             case Qt.ItemDataRole.AccessibleTextRole:
                 return self.tr("{name}, {words}, residual {sigmas} sigma, {state}").format(
-                    name=row.name, words=said(row.words), sigmas=self._sigmas(row), state=self._state(row)
+                    name=row.name,
+                    words=translated(row.words),
+                    sigmas=self._sigmas(row),
+                    state=self._state(row),
                 )
             case _ if role == _BAR:
                 return row.sigmas
         return None
 
     def _tip(self, row: PoseRow) -> str:
-        parts = [said(row.reason)]
+        parts = [translated(row.reason)]
         if not math.isnan(row.sigmas):
             parts.append(
                 filled(

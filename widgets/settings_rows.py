@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.knobs import Row, with_unit
 from contactbench.widgets.controls import named, show_quietly
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -40,9 +40,9 @@ class SettingRow:
 
     def __init__(self, row: Row, setting: FieldInfo) -> None:
         extra: Any = setting.json_schema_extra
-        text, self.unit = said(setting.description or ""), extra["unit"]
-        none = "" if extra["none"] in ("", row.none) else f" [{said(extra['none'])}]"
-        self.title, self.row = said(row.title), row
+        text, self.unit = translated(setting.description or ""), extra["unit"]
+        none = "" if extra["none"] in ("", row.none) else f" [{translated(extra['none'])}]"
+        self.title, self.row = translated(row.title), row
         self.name = with_unit(text, self.unit).removesuffix(".")
         tip = with_unit(text, self.unit, none).removesuffix(".")
         self.field = named(NumberBox(), self.name, tip=tip)
@@ -68,7 +68,7 @@ class SettingRow:
         field.setSingleStep(self.row.step)
         suffix = self.row.suffix or self.unit
         field.setSuffix(suffix and f" {suffix}")
-        field.setSpecialValueText(said(self.row.none))
+        field.setSpecialValueText(translated(self.row.none))
 
     def show(self, value: float | None) -> None:
         """Show a value, without a signal; None: nothing is given."""

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxL
 
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.icons import state_colour, state_icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ class _Row(QAbstractButton):
 
     def show_status(self, status: StepStatus, word: str) -> None:
         self._state, self._word = status.state, word
-        sentence = said(status.sentence)
+        sentence = translated(status.sentence)
         self.setToolTip(f"{word}: {sentence}" if sentence else word)
         self.setAccessibleName(f"{self._number} {self.text()}: {word}")
         self.setAccessibleDescription(sentence)

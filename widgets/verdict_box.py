@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class VerdictBox(QFrame):
         self.level = level
         self._icon.show_icon(icon(name, colour))
         self._word.setText(word or usual[level])
-        self._text.setText("\n".join(said(reason) for reason in reasons))
+        self._text.setText("\n".join(translated(reason) for reason in reasons))
         self.setAccessibleName(self.text)
 
 

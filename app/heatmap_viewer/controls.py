@@ -31,8 +31,8 @@ from contactbench.widgets.controls import (
     set_role,
     show_value,
 )
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
-from contactbench.widgets.phrases import said
 from contactbench.widgets.range_slider import RangeSlider
 
 if TYPE_CHECKING:
@@ -305,7 +305,7 @@ class HeatmapControls(QWidget):
     def say(self, text: str, bad: bool = False) -> None:
         """Show a sentence."""
         set_role(self.message, "bad" if bad else "")
-        self.message.setText(said(text))
+        self.message.setText(translated(text))
 
     def show_work(self, title: str | None, share: float = 0.0) -> None:
         """Show long work, how far it is, 0 to 1, and a way to stop it; None: there is none."""

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -100,7 +100,7 @@ def _still(source: HeatmapSource, selection: Selection, file: Path, cancelled: C
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise InputError(
-            f"{file}: the heatmap cannot be written ({error}): choose a folder that exists and is writable."
+            f"{arg(file)}: the heatmap cannot be written ({arg(error)}): choose a folder that exists and is writable."
         ) from error
 
 

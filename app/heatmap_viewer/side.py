@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBox
 
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.controls import ElidedLabel
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
 
@@ -117,7 +118,7 @@ class Side(QWidget):
             frame = self.playback.frame(selection)
         except InputError as error:
             self.scene.show_field(None)
-            self._say(self.tr("Nothing to show: {why}").format(why=error))
+            self._say(self.tr("Nothing to show: {why}").format(why=translated(error)))
             return
         self.frame = frame
         title = f"{self._title(selection)}, {frame.unit}"

@@ -13,7 +13,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.contact import Gates
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
 from contactbench.pipeline.heatmap.selection import in_order
@@ -148,7 +148,7 @@ def _kind(path: Path) -> str:
         with path.open("rb") as stream:
             head = stream.read(_HEAD)
     except (OSError, ValueError) as error:
-        raise HeatmapError(f"{path}: the file cannot be read ({error}): check the path.") from error
+        raise HeatmapError(f"{arg(path)}: the file cannot be read ({arg(error)}): check the path.") from error
     if is_recording(path):
         return "recording"
     if suffix == ".json" or head.lstrip().startswith(b"{"):
@@ -161,7 +161,7 @@ def _kind(path: Path) -> str:
     if {"fx", "fy", "fz"} <= names:
         return "wrenches"
     raise HeatmapError(
-        f"{path.name}: this is nothing that can be shown: give a recording (.mcap) with its calibration and probe,"
+        f"{arg(path.name)}: this is nothing that can be shown: give a recording (.mcap) with its calibration and probe,"
         " contacts (.csv), a verification (.json), or the folder of a session."
     )
 
@@ -170,7 +170,9 @@ def _kind_of_json(path: Path) -> str:
     try:
         content = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
-        raise HeatmapError(f"{path.name}: this is not JSON ({error}): choose another file.") from error
+        raise HeatmapError(
+            f"{arg(path.name)}: this is not JSON ({arg(error)}): choose another file."
+        ) from error
     verified = isinstance(content, dict) and content.get("schema") == VERIFICATION
     return "verification" if verified else "calibration"
 
@@ -263,12 +265,14 @@ def _of_file(
 ) -> HeatmapSource:
     file = read.file
     if read.probe is None:
-        raise HeatmapError(f"{file.name}: give the probe that was touched, too: the .ply that was prepared.")
+        raise HeatmapError(
+            f"{arg(file.name)}: give the probe that was touched, too: the .ply that was prepared."
+        )
     probe = load_probe_file(read.probe)
     if probe.history and probe.frame != "S":
         raise HeatmapError(
-            f"{read.probe.name}: the probe is not aligned with the sensor, contacts would be drawn at wrong places:"
-            " align it first."
+            f"{arg(read.probe.name)}: the probe is not aligned with the sensor, contacts would be drawn at"
+            " wrong places: align it first."
         )
     if read.kind == "recording":
         contacts = _of_recording(read, probe, how, told)
@@ -280,7 +284,7 @@ def _of_file(
         check_sources(verification.sources, {"probe": sha256_of(read.probe)}, used)
         contacts = touches_of(verification)
     if not len(contacts.points):
-        raise HeatmapError(f"{file.name}: nothing touched the probe in it: touch it while recording.")
+        raise HeatmapError(f"{arg(file.name)}: nothing touched the probe in it: touch it while recording.")
     if files.markers is not None and contacts.known_errors is None:
         contacts = _with_errors(contacts, files.markers)
     return HeatmapSource(name or file.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
@@ -291,7 +295,7 @@ def _of_recording(
 ) -> Contacts:
     if read.calibration is None:
         raise HeatmapError(
-            f"{read.file.name}: give its calibration.json, too: the weight of the probe is in its readings."
+            f"{arg(read.file.name)}: give its calibration.json, too: the weight of the probe is in its readings."
         )
     model = load_calibration(read.calibration).model
     return locate_recording(
@@ -337,5 +341,5 @@ def _of_session(
             except InputError as error:
                 problems.append(f"{folder.name}: {error}")
     if not found and len(reasons) == len(_OF_SESSION):
-        raise HeatmapError(f"{folder.name}: {reasons[0]}")
+        raise HeatmapError(f"{arg(folder.name)}: {arg(reasons[0])}")
     return found

@@ -16,6 +16,7 @@ from contactbench.app.heatmap_viewer.export import HeatmapExport
 from contactbench.app.heatmap_viewer.side import Side
 from contactbench.app.heatmap_viewer.work import ViewerWork
 from contactbench.app.jobs import Jobs
+from contactbench.pipeline.errors import join
 from contactbench.widgets.time_bar import TimeBar
 
 if TYPE_CHECKING:
@@ -193,7 +194,7 @@ class HeatmapViewer(QWidget):
         said = [*opened.problems, *(note for source in fresh for note in source.notes)]
         if not opened.files.contacts:
             said.append(self.tr("Now add contact data: a recording, contacts or a verification."))
-        self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
+        self.controls.say(join("\n", dict.fromkeys(said)), bad=bool(opened.problems))
         if not fresh:
             return
         first = len(self.sources) - len(fresh)
@@ -222,7 +223,7 @@ class HeatmapViewer(QWidget):
             fresh = {source.name: source for source in opened.sources}
             self.sources = [fresh.get(source.name, source) for source in self.sources]
             said = [*opened.problems, *(note for source in opened.sources for note in source.notes)]
-            self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
+            self.controls.say(join("\n", dict.fromkeys(said)), bad=bool(opened.problems))
             self._sources_changed()
 
         self.work.start(self.tr("Reloading"), work, came)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 
+from contactbench.widgets.messages import translated
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -68,7 +70,7 @@ class ViewerWork(QObject):
             self._controls.say(str(error), bad=True)
         else:
             said = self.tr("Unexpected error: {what}.")
-            self._controls.say(said.format(what=error), bad=True)
+            self._controls.say(said.format(what=translated(error)), bad=True)
 
     def _show(self, _share: float = 0.0) -> None:
         if self._running and not self._closed:

@@ -23,8 +23,8 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -249,7 +249,7 @@ class MotionControls(QWidget):
                 self.tr("{time:.1f} s  {state}: {why}"),
                 time=each.time_s,
                 state=names.get(each.state, each.state),
-                why=said(each.reason),
+                why=translated(each.reason),
             )
             for each in reversed(changes[-_SHOWN:])
         ]

@@ -14,6 +14,7 @@ from contactbench.app.help_book import HelpBook
 from contactbench.app.jobs import Jobs
 from contactbench.app.motion.controls import MotionControls, MotionPhase
 from contactbench.app.motion.picture import Picture
+from contactbench.pipeline.errors import join
 from contactbench.widgets.controls import add_key
 from contactbench.widgets.numbers import filled
 
@@ -245,7 +246,7 @@ class MotionWindow(QWidget):
         if outcome is None:
             self.controls.say(run.failure, bad=True)
         elif outcome["faults"]:
-            self.controls.say(" ".join(outcome["faults"]), bad=True)
+            self.controls.say(join(" ", outcome["faults"]), bad=True)
         else:
             self.controls.say(self._summary(outcome))
 

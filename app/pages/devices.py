@@ -18,7 +18,7 @@ from contactbench.pipeline.workbench.live_devices import Devices, due_problem, g
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.widgets.controls import PanelScroll, column, form, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -139,7 +139,7 @@ class DevicesPage(Page):
         else:
             self.bar.offer(self.tr("Use these devices"), self.use, enabled=free)
             self.bar.offer_second(test, self.test, enabled=free)
-        note = said(problem)
+        note = translated(problem)
         if note in (self.sensor.problem, self.poses.problem):
             note = ""
         if recording:
@@ -183,13 +183,15 @@ class DevicesPage(Page):
     def _not_opened(self, error: BaseException) -> None:
         self._opening, self._refused = False, (self.sensor.address_now(), str(error))
         self._allow()
-        words = self.tr("Could not open the devices: {why}").format(why=error)
+        words = self.tr("Could not open the devices: {why}").format(why=translated(error))
         self.sensor.say(str(error))
         self.bench.tell(Weight.ERROR, words)
         self.bench.set_failed(Step.DEVICES, words)
 
     def _not_set(self, error: BaseException) -> None:
-        self.bench.tell(Weight.ERROR, self.tr("Could not save the device settings: {why}").format(why=error))
+        self.bench.tell(
+            Weight.ERROR, self.tr("Could not save the device settings: {why}").format(why=translated(error))
+        )
 
     def _follow_session(self) -> None:
         """Show, and open, what the session says now, such as after an undo."""
@@ -226,7 +228,7 @@ class DevicesPage(Page):
 
     def show_state(self, status: StepStatus) -> None:
         """Show how the step stands."""
-        self._status.setText(said(status.sentence))
+        self._status.setText(translated(status.sentence))
         self._allow()
 
     def tick(self) -> None:

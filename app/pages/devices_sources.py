@@ -21,8 +21,8 @@ from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -104,7 +104,7 @@ class DeviceChoice(QGroupBox):
 
     def say(self, problem: str) -> None:
         """Show what is wrong; empty: nothing."""
-        self._problem.setText(said(problem))
+        self._problem.setText(translated(problem))
         self._problem.setVisible(bool(problem))
 
     @property

@@ -39,8 +39,8 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -181,7 +181,7 @@ class ExportPage(Page):
     def _problem(self, view: ExportView) -> str:
         """Return why there is no bundle; what is only missing, by the name of its field."""
         if view.lacks != "rate":
-            return said(view.problem)
+            return translated(view.problem)
         return self.tr(
             "The sensor rate is unknown because nothing has been verified. Verify in step 5, or enter"
             " Readings under Settings to match the sensor."
@@ -189,7 +189,7 @@ class ExportPage(Page):
 
     def _show_preview(self, preview: ExportPreview) -> None:
         self.figures.setText(
-            "\n".join(f"{self._figure(what)}: {said(value)}" for what, value in preview.figures)
+            "\n".join(f"{self._figure(what)}: {translated(value)}" for what, value in preview.figures)
         )
         total = sum(size for _, size in preview.files)
         lines = [f"{name}  {_size(size)}" for name, size in preview.files]
@@ -204,10 +204,10 @@ class ExportPage(Page):
             self.changes.setText(
                 self.tr("Changes since the last export:")
                 + "\n"
-                + "\n".join(f"• {said(each)}" for each in changes)
+                + "\n".join(f"• {translated(each)}" for each in changes)
             )
         if preview.reasons:
-            why = " ".join(said(reason) for reason in preview.reasons[:2])
+            why = " ".join(translated(reason) for reason in preview.reasons[:2])
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
         else:
             words = (
@@ -216,7 +216,7 @@ class ExportPage(Page):
                 else self.tr("Verified and ready to export.")
             )
             sign = ("warning", "warning") if preview.unchecked else ("done", "good")
-            self._stand(*sign, f"{words} {said(preview.unchecked)}".strip())
+            self._stand(*sign, f"{words} {translated(preview.unchecked)}".strip())
 
     def _figure(self, what: str) -> str:
         return {

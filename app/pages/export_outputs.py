@@ -17,8 +17,8 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -58,7 +58,7 @@ class LiveOutputsPanel(QWidget):
         for option, output in OUTPUTS.items():
             if not output.title:
                 continue
-            title = said(output.title)
+            title = translated(output.title)
             self.chosen[option] = check_box(title)
             address = QLineEdit(output.usual, maxLength=300)
             self.addresses[option] = named(address, self.tr("Address of {output}").format(output=title))
@@ -109,7 +109,7 @@ class LiveOutputsPanel(QWidget):
 
     def _words(self, state: OutputState) -> str:
         if state.error:
-            return said(state.error)
+            return translated(state.error)
         if state.lost:
             return filled(
                 self.tr("{published:,} contacts sent, {lost:,} lost: the receiver is missing or too slow."),

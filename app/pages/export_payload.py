@@ -23,8 +23,8 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import NumberBox, filled
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench
@@ -78,7 +78,7 @@ class PayloadPanel(QWidget):
         try:
             settings = stored_payload(self._bench.desk.state)
         except InputError as error:
-            self._say("", said(str(error)))
+            self._say("", translated(str(error)))
             return
         show_quietly(self.robot, self.robot.findData(str(settings.robot)))
         for fields, values in (
@@ -96,7 +96,7 @@ class PayloadPanel(QWidget):
         try:
             found = payload_text(config, settings)
         except InputError as error:
-            self._say("", said(str(error)))
+            self._say("", translated(str(error)))
             return
         made = found.payload
         if not made.is_known:
@@ -115,7 +115,7 @@ class PayloadPanel(QWidget):
         if not found.mount_known:
             words.append(self.tr("The sensor is taken as not turned on the flange."))
         if caution := CAUTIONS.get(settings.robot):
-            words.append(said(caution))
+            words.append(translated(caution))
         self._say(found.line, " ".join(words))
 
     def _say(self, line: str, note: str) -> None:

@@ -25,7 +25,7 @@ class ExportSettingsPanel(QWidget):
     """Asks for the options of an export; null means: what the session knows."""
 
     changed = Signal(dict, str)  # option -> JSON value; what was done, in words
-    failed = Signal(str)  # why something that was chosen is not taken
+    failed = Signal(object)  # why something that was chosen is not taken
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

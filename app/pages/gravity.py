@@ -20,7 +20,7 @@ from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT, PoseState
 from contactbench.widgets.controls import accent, show_quietly
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ class GravityPage(Page):
             self._show_view(self.run.work.view(None if pair is None else pair.now()))
         elif self.run.check is not None:
             self.panel.state.show_state(self.run.check.state)
-            self.panel.sentence.setText(said(self.run.check.sentence))
+            self.panel.sentence.setText(translated(self.run.check.sentence))
             self.panel.show_away(R_WS, self.run.check.proposal)
 
     def watch(self) -> None:
@@ -205,7 +205,9 @@ class GravityPage(Page):
             wanted=view.wanted,
         )
         asked = view.state is StillState.STILL and not (self.run.automatic or view.captured or view.wanted)
-        panel.sentence.setText("" if asked else said(view.sentence))  # what is averaged is not taken yet
+        panel.sentence.setText(
+            "" if asked else translated(view.sentence)
+        )  # what is averaged is not taken yet
         goal = view.solved.proposal
         panel.show_away(self._now(), None if goal is None else goal.R_WS)
         if view.revision * 2 + view.busy == self._shown:

@@ -34,8 +34,8 @@ from contactbench.widgets.controls import (
     show_quietly,
 )
 from contactbench.widgets.coverage import Coverage
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import filled, local, number
-from contactbench.widgets.phrases import said
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
@@ -129,7 +129,7 @@ class FindingCards(QWidget):
         words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Findings"))
         box.addWidget(words)
         if finding.remedy:
-            remedy = said(finding.remedy)
+            remedy = translated(finding.remedy)
             button = push_button(self.tr("Apply fix"), None, "check", tip=remedy, high=_HIGH)
             button.setAccessibleName(remedy)
             button.setProperty("primary", bool(finding.settings))
@@ -289,7 +289,9 @@ class GravityPanel(PanelScroll):
         self.next.setText(
             ""
             if proposal is None
-            else self.tr("Tilt the tool to match the ghost: {words}").format(words=said(proposal.sentence))
+            else self.tr("Tilt the tool to match the ghost: {words}").format(
+                words=translated(proposal.sentence)
+            )
         )
         self.next.setVisible(proposal is not None)
         self.away.setVisible(proposal is not None)

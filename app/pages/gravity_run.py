@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange, push_done
 from contactbench.pipeline.calibration import Level
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, join
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench import gravity_results as results
 from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
@@ -27,6 +27,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
 )
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -251,7 +252,9 @@ class GravityRun(QObject):
             push_done(self.bench, deed)
             verdict = outcome.calibration.verdict
             weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
-            self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
+            self.bench.tell(
+                weight[verdict.level], self.tr("Gravity: {why}").format(why=translated(verdict.reasons[0]))
+            )
             self.reopen()
 
         self.bench.jobs.start(self.tr("Computing calibration"), compute, done, self.idle_again)
@@ -373,7 +376,7 @@ class GravityRun(QObject):
                 Level.REFUSE: self.tr("The calibration failed the check with a new pose. Do not use it."),
             }[level]
             weight = Weight.GOOD if found.passed else Weight.ERROR
-            self.bench.tell(weight, " ".join((said, *found.verdict.reasons)))
+            self.bench.tell(weight, join(" ", (said, *found.verdict.reasons)))
             self.changed.emit()
 
         self.bench.jobs.start(self.tr("Saving check"), keep, done, self.idle_again)
@@ -385,7 +388,7 @@ class GravityRun(QObject):
         moments = [row.time for row in rows if row.changeable]
         if not moments:
             return
-        names = ", ".join(row.name for row in rows)
+        names = ", ".join(translated(row.name) for row in rows)
         text = self.tr("leave out {poses}") if left_out else self.tr("restore {poses}")
         before, after = ((moments, each) for each in (not left_out, left_out))
         self.bench.undo.push(

@@ -18,7 +18,7 @@ from contactbench.pipeline.workbench.known_checks import (
     known_outcome,
 )
 from contactbench.widgets.controls import column, push_button, sentence_label
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class KnownCheckPanel(QGroupBox):
         if reading.done:
             self._keep()
         elif reading.sentence:
-            self.hint.setText(said(reading.sentence))
+            self.hint.setText(translated(reading.sentence))
 
     def close_panel(self) -> None:
         """End it: a reading that is not complete is thrown away."""
@@ -132,7 +132,7 @@ class KnownCheckPanel(QGroupBox):
             self.have(found)
             weights = {CheckOutcome.PASSED: Weight.GOOD, CheckOutcome.UNDECIDED: Weight.WARNING}
             self.bench.tell(
-                weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {said(found.sentence)}"
+                weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {translated(found.sentence)}"
             )
 
         self._do(self.tr("Computing check"), lambda: self.work.compute(self.kind, recordings, given), judged)
@@ -158,7 +158,7 @@ class KnownCheckPanel(QGroupBox):
     def _wrong(self, error: BaseException) -> None:
         if not self._closed or not isinstance(error, InputError):
             self.bench.tell_error(error)
-            self.hint.setText(said(str(error)))
+            self.hint.setText(translated(str(error)))
 
     # ---- what it shows -----------------------------------------------------------------------------
 

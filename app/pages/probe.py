@@ -16,7 +16,7 @@ from contactbench.app.pages.probe_stages import TARGETS, ProbeStages
 from contactbench.app.pages.virtual_mesh import bench_address
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll, accent, column, plain_label
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
@@ -144,7 +144,7 @@ class ProbePage(Page):
         sentences: tuple[str, ...] = ()
         if preview is not None:
             meaning = self.tr("{} from the outer surface.").format(
-                said(preview.done.simplified.deviation.sentence)
+                translated(preview.done.simplified.deviation.sentence)
             )
             sentences = (
                 *preview.done.simplified.sentences,
@@ -195,7 +195,7 @@ class ProbePage(Page):
 
     def show_state(self, status: StepStatus) -> None:
         """Show what changed in the session, unless it is this page's own doing."""
-        self.setAccessibleDescription(said(status.sentence))
+        self.setAccessibleDescription(translated(status.sentence))
         if (
             not self.stages.up_to_date
             and self._here

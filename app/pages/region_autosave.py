@@ -27,7 +27,7 @@ class RegionAutosave(QObject):
     """
 
     kept = Signal()  # nothing is left to be kept
-    failed = Signal(str)  # why it could not be; the next change tries again
+    failed = Signal(object)  # why it could not be; the next change tries again
 
     def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
         super().__init__(parent)

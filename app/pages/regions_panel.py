@@ -22,7 +22,7 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.icons import Sign, state_icon
-from contactbench.widgets.phrases import said
+from contactbench.widgets.messages import translated
 from contactbench.widgets.region_list import RegionListWidget
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ class RegionsPanel(PanelScroll):
         state, text = self._said(view)
         self.state_mark.show_icon(state_icon(state))
         self.state_mark.setAccessibleName(state.value)
-        self.state_text.setText(said(text))
+        self.state_text.setText(translated(text))
         self.body.setVisible(ready)
         self.body.setEnabled(ready and not view.busy)
         self.tools.setEnabled(view.chosen)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from contactbench.app.bench import Weight
 from contactbench.app.undo import Exchange
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
 from contactbench.widgets.controls import HIGH, choice, column, named, push_button, row, sentence_label
 from contactbench.widgets.icons import icon
@@ -251,7 +251,7 @@ class MarkersPanel(QWidget):
                 write_durably(file, data)
             except OSError as error:
                 raise InputError(
-                    f"{file}: the markers cannot be written ({error}): choose another place."
+                    f"{arg(file)}: the markers cannot be written ({arg(error)}): choose another place."
                 ) from error
 
         self._bench.jobs.start(

@@ -8,11 +8,12 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QLabel, QWidget
 
+from contactbench.pipeline.errors import capitalised, join
 from contactbench.pipeline.verification.model_error import model_error_words
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
-from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -78,7 +79,7 @@ class ResultPanel(QWidget):
             self._figures(found),
             self._why(outcome),
             "" if found.diagnosis is None else found.diagnosis.text,
-            "\n".join((*found.verdict.notes, *found.warnings)),
+            join("\n", (*found.verdict.notes, *found.warnings)),
             model_error_words(found.model_error),
         )
 
@@ -91,7 +92,7 @@ class ResultPanel(QWidget):
 
     def _texts(self, *texts: str) -> None:
         for label, text in zip(self._labels(), texts, strict=True):
-            label.setText(said(text))
+            label.setText(translated(text))
             label.setVisible(bool(text))
 
     def _range(self, outcome: VerifyOutcome) -> str:
@@ -126,14 +127,14 @@ class ResultPanel(QWidget):
     def _why(self, outcome: VerifyOutcome) -> str:
         lines = [outcome.stale] if outcome.stale and not outcome.broken else []
         lines += [
-            f"{reason[0].upper()}{reason[1:]}." if reason else "" for reason in outcome.found.verdict.reasons
+            join("", (capitalised(reason), ".")) if reason else "" for reason in outcome.found.verdict.reasons
         ]
         if rejected := outcome.found.rejected:
-            listed = ", ".join(f"{count} × {reason}" for reason, count in rejected.items())
+            listed = ", ".join(f"{count} × {translated(reason)}" for reason, count in rejected.items())
             lines.append(self.tr("Not counted: {listed}.").format(listed=listed))
         if outcome.differs:
             lines.append(outcome.differs)
-        return "\n".join(lines)
+        return join("\n", lines)
 
     def _open(self) -> None:
         if self._report is not None:

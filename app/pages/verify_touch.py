@@ -11,13 +11,14 @@ from PySide6.QtWidgets import QInputDialog, QToolButton, QWidget
 from contactbench.app.bench import Weight
 from contactbench.app.pages.verify_scene import firm_contact
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
+from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import number
-from contactbench.widgets.phrases import said
 from contactbench.widgets.sounds import Sounds
 from contactbench.widgets.touch_state import TouchState
 
@@ -228,9 +229,8 @@ class TouchPanel(QWidget):
 
     def _said(self, touch: TouchOf, free: bool) -> str:
         if touch.why:
-            why = said(touch.why)
             return self.tr("{why} ({force} N). Release, then touch again.").format(
-                why=f"{why[0].upper()}{why[1:]}", force=number(touch.force, ".1f")
+                why=translated(capitalised(touch.why)), force=number(touch.force, ".1f")
             )
         words = (
             self.tr("{marker}: error {size} mm.") if free else self.tr("{marker}: error {size} mm. Release.")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 
 from contactbench.pipeline.verification.protocol import ProtocolState
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -32,7 +33,7 @@ class Toucher(QObject):
         Whether it goes on by itself.
     """
 
-    stopped = Signal(str)  # why it does not go on; empty: all are done
+    stopped = Signal(object)  # why it does not go on; empty: all are done
 
     def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -83,7 +84,9 @@ class Toucher(QObject):
                 self.tr(
                     "{name} was pressed {count} times without an accepted touch ({why}). Press Skip"
                     " marker, then Touch all again. Or discard the touches and move the marker."
-                ).format(name=name, count=self._tries - 1, why=why or self.tr("no touch was detected"))
+                ).format(
+                    name=name, count=self._tries - 1, why=translated(why) or self.tr("no touch was detected")
+                )
             )
             return
         self.press_next(touches, view)

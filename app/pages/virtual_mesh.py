@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import from_transform
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def take_housing(
     """Take the virtual bench's mesh; as ``contactbench demo`` writes it, housing.stl. For a worker."""
     options = address.bench
     if options is None:
-        raise InputError(f"{address}: this is no virtual bench: choose a mesh instead.")
+        raise InputError(f"{arg(address)}: this is no virtual bench: choose a mesh instead.")
     if options.mesh is not None:
         mesh = work.take(Path(options.mesh), "m", progress, cancelled)  # type: ignore[arg-type]
         aligned = mesh.original.frame == "S"

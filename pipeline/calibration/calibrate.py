@@ -32,7 +32,7 @@ from contactbench.pipeline.calibration.outliers import Rejection, deviates, reje
 from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -227,7 +227,7 @@ def calibrate(
     """
     if len(poses) < 3:
         raise PoseError(
-            f"{len(poses)} poses are too few. Twelve unknowns need at least three poses with"
+            f"{arg(len(poses))} poses are too few. Twelve unknowns need at least three poses with"
             " different tilts; checking them against one another needs five or more."
         )
     down = direction(down_W)
@@ -330,7 +330,7 @@ def direction(down_W: ArrayLike) -> NDArray[np.float64]:
         down = np.zeros(0)
     if down.shape != (3,) or not np.isfinite(down).all() or not down.any():
         raise InputError(
-            f"down_W is {np.array(down_W).tolist()!r}: give the direction of gravity in the world"
+            f"down_W is {arg(np.array(down_W).tolist())!r}: give the direction of gravity in the world"
             " frame, three finite numbers that are not all 0, such as 0,0,-1"
         )
     down /= np.abs(down).max()

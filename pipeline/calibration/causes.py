@@ -17,6 +17,7 @@ from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -126,8 +127,8 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
         case nuisance.REZERO:
             return _rezero(candidate, poses, compared)
         case nuisance.CABLE:
-            return (
-                f"A pull of up to {_sizes(fit.offsets)} changes with the orientation, but not as a"
+            return message(
+                f"A pull of up to {arg(_sizes(fit.offsets))} changes with the orientation, but not as a"
                 " weight does: a cable or a hose, or a sensor whose axes differ in gain. Loosen"
                 " the cables and hoses, fix them to the flange, and retake the poses."
             )
@@ -135,10 +136,10 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
             turn = Rotation.from_matrix(fit.mount).as_rotvec()
             angle = float(np.linalg.norm(turn))
             axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
-            return (
-                f"The sensor seems to be turned by {np.degrees(angle):.2g}° about ({axis}) from"
+            return message(
+                f"The sensor seems to be turned by {arg(np.degrees(angle)):.2g}° about ({arg(axis)}) from"
                 " its declared mounting: with that corrected, the force residuals fall from"
-                f" {plain(_left(compared.plain, arrays))} to {plain(_left(candidate, arrays))} N."
+                f" {arg(plain(_left(compared.plain, arrays)))} to {arg(plain(_left(candidate, arrays)))} N."
                 " Calibrate with --estimate-mount, or correct the mounting."
             )
         case "noise":
@@ -146,18 +147,18 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Cause
             factors = (candidate.noisy.noise.sigmas / given)[[0, 3]] if given is not None else np.ones(2)
             scatter, said = candidate.noisy.noise.orientation, candidate.prior.orientation
             if said and not candidate.prior.guessed and abs(np.log(scatter / said)) > _OFF:
-                return (
-                    f"The orientations scatter by {np.degrees(scatter):.2g}°, not by the specified"
-                    f" {np.degrees(said):.2g}°. All uncertainties are computed from the scatter of"
+                return message(
+                    f"The orientations scatter by {arg(np.degrees(scatter)):.2g}°, not by the specified"
+                    f" {arg(np.degrees(said)):.2g}°. All uncertainties are computed from the scatter of"
                     " the poses."
                 )
-            return (
-                f"The residuals are {plain(factors[0])} times (forces) and {plain(factors[1])}"
+            return message(
+                f"The residuals are {arg(plain(factors[0]))} times (forces) and {arg(plain(factors[1]))}"
                 " times (torques) what the specified noise explains. All uncertainties are"
                 " computed from the scatter of the poses."
             )
         case _:
-            return "Bias, weight and noise alone explain the poses."
+            return message("Bias, weight and noise alone explain the poses.")
 
 
 def _left(candidate: Candidate, arrays: Stack) -> float:
@@ -172,9 +173,11 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
     rate = ""
     if arrays.duration is not None:
         F, M = (np.linalg.norm(half) for half in np.split(fit.added[:6] * _HOUR / arrays.duration, 2))
-        rate = f", {plain(float(F))} N and {plain(1e3 * float(M))} mN·m per hour at the end"
-    return (
-        f"The bias drifts by {_sizes(whole[None])} from the first pose to the last{rate}. The"
+        rate = message(
+            f", {arg(plain(float(F)))} N and {arg(plain(1e3 * float(M)))} mN·m per hour at the end"
+        )
+    return message(
+        f"The bias drifts by {arg(_sizes(whole[None]))} from the first pose to the last{arg(rate)}. The"
         " drift has been removed, and the bias is that at the end of the session. Let the sensor"
         " warm up, and recalibrate before you rely on it."
     )
@@ -188,9 +191,9 @@ def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: CauseCo
     }
     total = sum(moments.values())
     likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
-    names = " or ".join(named(poses, _at(compared.poses, moment)) for moment in sorted(likely))
-    return (
-        f"The sensor's zero jumped by {_sizes(candidate.noisy.fit.added[None])} before {names}, as"
+    names = join(" or ", (named(poses, _at(compared.poses, moment)) for moment in sorted(likely)))
+    return message(
+        f"The sensor's zero jumped by {arg(_sizes(candidate.noisy.fit.added[None]))} before {arg(names)}, as"
         " after a re-zero. The bias is that of the poses since then. Do not zero the sensor while"
         " taking poses."
     )
@@ -204,4 +207,4 @@ def _at(arrays: Stack, moment: float) -> int:
 def _sizes(wrenches: NDArray[np.float64]) -> str:
     F = float(np.linalg.norm(wrenches[:, :3], axis=1).max())
     M = float(np.linalg.norm(wrenches[:, 3:], axis=1).max())
-    return f"{plain(F)} N and {plain(1e3 * M)} mN·m"
+    return message(f"{arg(plain(F))} N and {arg(plain(1e3 * M))} mN·m")

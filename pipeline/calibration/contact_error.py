@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import DOWN_W, cross_matrix, prediction_jacobian, upright
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -66,16 +66,18 @@ class ContactTask:
     def __post_init__(self) -> None:
         point, normal = (np.array(value, dtype=np.float64) for value in (self.point, self.normal))
         if point.shape != (3,) or not np.isfinite(point).all():
-            raise InputError(f"ContactTask.point: give three finite numbers, m in S, not {self.point!r}")
+            raise InputError(f"ContactTask.point: give three finite numbers, m in S, not {arg(self.point)!r}")
         length = float(np.linalg.norm(normal)) if normal.shape == (3,) else np.nan
         if not np.isfinite(length) or length == 0:
             raise InputError(
-                f"ContactTask.normal: give three numbers that are not all 0, not {self.normal!r}"
+                f"ContactTask.normal: give three numbers that are not all 0, not {arg(self.normal)!r}"
             )
         ranges = (("force", self.force, 1e4), ("tilt", self.tilt, np.pi), ("friction", self.friction, 1.4))
         for name, value, most in ranges:
             if not 0 <= value <= most or (name == "force" and value == 0):
-                raise InputError(f"ContactTask.{name}: {value} is not between 0 and {most:.4g}")
+                raise InputError(
+                    f"ContactTask.{arg(name)}: {arg(value)} is not between 0 and {arg(most):.4g}"
+                )
         object.__setattr__(self, "point", point)
         object.__setattr__(self, "normal", normal / length)
 

@@ -27,7 +27,7 @@ from contactbench.pipeline.calibration.model import (
     cross_matrix,
     prediction_jacobian,
 )
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -88,11 +88,11 @@ class PoseNoise:
             array = np.asarray(value, dtype=np.float64)
             if array.shape not in {(), (3,)} or not np.isfinite(array).all() or (array <= 0).any():
                 raise InputError(
-                    f"PoseNoise.{name}: give one or three finite numbers above 0, {unit}, not {value!r}"
+                    f"PoseNoise.{arg(name)}: give one or three finite numbers above 0, {arg(unit)}, not {arg(value)!r}"
                 )
         if not 0 <= self.orientation < np.inf:
             raise InputError(
-                f"PoseNoise.orientation: give a finite angle of at least 0, rad, not {self.orientation!r}"
+                f"PoseNoise.orientation: give a finite angle of at least 0, rad, not {arg(self.orientation)!r}"
             )
 
     @property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -138,7 +138,7 @@ class GravityModel:
         w, R = np.asarray(wrench, dtype=np.float64), np.asarray(R_WS, dtype=np.float64)
         if w.shape[-1:] != (6,) or R.shape[-2:] != (3, 3) or R.shape[:-2] not in {(), w.shape[:-1]}:
             raise InputError(
-                f"compensate: wrench {w.shape} and R_WS {R.shape} do not fit: give (6,) with (3, 3),"
+                f"compensate: wrench {arg(w.shape)} and R_WS {arg(R.shape)} do not fit: give (6,) with (3, 3),"
                 " or (n, 6) with (3, 3) or (n, 3, 3)"
             )
         return w - self.predict(R)
@@ -205,6 +205,8 @@ def cross_matrix(v: NDArray[np.float64]) -> NDArray[np.float64]:
 def _finite(name: str, value: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:
     array = np.array(value, dtype=np.float64)
     if array.shape != shape or not np.isfinite(array).all():
-        raise InputError(f"GravityModel.{name}: give finite numbers of shape {shape}, not {array.shape}")
+        raise InputError(
+            f"GravityModel.{arg(name)}: give finite numbers of shape {arg(shape)}, not {arg(array.shape)}"
+        )
     array.flags.writeable = False
     return array

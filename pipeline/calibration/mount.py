@@ -56,6 +56,7 @@ from contactbench.pipeline.calibration.outliers import LARGEST_SHARE
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, Stack, stack
 from contactbench.pipeline.calibration.reml import LEAST, NoisePrior
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -133,7 +134,7 @@ def estimate_mount(
     """
     if len(poses) < 4:
         raise PoseError(
-            f"{len(poses)} poses are too few. Fifteen unknowns need at least four poses that tilt"
+            f"{arg(len(poses))} poses are too few. Fifteen unknowns need at least four poses that tilt"
             " about two axes; checking them against one another needs six or more."
         )
     flange, down = stack(poses), direction(down_W)
@@ -323,24 +324,28 @@ def see(
     parameters = observe(R_SW, fit.theta[GRAVITY], weighs=weighs)
     values, vectors = np.linalg.eigh(fit.covariance[ROTATION, ROTATION])
     worst, axis = float(np.sqrt(values[-1])), named_axes(R_SE.T @ vectors[:, -1:])
-    known = f"The mount's rotation about {axis} is known only to {np.degrees(worst):.1f}° (1 sigma)"
+    known = message(
+        f"The mount's rotation about {arg(axis)} is known only to {arg(np.degrees(worst)):.1f}° (1 sigma)"
+    )
     if blind.shape[1]:
         grave = blind_words(R_EW, R_SE.T @ blind)
     elif not felt:
-        grave = (
+        grave = message(
             "The weight is too small to show a rotation: the forces do not follow the"
             " orientations beyond their noise. Mount a heavier load, or average each pose for"
             " longer."
         )
     elif worst > _UNSURE:
-        grave = (
-            f"{known}; more than {np.degrees(_UNSURE):.0f}° is refused. For this noise the weight"
+        grave = message(
+            f"{arg(known)}; more than {arg(np.degrees(_UNSURE)):.0f}° is refused. For this noise the weight"
             " is too small, or the tilts are: take more poses, tilted up to 90° about two axes,"
             " or mount a heavier load."
         )
     else:
         grave = ""
-    return Sight(fit, (grave,) if grave else (), (f"{known}.",) if worst > _SURE else (), parameters)
+    return Sight(
+        fit, (grave,) if grave else (), (message(f"{arg(known)}."),) if worst > _SURE else (), parameters
+    )
 
 
 def _felt(inside: Stack, fit: Fit, noise: PoseNoise) -> bool:
@@ -409,28 +414,28 @@ def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64]) -> str:
         Rotation.from_matrix(np.einsum("iab,jcb->ijac", R_EW, R_EW).reshape(-1, 3, 3)).magnitude().max()
     )
     about = np.linalg.svd(turns, compute_uv=False)
-    remedy = "Tilt the wrist up to 90° about two axes"
+    remedy = message("Tilt the wrist up to 90° about two axes")
     if axes_E.shape[1] == 3:
-        return (
+        return message(
             "Gravity has nearly the same direction in the flange in every pose, so the forces do"
-            f" not show how the sensor is mounted. {remedy}."
+            f" not show how the sensor is mounted. {arg(remedy)}."
         )
     if about[1] < _ONE_AXIS * about[0]:
-        why = "all poses rotate about one axis"
-        remedy = "Tilt the wrist about another axis too"
+        why = message("all poses rotate about one axis")
+        remedy = message("Tilt the wrist about another axis too")
     else:
-        why = f"the poses, all within {spread:.0f}° of one another, are too similar"
-        remedy += ", and also turn it about the vertical"
-    return (
-        f"The mount's rotation about {named_axes(axes_E)} cannot be distinguished from a tilt of the"
-        f" base: {why}. {remedy}."
+        why = message(f"the poses, all within {arg(spread):.0f}° of one another, are too similar")
+        remedy += message(", and also turn it about the vertical")
+    return message(
+        f"The mount's rotation about {arg(named_axes(axes_E))} cannot be distinguished from a tilt of the"
+        f" base: {arg(why)}. {arg(remedy)}."
     )
 
 
 def named_axes(axes_E: NDArray[np.float64]) -> str:
     """Return words for axes (3, k) of the flange."""
     vectors = [axis if axis[np.argmax(np.abs(axis))] > 0 else -axis for axis in axes_E.T]
-    return f"the flange's ax{'is' if len(vectors) == 1 else 'es'} " + " and ".join(
+    return message(f"the flange's ax{arg('is' if len(vectors) == 1 else 'es')} ") + " and ".join(
         "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(axis, 2))) for axis in vectors
     )
 
@@ -445,12 +450,14 @@ def simple(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> str:
     if angle > _NEAR and e @ np.linalg.solve(covariance, e) > _TWO_SIGMA:
         return ""
     how = (
-        f"turned by {angles[nearest]:.0f}° about the flange's z axis"
+        message(f"turned by {arg(angles[nearest]):.0f}° about the flange's z axis")
         if angles[nearest]
-        else "in line with the flange"
+        else message("in line with the flange")
     )
     sigma = np.degrees(largest_sigma(covariance))
-    return f"Within {np.degrees(angle):.1f}° (1 sigma {sigma:.1f}°) of a sensor mounted {how}."
+    return message(
+        f"Within {arg(np.degrees(angle)):.1f}° (1 sigma {arg(sigma):.1f}°) of a sensor mounted {arg(how)}."
+    )
 
 
 def verdict(findings: Findings, sight: Sight, agree: bool, limits: Limits) -> Verdict:
@@ -460,16 +467,20 @@ def verdict(findings: Findings, sight: Sight, agree: bool, limits: Limits) -> Ve
     kept, n = int(findings.kept.sum()), len(findings.poses)
     if kept < n and (kept < _FEWEST_IN or n - kept > _MOST_OUT * n):
         grave.append(
-            f"Only {kept} of {n} poses agree, which can be chance with fifteen unknowns. Either"
-            " most captures were disturbed (retake them), or the orientations follow another"
-            " convention than declared."
+            message(
+                f"Only {arg(kept)} of {arg(n)} poses agree, which can be chance with fifteen unknowns. Either"
+                " most captures were disturbed (retake them), or the orientations follow another"
+                " convention than declared."
+            )
         )
     if core.level is Level.REFUSE:
         grave += core.reasons
     if findings.gravity_W @ findings.down_W < 0 and core.level is Level.REFUSE:
         grave.append(
-            "With an unknown mount, a left-handed sensor frame (one axis with the wrong sign)"
-            " also looks like gravity that points up."
+            message(
+                "With an unknown mount, a left-handed sensor frame (one axis with the wrong sign)"
+                " also looks like gravity that points up."
+            )
         )
     if grave:
         return Verdict(Level.REFUSE, tuple(grave))

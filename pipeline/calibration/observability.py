@@ -9,6 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.fit import BLIND
 from contactbench.pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -85,8 +86,10 @@ def observe(
         words.append(_force_words(alike_W))
     if not weighs:
         words.append(
-            "The sensor feels no weight, so no pose shows the centre of mass. If a tool is"
-            " mounted, check the unit of the forces and that the sensor does not re-zero itself."
+            message(
+                "The sensor feels no weight, so no pose shows the centre of mass. If a tool is"
+                " mounted, check the unit of the forces and that the sensor does not re-zero itself."
+            )
         )
     elif not weak and torque_rank < 6:
         words.append(_torque_words(down_S))
@@ -134,26 +137,26 @@ def _rank(squares: NDArray[np.float64], blind: float) -> tuple[int, float]:
 def _force_words(alike_W: NDArray[np.float64]) -> str:
     """Say which part of gravity (k, 3), W, looks the same as bias in every pose."""
     if len(alike_W) > 1:
-        return (
+        return message(
             "Every pose has the same orientation, so bias and weight cannot be separated. Turn"
             " the wrist between poses, about two axes, by 60° or more."
         )
     axis = alike_W[0]
     if abs(axis[2]) > _UPRIGHT:
-        return (
+        return message(
             "Every pose has the same tilt (they differ only by a turn about the vertical), so"
             " gravity always has the same direction in the sensor, and weight and bias cannot be"
             " separated. Turn the wrist about a horizontal axis."
         )
     if abs(axis[2]) < 1 - _UPRIGHT:
         bearing = np.degrees(np.arctan2(axis[1], axis[0])) % 180
-        return (
-            f"All poses turn about one horizontal axis (bearing {bearing:.0f}° from the world's"
+        return message(
+            f"All poses turn about one horizontal axis (bearing {arg(bearing):.0f}° from the world's"
             " x), so a tilt of the base along that axis and the bias along it cannot be"
             " separated. Tilt the wrist about another axis too."
         )
-    return (
-        f"All poses turn about one axis ({axis[0]:.2f}, {axis[1]:.2f}, {axis[2]:.2f} in the"
+    return message(
+        f"All poses turn about one axis ({arg(axis[0]):.2f}, {arg(axis[1]):.2f}, {arg(axis[2]):.2f} in the"
         " world), so gravity and bias along it cannot be separated. Tilt the wrist about another"
         " axis too."
     )
@@ -162,11 +165,11 @@ def _force_words(alike_W: NDArray[np.float64]) -> str:
 def _torque_words(down_S: NDArray[np.float64]) -> str:
     """Say what the directions of gravity in the sensor (n, 3) do not show of the centre of mass."""
     if np.abs(down_S - down_S.mean(axis=0)).max() < 2 * BLIND:
-        return (
+        return message(
             "Gravity has the same direction in the sensor in every pose, so the centre of mass"
             " and the torque bias cannot be separated. Tilt the wrist about a horizontal axis."
         )
-    return (
+    return message(
         "Gravity has only two directions in the sensor, so the centre of mass along the line"
         " between them and the torque bias cannot be separated. Add a pose with a third tilt."
     )
@@ -177,8 +180,8 @@ def _close_words(R_SW: NDArray[np.float64]) -> str:
     spread = _spread(R_SW)
     if not _SAME < spread < _CLOSE:
         return ""
-    return (
-        f"All poses lie within about {np.ceil(spread):.0f}° of one another, so bias and weight are"
+    return message(
+        f"All poses lie within about {arg(np.ceil(spread)):.0f}° of one another, so bias and weight are"
         " poorly separated. Tilt the wrist further, up to 90° and beyond, about two axes."
     )
 

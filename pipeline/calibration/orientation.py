@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot import Robot
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ class Kind(StrEnum):
 
     QUATERNION = "quaternion"  # qw qx qy qz
     EULER = "euler"  # three angles about axes
-    ROTATION_VECTOR = "rotation vector"  # axis times angle
+    ROTATION_VECTOR = message("rotation vector")  # axis times angle
     JOINTS = "joints"  # of a known robot
 
 
@@ -41,7 +41,7 @@ class RowError(InputError):
     """
 
     def __init__(self, row: int, what: str) -> None:
-        super().__init__(f"row {row + 1}: {what}")
+        super().__init__(message(f"row {arg(row + 1)}: {arg(what)}"))
         self.row, self.what = row, what
 
 
@@ -74,7 +74,7 @@ class Convention:
             or not one_case
         ):
             raise InputError(
-                f"Euler order {self.order!r}: give three axes, such as xyz (fixed axes) or ZYX"
+                f"Euler order {arg(self.order)!r}: give three axes, such as xyz (fixed axes) or ZYX"
                 " (rotating axes)"
             )
 
@@ -106,7 +106,7 @@ def convention_of(given: OrientationSettings) -> Convention | None:
     ways = {"euler": given.euler, "rotation-vector": given.rotation_vector, "robot": robot}
     chosen = [f"--{name}" for name, said in ways.items() if said]
     if len(chosen) > 1:
-        raise InputError(f"{' and '.join(chosen)} contradict each other: give only one.")
+        raise InputError(f"{arg(' and '.join(chosen))} contradict each other: give only one.")
     if given.euler:
         return Convention(Kind.EULER, order=given.euler, degrees=degrees, inverse=inverse)
     if given.rotation_vector:
@@ -156,7 +156,10 @@ def _from_quaternions(values: NDArray[np.float64]) -> NDArray[np.float64]:
     if len(wrong):
         row = int(wrong[0])
         raise RowError(
-            row, f"the quaternion has length {lengths[row]:.4g}, not 1: check the columns qw, qx, qy, qz."
+            row,
+            message(
+                f"the quaternion has length {arg(lengths[row]):.4g}, not 1: check the columns qw, qx, qy, qz."
+            ),
         )
     return Rotation.from_quat(values[:, [1, 2, 3, 0]]).as_matrix()  # scipy puts the scalar last
 

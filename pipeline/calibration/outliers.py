@@ -28,6 +28,7 @@ from contactbench.pipeline.calibration.model import (
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.reml import fit_with_noise
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -285,9 +286,11 @@ def rejection(
     size_F, size_M = float(np.linalg.norm(residual[:3])), float(np.linalg.norm(residual[3:]))
     both = []
     if force >= limit(len(poses)):
-        both.append(f"force {force:.1f} sigma ({plain(size_F)} N) off")
+        both.append(message(f"force {arg(force):.1f} sigma ({arg(plain(size_F))} N) off"))
     if torque >= limit(len(poses)):
-        both.append(f"torque {torque:.1f} sigma ({plain(1e3 * size_M)} mN·m) off")
-    what = " and ".join(both) or "least like the others"
-    reason = f"{what} from the prediction of the other poses: bumped, touched, or captured while moving."
+        both.append(message(f"torque {arg(torque):.1f} sigma ({arg(plain(1e3 * size_M))} mN·m) off"))
+    what = join(message(" and "), both) or message("least like the others")
+    reason = message(
+        f"{arg(what)} from the prediction of the other poses: bumped, touched, or captured while moving."
+    )
     return Rejection(index, named(poses, index), force, torque, reason)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.knobs import Settings
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class Parameters(Settings):
         given = super().checked(values)
         if not given.name.endswith(cls.endings) or "/" in given.name or "\\" in given.name:
             raise InputError(
-                f"{given.name}: the name of a result of this kind must end in {' or '.join(cls.endings)}."
+                f"{arg(given.name)}: the name of a result of this kind must end in {arg(' or '.join(cls.endings))}."
             )
         return given
 
@@ -34,9 +34,9 @@ class Parameters(Settings):
 def check_roles(inputs: Mapping[str, File], needed: Collection[str], optional: Collection[str] = ()) -> None:
     """InputError if an input that is needed is missing, or there are strangers."""
     if not set(needed) <= set(inputs) <= {*needed, *optional}:
-        may = f", optionally also {', '.join(optional)}" if optional else ""
+        may = message(f", optionally also {arg(', '.join(optional))}") if optional else ""
         raise InputError(
-            f"inputs: {', '.join(needed)} are needed{may}; {', '.join(inputs) or 'none'} are given."
+            f"inputs: {arg(', '.join(needed))} are needed{arg(may)}; {arg(', '.join(inputs) or 'none')} are given."
         )
 
 
@@ -48,4 +48,4 @@ def sha256_of(file: File) -> str:
         with file.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except (OSError, ValueError) as error:
-        raise InputError(f"{file}: the file cannot be read ({error}): check the path.") from error
+        raise InputError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.") from error

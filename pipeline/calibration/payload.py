@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, STANDARD_GRAVITY
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.settings import RobotMaker
 
 if TYPE_CHECKING:
@@ -33,10 +33,14 @@ if TYPE_CHECKING:
 _LARGEST_SHARE, _LARGEST_OFFSET_M = 0.1, 0.01
 
 CAUTIONS = {
-    RobotMaker.UR: "Setting the payload also zeroes the robot's own force and torque readings: set it with the robot at"
-    " rest and nothing touching the tool.",
-    RobotMaker.ABB: "Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use"
-    " them as a loaddata for GripLoad, which is in the tool frame.",
+    RobotMaker.UR: message(
+        "Setting the payload also zeroes the robot's own force and torque readings: set it with the robot at"
+        " rest and nothing touching the tool."
+    ),
+    RobotMaker.ABB: message(
+        "Replace probe_tool by the name of your tooldata. These numbers are in the wrist frame: do not use"
+        " them as a loaddata for GripLoad, which is in the tool frame."
+    ),
 }
 """What must be known before a maker's line is used."""
 
@@ -97,7 +101,9 @@ class Payload:
             # loaddata for GripLoad would be in that of the tool.
             RobotMaker.ABB: f"probe_tool{index}.tload:=[{kg},[{','.join(mm)}],[1,0,0,0],0,0,0];",
             # Tool weight in the pendant, field by field.
-            RobotMaker.DOOSAN: f"Weight {kg} kg, Cx {mm[0]} mm, Cy {mm[1]} mm, Cz {mm[2]} mm",
+            RobotMaker.DOOSAN: message(
+                f"Weight {arg(kg)} kg, Cx {arg(mm[0])} mm, Cy {arg(mm[1])} mm, Cz {arg(mm[2])} mm"
+            ),
         }[maker]
 
 

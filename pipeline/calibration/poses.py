@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,40 +74,56 @@ class PoseSample:
             if value is not None:
                 array = self._three(field, value, largest, unit)
                 if (array < 0).any():
-                    raise self._error(f"{field} is negative: a standard deviation is at least 0")
+                    raise self._error(
+                        message(f"{arg(field)} is negative: a standard deviation is at least 0")
+                    )
                 put(self, field, array)
         if not isinstance(self.count, int | np.integer) or isinstance(self.count, bool) or self.count < 1:
             raise self._error(
-                f"count is {self.count}: a mean needs at least one sample, and a whole number of them"
+                message(
+                    f"count is {arg(self.count)}: a mean needs at least one sample, and a whole number of them"
+                )
             )
         for field in ("temperature", "time"):
             value = getattr(self, field)
             if value is not None and not np.isfinite(value):
-                raise self._error(f"{field} is {value}: give a finite number, or leave it out")
+                raise self._error(
+                    message(f"{arg(field)} is {arg(value)}: give a finite number, or leave it out")
+                )
 
     def _error(self, what: str) -> PoseError:
-        return PoseError(f"{self.name or 'pose'}: {what}.")
+        return PoseError(f"{arg(self.name or 'pose')}: {arg(what)}.")
 
     def _rotation(self) -> NDArray[np.float64]:
         R = np.array(self.R_WS, dtype=np.float64)
         if R.shape != (3, 3) or not np.isfinite(R).all():
             raise self._error(
-                f"R_WS must be a finite (3, 3) rotation, not shape {R.shape} with {R.ravel()[:3]}..."
+                message(
+                    f"R_WS must be a finite (3, 3) rotation, not shape {arg(R.shape)} with {arg(R.ravel()[:3])}..."
+                )
             )
         if np.abs(R.T @ R - np.eye(3)).max() > _ROTATION_TOLERANCE:
-            raise self._error("R_WS is not a rotation: its columns are not unit vectors at right angles")
+            raise self._error(
+                message("R_WS is not a rotation: its columns are not unit vectors at right angles")
+            )
         U, _, Vt = np.linalg.svd(R)  # the nearest rotation: typed digits are rounded
         R = U @ Vt
         if np.linalg.det(R) < 0:
-            raise self._error("R_WS is a reflection (determinant -1): one axis has the wrong sign")
+            raise self._error(message("R_WS is a reflection (determinant -1): one axis has the wrong sign"))
         return _frozen(R)
 
     def _three(self, field: str, value: ArrayLike, largest: float, unit: str) -> NDArray[np.float64]:
         array = np.array(value, dtype=np.float64)
         if array.shape != (3,):
-            raise self._error(f"{field} needs three numbers, {unit}, not shape {array.shape}")
+            raise self._error(
+                message(f"{arg(field)} needs three numbers, {arg(unit)}, not shape {arg(array.shape)}")
+            )
         if not (np.abs(array) <= largest).all():
-            raise self._error(f"{field} is {array} {unit}: give finite numbers below {largest:g} {unit}")
+            raise self._error(
+                message(
+                    f"{arg(field)} is {arg(array)} {arg(unit)}: give finite numbers below {arg(largest):g} {arg(unit)}"
+                )
+            )
         return _frozen(array)
 
 
@@ -158,7 +174,7 @@ def _moments(times: Sequence[float | None]) -> tuple[NDArray[np.float64], float 
 
 def named(poses: Sequence[PoseSample], index: int) -> str:
     """Return what to call a pose: its name, or its number from 1."""
-    return poses[index].name or f"pose {index + 1}"
+    return poses[index].name or message(f"pose {arg(index + 1)}")
 
 
 def _frozen(array: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import DOWN_W, upright
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot import Clearance, ClearanceCheck
 
 if TYPE_CHECKING:
@@ -87,10 +87,10 @@ def by_hand(
         A value is out of its range.
     """
     if count < 12:
-        raise InputError(f"{count} orientations are too few to choose from: give at least 12")
+        raise InputError(f"{arg(count)} orientations are too few to choose from: give at least 12")
     if not 0 < max_tilt <= np.pi:
         raise InputError(
-            f"the largest tilt must be above 0° and at most 180°, not {np.degrees(max_tilt):.4g}°"
+            f"the largest tilt must be above 0° and at most 180°, not {arg(np.degrees(max_tilt)):.4g}°"
         )
     # Even in area: equal steps of the cosine. Powers of the plastic number keep bearings and yaws apart.
     step = np.arange(count)
@@ -174,12 +174,13 @@ def describe(R_WS: NDArray[np.float64], down_W: ArrayLike = DOWN_W) -> str:
     side = int(np.argmax(np.abs(down_S)))
     name = f"{'-' if down_S[side] < 0 else '+'}{'xyz'[side]}"
     lean = float(np.degrees(np.arccos(np.clip(np.abs(down_S[side]), -1, 1))))
-    lowest = f"the {name} axis lowest ({lean:.0f}° from straight down)"
+    lowest = message(f"the {arg(name)} axis lowest ({arg(lean):.0f}° from straight down)")
     if tilt < 1:
-        return "sensor z straight down"
+        return message("sensor z straight down")
     if tilt > 179:
-        return "sensor z straight up"
+        return message("sensor z straight up")
     bearing = np.degrees(np.arctan2(z_W[1], z_W[0])) % 360
-    return (
-        f"sensor z {tilt:.0f}° from straight down, bearing {bearing:.0f}° from the world's x axis; {lowest}"
+    return message(
+        f"sensor z {arg(tilt):.0f}° from straight down, bearing {arg(bearing):.0f}° from the world's x axis;"
+        f" {arg(lowest)}"
     )

@@ -32,7 +32,7 @@ from contactbench.pipeline.calibration.fit import (
     two_stage,
     whitener,
 )
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
@@ -78,8 +78,8 @@ class NoisePrior:
         """Return what a caller knows: noise and the orientations' sigma, rad, each None if nobody said."""
         if orientation is not None and not 0 <= orientation < _NO_ORIENTATION:
             raise InputError(
-                f"orientation_sigma is {orientation} rad: give at least 0 and less than {_NO_ORIENTATION:g} rad,"
-                " not degrees"
+                f"orientation_sigma is {arg(orientation)} rad: give at least 0 and less than"
+                f" {arg(_NO_ORIENTATION):g} rad, not degrees"
             )
         known = [
             np.concatenate([pose.force_sd, pose.torque_sd]) / np.sqrt(pose.count)

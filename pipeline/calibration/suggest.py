@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, para
 from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import describe
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -102,7 +102,7 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     taken = np.array([np.asarray(reachable.down_W) @ pose.R_WS for pose in calibration.poses])
     chosen = _newest_good(errors if settled else _ignorance(calibration.covariance, J), reachable, taken)
     before, after = calibration.contact_error, float(errors[chosen])
-    sentence = f"Next: {_how(reachable, chosen)}. {_gain(before, after)}"
+    sentence = message(f"Next: {arg(_how(reachable, chosen))}. {arg(_gain(before, after))}")
     return Suggestion(
         reachable.R_WS[chosen],
         reachable.joint_vector(chosen),
@@ -148,9 +148,11 @@ def plan_poses(
         There are too few or too many poses to plan, or too few to choose from.
     """
     if not 3 <= count <= _LARGEST_PLAN:
-        raise InputError(f"a plan has 3 to {_LARGEST_PLAN} poses, not {count}")
+        raise InputError(f"a plan has 3 to {arg(_LARGEST_PLAN)} poses, not {arg(count)}")
     if len(reachable) < count:
-        raise InputError(f"only {len(reachable)} poses can be reached, fewer than the {count} asked for")
+        raise InputError(
+            f"only {arg(len(reachable))} poses can be reached, fewer than the {arg(count)} asked for"
+        )
     theta = load.vector
     J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(noise)
     A = (task or usual_task()).parameter_sensitivity(theta)
@@ -292,7 +294,11 @@ def _ordered(chosen: list[int], reachable: Reachable) -> tuple[list[int], tuple[
     for number, (here, there) in enumerate(pairwise([None, *poses]), 1):
         obstacle = reachable.obstacle(here, there)  # type: ignore[arg-type]  # only the first is None
         if obstacle:
-            warnings.append(f"The straight joint move to pose {number} is not clear ({obstacle}): go around.")
+            warnings.append(
+                message(
+                    f"The straight joint move to pose {arg(number)} is not clear ({arg(obstacle)}): go around."
+                )
+            )
     return poses, tuple(warnings)
 
 
@@ -308,9 +314,14 @@ def _nearest_next(first: NDArray[np.float64], between: NDArray[np.float64]) -> t
 def _gain(before: float, after: float) -> str:
     """Say what a pose gains; an error far beyond a probe's size only means that something is still unknown."""
     if after > _UNDETERMINED:
-        return "This pose alone is not enough: the contact stays undetermined until another pose follows."
-    now = f"{plain(1e3 * before)} mm" if before < _UNDETERMINED else "not determined yet"
-    return f"The calibration's share of the contact error: {now} -> {plain(1e3 * after)} mm (1 sigma, worst case)."
+        return message(
+            "This pose alone is not enough: the contact stays undetermined until another pose follows."
+        )
+    now = f"{plain(1e3 * before)} mm" if before < _UNDETERMINED else message("not determined yet")
+    return message(
+        f"The calibration's share of the contact error: {arg(now)} -> {arg(plain(1e3 * after))} mm (1 sigma,"
+        " worst case)."
+    )
 
 
 def _how(reachable: Reachable, index: int) -> str:
@@ -320,8 +331,8 @@ def _how(reachable: Reachable, index: int) -> str:
     if joints is None or start is None:
         return stands
     moves = [
-        f"joint {number} to {np.degrees(there):.0f}°"
+        message(f"joint {arg(number)} to {arg(np.degrees(there)):.0f}°")
         for number, (here, there) in enumerate(zip(start, joints, strict=True), 1)
         if abs(there - here) > np.radians(0.5)
     ]
-    return f"{', '.join(moves) or 'stay where you are'} ({stands})"
+    return message(f"{arg(join(', ', moves) or message('stay where you are'))} ({arg(stands)})")

@@ -11,7 +11,7 @@ import numpy as np
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.outliers import limit
 from contactbench.pipeline.calibration.poses import named, stack
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.calibration.calibrate import Findings
@@ -52,7 +52,8 @@ class Limits:
     def __post_init__(self) -> None:
         if not 0 < self.good_error <= self.usable_error < np.inf:
             raise InputError(
-                f"Limits: give 0 < good_error <= usable_error, m, not {self.good_error} and {self.usable_error}"
+                f"Limits: give 0 < good_error <= usable_error, m, not {arg(self.good_error)} and"
+                f" {arg(self.usable_error)}"
             )
 
 
@@ -85,8 +86,8 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
         Whether a majority of the poses agrees.
     limits : Limits
     """
-    error = (
-        f"The calibration adds up to {plain(1e3 * findings.contact_error)} mm (1 sigma) to a contact point"
+    error = message(
+        f"The calibration adds up to {arg(plain(1e3 * findings.contact_error))} mm (1 sigma) to a contact point"
     )
     grave = _grave(findings, agree, limits, error)
     if grave:
@@ -94,7 +95,9 @@ def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
     slight = _slight(findings, limits, error)
     if slight:
         return Verdict(Level.USABLE, (*slight, *_possible(findings)))
-    good = f"{error}; the limit for good is {1e3 * limits.good_error:g} mm. No action needed."
+    good = message(
+        f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm. No action needed."
+    )
     return Verdict(Level.GOOD, (good, *_possible(findings)))
 
 
@@ -117,7 +120,7 @@ def _possible(findings: Findings) -> list[str]:
     return [
         cause.sentence  # a diagnosis says itself how probable it is
         if cause.diagnosed
-        else f"Possible, with a probability of {100 * cause.odds:.0f} %: {cause.sentence}"
+        else message(f"Possible, with a probability of {arg(100 * cause.odds):.0f} %: {arg(cause.sentence)}")
         for cause in findings.causes
         if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
     ] + [
@@ -135,8 +138,8 @@ def _tilted(findings: Findings) -> list[str]:
     sigma = float(np.sqrt(aside @ C @ aside)) / max(size, 1e-12)
     if angle < _LEVEL or size < _SURELY * sigma or not findings.observability.weighs:
         return []
-    sentence = (
-        f"Gravity is {angle:.1f}° off vertical: the base is not level, or something such as a"
+    sentence = message(
+        f"Gravity is {arg(angle):.1f}° off vertical: the base is not level, or something such as a"
         " cable pulls sideways all the time and counts as weight. Check the base and the cables."
     )
     return [sentence]
@@ -147,42 +150,56 @@ def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[
     told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in findings.causes)
     if not agree:
         words.append(
-            "No majority of the poses fits one gravity model. Either the orientations follow"
-            " another convention than declared (run contactbench calibrate diagnose), or most"
-            " captures were disturbed."
+            message(
+                "No majority of the poses fits one gravity model. Either the orientations follow"
+                " another convention than declared (run contactbench calibrate diagnose), or most"
+                " captures were disturbed."
+            )
         )
     if _restless(findings):
         words.append(
-            "The poses disagree far more than the readings scatter within each of them. Either"
-            " the orientations follow another convention than declared (run contactbench"
-            " calibrate diagnose), or captures were disturbed."
+            message(
+                "The poses disagree far more than the readings scatter within each of them. Either"
+                " the orientations follow another convention than declared (run contactbench"
+                " calibrate diagnose), or captures were disturbed."
+            )
         )
     elif min(findings.noise_factor) > _ABSURD and not told:
         words.append(
-            f"The residuals are {max(findings.noise_factor):.0f} times what the specified noise"
-            " explains. Check the convention of the orientations (contactbench calibrate"
-            " diagnose), and that nothing touched the tool."
+            message(
+                f"The residuals are {arg(max(findings.noise_factor)):.0f} times what the specified noise"
+                " explains. Check the convention of the orientations (contactbench calibrate"
+                " diagnose), and that nothing touched the tool."
+            )
         )
     if same_readings(findings):
         words.append(
-            "Every pose has exactly the same reading although the tool was turned: the sensor is"
-            " not responding. Check its cable and its power."
+            message(
+                "Every pose has exactly the same reading although the tool was turned: the sensor is"
+                " not responding. Check its cable and its power."
+            )
         )
     sight = findings.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
     elif sight.weighs and not sight.weak and (off := _off_down(findings)):
         words.append(
-            f"Gravity points {off:.0f}° away from down. Either the sensor reports the opposite"
-            " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
-            " robot is not mounted upright: then give the direction of down (--down)."
+            message(
+                f"Gravity points {arg(off):.0f}° away from down. Either the sensor reports the opposite"
+                " sign, the orientations are turned (run contactbench calibrate diagnose), or the"
+                " robot is not mounted upright: then give the direction of down (--down)."
+            )
         )
     if not words and findings.contact_error > limits.usable_error:
-        remedy = sight.weak or "Take more poses tilted about two axes, or average each for longer."
+        remedy = sight.weak or message("Take more poses tilted about two axes, or average each for longer.")
         if findings.model_error > 0.5 * findings.contact_error:
-            remedy = "More poses will not help: the error is not noise."
+            remedy = message("More poses will not help: the error is not noise.")
         words.extend(sight.null_directions)
-        words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
+        words.append(
+            message(
+                f"{arg(error)}; more than {arg(1e3 * limits.usable_error):g} mm is refused. {arg(remedy)}"
+            )
+        )
     return words
 
 
@@ -219,26 +236,37 @@ def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
         helps = findings.model_error < 0.5 * findings.contact_error
         good = 1e3 * limits.good_error
         words.append(
-            f"{error}; {good:g} mm would be good. One or two more poses will help."
+            message(f"{arg(error)}; {arg(good):g} mm would be good. One or two more poses will help.")
             if helps
-            else (f"{error}; {good:g} mm would be good. The error is not noise, so more poses will not help.")
+            else (
+                message(
+                    f"{arg(error)}; {arg(good):g} mm would be good. The error is not noise, so more poses"
+                    " will not help."
+                )
+            )
         )
     latest = int(np.argmax(stack(findings.poses).moments))
     if findings.deviates[latest].max() >= limit(len(findings.poses)):
         words.append(
-            f"{named(findings.poses, latest).capitalize()}, the last one, disagrees: it was"
-            " bumped, or the sensor's zero jumped before it and the bias is wrong. Take one or"
-            " two more poses to find out which."
+            message(
+                f"{arg(named(findings.poses, latest).capitalize())}, the last one, disagrees: it was"
+                " bumped, or the sensor's zero jumped before it and the bias is wrong. Take one or"
+                " two more poses to find out which."
+            )
         )
     if sight.weak:
         words.append(sight.weak)
     words.extend(_found(findings))
     if kept < _CHECKED_FROM:
         words.append(
-            f"With {kept} poses, none can be checked against the others. Take at least {_CHECKED_FROM}."
+            message(
+                f"With {arg(kept)} poses, none can be checked against the others. Take at least {arg(_CHECKED_FROM)}."
+            )
         )
     if rejected and len(findings.poses) < _NAMED_FROM:
-        names = ", ".join(named(findings.poses, each.index) for each in rejected)
-        again = "Retake it" if len(rejected) == 1 else "Retake them"
-        words.append(f"Left out: {names}. {again}, to have {_NAMED_FROM} poses or more.")
+        names = join(", ", (named(findings.poses, each.index) for each in rejected))
+        again = message("Retake it") if len(rejected) == 1 else message("Retake them")
+        words.append(
+            message(f"Left out: {arg(names)}. {arg(again)}, to have {arg(_NAMED_FROM)} poses or more.")
+        )
     return words

@@ -14,7 +14,7 @@ from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.poses import named, stack
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,37 +62,45 @@ class StillVerification:
         """By the same limits as for the calibration, and no residuals that its covariance denies."""
         limits, n = self.limits, len(self.names)
         worst = self.names[int(self.contact_errors.max(axis=1).argmax())]
-        error = (
-            f"In {n} new pose{'s' * (n > 1)} the residuals move a contact by {1e3 * self.contact_rms:.2g} mm rms, at"
-            f" most {1e3 * self.contact_worst:.2g} mm ({worst})"
+        error = message(
+            f"In {arg(n)} new {arg(message('poses') if n > 1 else message('pose'))} the residuals move a contact by"
+            f" {arg(1e3 * self.contact_rms):.2g} mm rms, at most {arg(1e3 * self.contact_worst):.2g} mm"
+            f" ({arg(worst)})"
         )
         if self.contact_rms > limits.usable_error:
-            refusal = (
-                f"{error}; more than {1e3 * limits.usable_error:g} mm rms is refused. Look for a touching cable, a"
-                " changed tool or a re-zeroed sensor, and calibrate again."
+            refusal = message(
+                f"{arg(error)}; more than {arg(1e3 * limits.usable_error):g} mm rms is refused. Look for a"
+                " touching cable, a changed tool or a re-zeroed sensor, and calibrate again."
             )
             return Verdict(Level.REFUSE, (refusal,))
         words = []
         if self.contact_rms > limits.good_error:
-            words.append(f"{error}; {1e3 * limits.good_error:g} mm rms would be good.")
+            words.append(message(f"{arg(error)}; {arg(1e3 * limits.good_error):g} mm rms would be good."))
         if self.p_value < _DOUBT:
             times = np.sqrt(self.chi_square / self.freedom)
             outlier, sigmas = self.names[self.worst], self.deviates[self.worst]
             words.append(
-                f"The residuals are {times:.1f} times what the calibration's uncertainty and noise"
-                f" explain (p = {self.p_value:.1g}), largest in {outlier} ({sigmas:.1f} sigma):"
-                " drift since the calibration, wrong orientations, or a touch."
+                message(
+                    f"The residuals are {arg(times):.1f} times what the calibration's uncertainty and noise"
+                    f" explain (p = {arg(self.p_value):.1g}), largest in {arg(outlier)} ({arg(sigmas):.1f} sigma):"
+                    " drift since the calibration, wrong orientations, or a touch."
+                )
             )
         if n < _FEW:
             words.append(
-                f"{n} {'poses say' if n > 1 else 'pose says'} little about other orientations."
-                f" Take {_FEW} or more."
+                message(f"{arg(n)} poses say little about other orientations. Take {arg(_FEW)} or more.")
+                if n > 1
+                else message(f"{arg(n)} pose says little about other orientations. Take {arg(_FEW)} or more.")
             )
         if words:
             return Verdict(Level.USABLE, tuple(words))
         return Verdict(
             Level.GOOD,
-            (f"{error}; the limit for good is {1e3 * limits.good_error:g} mm rms. No action needed.",),
+            (
+                message(
+                    f"{arg(error)}; the limit for good is {arg(1e3 * limits.good_error):g} mm rms. No action needed."
+                ),
+            ),
         )
 
     @property
@@ -177,7 +185,7 @@ def verify_still(
     for index, pose in enumerate(samples):
         if id(pose) in own:
             raise InputError(
-                f"verify_still: {named(samples, index)} was used for the calibration; give poses"
+                f"verify_still: {arg(named(samples, index))} was used for the calibration; give poses"
                 " that were not used"
             )
     task, limits = task or calibration.task, limits or Limits()

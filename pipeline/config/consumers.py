@@ -41,7 +41,7 @@ from contactbench.pipeline.calibration.model import (
     length,
 )
 from contactbench.pipeline.config.vertical import down_along_z, residual_of, vertical_residual
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -63,7 +63,7 @@ _NODE = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
 _YAML_WORDS = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"}
 _TOOL = re.compile(r"contactbench [0-9][0-9A-Za-z.+\-]*", re.ASCII)
 _LONGEST = 200
-_NOT_GIVEN = "(not given)"  # no name: the bracket is none of its characters
+_NOT_GIVEN = message("(not given)")  # no name: the bracket is none of its characters
 
 
 def ros2_yaml(
@@ -132,7 +132,9 @@ def ros2_yaml(
     _check(_NODE, "ros2_yaml", broadcaster=broadcaster, admittance=admittance)
     _check_tool("ros2_yaml", tool)
     if broadcaster == admittance:
-        raise InputError(f"ros2_yaml: broadcaster and admittance are both {admittance!r}: name two nodes")
+        raise InputError(
+            f"ros2_yaml: broadcaster and admittance are both {arg(admittance)!r}: name two nodes"
+        )
     vertical_residual(model, down_W)  # refuses gravity that points up
     # The exported interfaces carry the node's name without its namespace.
     source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or _PLACEHOLDER}"
@@ -243,7 +245,7 @@ def ft_calib_yaml(
     _check_tool("ft_calib_yaml", tool)
     if com_frame == child_frame:
         raise InputError(
-            f"ft_calib_yaml: com_frame and child_frame are both {com_frame!r}: tf needs two names"
+            f"ft_calib_yaml: com_frame and child_frame are both {arg(com_frame)!r}: tf needs two names"
         )
     if vertical_residual(model, down_W).weight == 0:
         raise InputError(
@@ -255,7 +257,7 @@ def ft_calib_yaml(
     where = (
         "z up"
         if down_along_z(down_W) == -1
-        else f"down in it is {_list(np.asarray(down_W, dtype=np.float64))}"
+        else message(f"down in it is {arg(_list(np.asarray(down_W, dtype=np.float64)))}")
     )
     return _document(
         *_head(
@@ -270,7 +272,7 @@ def ft_calib_yaml(
         f"#   {_list(down)}  release 1.2 and older: taken as it is, pointing down",
         f"#   {_list(-down)}  versions that negate the reading first",
         "# The wrong one of the two doubles the weight instead of removing it.",
-        *_warn("WARNING, should the topic carry the vertical of that frame instead: ", vertical),
+        *_warn(message("WARNING, should the topic carry the vertical of that frame instead: "), vertical),
         "# SUBTRACTED from the reading: the bias itself. Force, N, then torque, N*m.",
         *_sigma_comment("", np.concatenate([_sigma(model, FORCE_BIAS), _sigma(model, TORQUE_BIAS)])),
         f"bias: {_list([*model.force_bias, *model.torque_bias])}",
@@ -340,7 +342,8 @@ def _facts(file: str, text: str, names: Sequence[str]) -> list[str]:
         start, line = f"# {name}: ", lines[number] if number < len(lines) else ""
         if not line.startswith(start):
             raise InputError(
-                f"{file}, line {number + 2}: contactbench writes {start + '...'!r} here: export the bundle again."
+                f"{arg(file)}, line {arg(number + 2)}: contactbench writes {arg(start + '...')!r} here:"
+                " export the bundle again."
             )
         found.append(line.removeprefix(start))
     return found
@@ -358,7 +361,7 @@ def yaml_number(value: float) -> str:
         The value is not finite.
     """
     if not np.isfinite(value):
-        raise InputError(f"yaml_number: {value} is not finite; a consumer would act on it")
+        raise InputError(f"yaml_number: {arg(value)} is not finite; a consumer would act on it")
     digits = repr(float(value) + 0.0)  # + 0.0: no -0.0
     mantissa, e, exponent = digits.partition("e")
     return f"{mantissa if '.' in mantissa else mantissa + '.0'}{e}{exponent}"
@@ -385,19 +388,23 @@ def _check(pattern: re.Pattern[str], where: str, **names: str) -> None:
     for name, value in names.items():
         if len(value) > _LONGEST:
             raise InputError(
-                f"{where}: {name} has {len(value)} characters: give a name of at most {_LONGEST}."
+                f"{arg(where)}: {arg(name)} has {arg(len(value))} characters: give a name of at most {arg(_LONGEST)}."
             )
         if not pattern.fullmatch(value):
+            dots, more = "", message(", none starting with a digit")
+            if pattern is _FRAME:
+                dots, more = " . -", message(", and no / in front, which tf2 refuses")
             raise InputError(
-                f"{where}: {name} {value!r} is no name that every consumer takes: letters, digits and _"
-                f"{' . -' if pattern is _FRAME else ''}, in parts with one / between"
-                f"{', and no / in front, which tf2 refuses' if pattern is _FRAME else ', none starting with a digit'}"
+                f"{arg(where)}: {arg(name)} {arg(value)!r} is no name that every consumer takes: letters,"
+                f" digits and _{arg(dots)}, in parts with one / between{arg(more)}"
             )
 
 
 def _check_tool(where: str, tool: str) -> None:
     if len(tool) > _LONGEST or not _TOOL.fullmatch(tool):
-        raise InputError(f"{where}: tool {tool[:80]!r} is not contactbench and a version: export it again.")
+        raise InputError(
+            f"{arg(where)}: tool {arg(tool[:80])!r} is not contactbench and a version: export it again."
+        )
 
 
 # ---- comments ------------------------------------------------------------------------------------

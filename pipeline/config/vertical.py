@@ -13,14 +13,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.model import DOWN_W, length
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from contactbench.pipeline.calibration import GravityModel
 
-NO_ADMITTANCE: Final = (
+NO_ADMITTANCE: Final = message(
     "ros2.yaml holds only the broadcaster's offset: the admittance controller of ros2_control cannot take the weight of"
     " a tool whose robot is on a wall or a tilted base."
 )
@@ -100,7 +100,7 @@ def vertical_residual(model: GravityModel, down_W: ArrayLike = DOWN_W) -> Vertic
     along = float(model.gravity_W @ np.asarray(down_W, dtype=np.float64))
     if points_away(model, down_W):
         raise InputError(
-            f"gravity_W: gravity points up (by {-along:.3g} N) against the declared direction of"
+            f"gravity_W: gravity points up (by {arg(-along):.3g} N) against the declared direction of"
             " down. The sensor reports the opposite sign, or the orientations are inverted:"
             " correct that. If the robot is not mounted upright, give --down and recalibrate."
         )
@@ -130,10 +130,13 @@ def residual_of(model: GravityModel, weight: float, down_W: ArrayLike = DOWN_W) 
     warnings = []
     if force > max(force_sigma, least) or torque > max(torque_sigma, arm * least):
         warnings.append(
-            f"Gravity in the calibration is tilted by {tilt:.3g} deg from the vertical of its world frame. Taken"
-            f" as vertical, it leaves up to {force:.2g} N and {torque:.2g} N*m in a compensated wrench, where"
-            f" the calibration itself leaves {force_sigma:.2g} N and {torque_sigma:.2g} N*m (1 sigma). Level"
-            " the base, or put its tilt into the robot description, and calibrate again."
+            message(
+                f"Gravity in the calibration is tilted by {arg(tilt):.3g} deg from the vertical of its world"
+                f" frame. Taken as vertical, it leaves up to {arg(force):.2g} N and {arg(torque):.2g} N*m in"
+                f" a compensated wrench, where the calibration itself leaves {arg(force_sigma):.2g} N and"
+                f" {arg(torque_sigma):.2g} N*m (1 sigma). Level the base, or put its tilt into the robot"
+                " description, and calibrate again."
+            )
         )
     return VerticalResidual(tilt, weight, force, torque, force_sigma, torque_sigma, tuple(warnings))
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def spread(probe: Probe, count: int) -> tuple[NDArray[np.float64], NDArray[np.fl
         places, normals = _seen_from_above(probe, index, low, high, cell)
         if not len(places):
             raise InputError(
-                f"probe {probe.name}: no part of it lies within 12 mm of its tip: check that it is aligned."
+                f"probe {arg(probe.name)}: no part of it lies within 12 mm of its tip: check that it is aligned."
             )
         cell, area = cell * len(places) / count, cell
     return places, normals, area

@@ -27,7 +27,7 @@ from contactbench.pipeline.contact.paraboloid import fit_contact_face
 from contactbench.pipeline.contact.solver import ContactSolver
 from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.kernel import Batch, Contact
 from contactbench.pipeline.mesh import Probe
@@ -140,5 +140,5 @@ def make(
         There is no method of this name.
     """
     if name not in METHODS:
-        raise InputError(f"there is no method {name!r}: choose one of {', '.join(METHODS)}")
+        raise InputError(f"there is no method {arg(name)!r}: choose one of {arg(', '.join(METHODS))}")
     return METHODS[name](probe, noise, gates, model)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 
@@ -51,10 +51,13 @@ class WrenchNoise:
 def _three(name: str, value: float | ArrayLike, unit: str) -> NDArray[np.float64]:
     array = np.asarray(value, dtype=np.float64)
     if array.shape not in {(), (3,)}:
-        raise InputError(f"WrenchNoise.{name}: give one number or three ({unit}), not shape {array.shape}")
+        raise InputError(
+            f"WrenchNoise.{arg(name)}: give one number or three ({arg(unit)}), not shape {arg(array.shape)}"
+        )
     if not np.all(np.isfinite(array)) or np.any(array < 0):
         raise InputError(
-            f"WrenchNoise.{name}: standard deviations ({unit}) must be finite and at least 0, not {value!r}"
+            f"WrenchNoise.{arg(name)}: standard deviations ({arg(unit)}) must be finite and at least 0, not"
+            f" {arg(value)!r}"
         )
     return np.broadcast_to(array, (3,))
 
@@ -62,7 +65,7 @@ def _three(name: str, value: float | ArrayLike, unit: str) -> NDArray[np.float64
 def _checked_covariance(extra: ArrayLike) -> NDArray[np.float64]:
     array = np.asarray(extra, dtype=np.float64)
     if array.shape != (6, 6) or not np.all(np.isfinite(array)):
-        raise InputError(f"WrenchNoise.extra: give a finite (6, 6) covariance of {' '.join(_CHANNELS)}")
+        raise InputError(f"WrenchNoise.extra: give a finite (6, 6) covariance of {arg(' '.join(_CHANNELS))}")
     size = float(np.abs(array).max())
     if not np.allclose(array, array.T, rtol=0, atol=1e-12 * size):
         raise InputError("WrenchNoise.extra: the covariance is not symmetric")

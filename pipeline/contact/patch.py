@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from typing import Self
@@ -76,7 +76,7 @@ class Bed:
             x, y = (float(each) for each in text.split(","))
         except ValueError:
             raise InputError(
-                f"patch {text[:40]!r}: give flat, or the radii of the touched surface along S's x"
+                f"patch {arg(text[:40])!r}: give flat, or the radii of the touched surface along S's x"
                 " and y, mm, such as 80,0."
             ) from None
         return cls((1000 / x if x else 0.0, 1000 / y if y else 0.0))
@@ -84,13 +84,13 @@ class Bed:
     def __post_init__(self) -> None:
         if len(self.curvature) != 2 or not np.all(np.abs(self.curvature) <= _MOST_CURVED):
             raise InputError(
-                f"Bed.curvature {self.curvature}: give two numbers within ±{_MOST_CURVED:g} 1/m."
+                f"Bed.curvature {arg(self.curvature)}: give two numbers within ±{arg(_MOST_CURVED):g} 1/m."
             )
         if not 0 < self.modulus < np.inf:
-            raise InputError(f"Bed.modulus {self.modulus}: give a pressure per depth above 0, N/m³.")
+            raise InputError(f"Bed.modulus {arg(self.modulus)}: give a pressure per depth above 0, N/m³.")
         if not 1 <= self.factor < np.inf:
             raise InputError(
-                f"Bed.factor {self.factor}: give the factor by which the modulus may be off, 1 or more."
+                f"Bed.factor {arg(self.factor)}: give the factor by which the modulus may be off, 1 or more."
             )
 
 
@@ -136,10 +136,11 @@ class Patch:
             f"{50 * (1 - share):.0f}/{50 * (1 + share):.0f} ± {50 * sigma:.0f} % along {axis}"
             for axis, share, sigma in zip("xy", self.balance, self.balance_sigma, strict=True)
         ]
-        return (
-            f"The point is the centre of pressure of a patch of {1e4 * self.area:.1f} cm²: {x:+.1f} ± {dx:.1f} mm along"
-            f" x and {y:+.1f} ± {dy:.1f} mm along y from its middle; it is pressed at a tilt of {tx:+.1f} ± {sx:.1f}°"
-            f" along x and {ty:+.1f} ± {sy:.1f}° along y; the force is {sides[0]} and {sides[1]}."
+        return message(
+            f"The point is the centre of pressure of a patch of {arg(1e4 * self.area):.1f} cm²:"
+            f" {arg(x):+.1f} ± {arg(dx):.1f} mm along x and {arg(y):+.1f} ± {arg(dy):.1f} mm along y from"
+            f" its middle; it is pressed at a tilt of {arg(tx):+.1f} ± {arg(sx):.1f}° along x and"
+            f" {arg(ty):+.1f} ± {arg(sy):.1f}° along y; the force is {arg(sides[0])} and {arg(sides[1])}."
         )
 
 

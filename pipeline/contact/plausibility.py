@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import Reason, SurfaceIndex
 
 if TYPE_CHECKING:
@@ -75,27 +76,31 @@ class Plausibility:
 
     def sentences(self) -> tuple[str, ...]:
         """Return what is wrong, the likeliest cause, and the remedy."""
-        figures = (
-            f"No single touch of the probe explains most of the wrenches: {self.plausible} of"
-            f" {self.rows} rows tried are plausible. Median arm (torque over force):"
-            f" {self.arm_m:.3g} m; the probe reaches {self.reach_m:.2g} m. The line of force"
-            f" misses the probe by {1e3 * self.miss_m:.0f} mm (median). Smallest force in the"
-            f" file: {self.smallest_force_N:.2g} N."
+        figures = message(
+            f"No single touch of the probe explains most of the wrenches: {arg(self.plausible)} of"
+            f" {arg(self.rows)} rows tried are plausible. Median arm (torque over force):"
+            f" {arg(self.arm_m):.3g} m; the probe reaches {arg(self.reach_m):.2g} m. The line of force"
+            f" misses the probe by {arg(1e3 * self.miss_m):.0f} mm (median). Smallest force in the"
+            f" file: {arg(self.smallest_force_N):.2g} N."
         )
         if not self.likely:
             return (figures, _NO_CAUSE)
         first, *others = self.likely
         also = (
-            f" Equally many fit if {' or if '.join(trial.cause for trial in others[:2])}." if others else ""
+            message(
+                f" Equally many fit if {arg(join(message(' or if '), (trial.cause for trial in others[:2])))}."
+            )
+            if others
+            else ""
         )
-        cause = (
-            f"Most likely {first.cause}: {first.plausible} of {first.rows} rows ({100 * first.share:.0f} %) are then"
-            f" plausible. {first.remedy}{also}"
+        cause = message(
+            f"Most likely {arg(first.cause)}: {arg(first.plausible)} of {arg(first.rows)} rows"
+            f" ({arg(100 * first.share):.0f} %) are then plausible. {arg(first.remedy)}{arg(also)}"
         )
         return (figures, cause)
 
 
-_NO_CAUSE = (
+_NO_CAUSE = message(
     "None of the usual mistakes makes most of them plausible (torques in N·mm, reversed forces, a"
     " mount turned by right angles, uncompensated weight). Check the position in --place, and"
     " that nothing else touches or pulls the probe: two touches at once, or a cable, look like"
@@ -167,29 +172,33 @@ def _mistakes(
     if reaches > _FAR:
         yield (
             "torques_in_Nmm",
-            "the torques are in N·mm",
-            "Divide mx, my and mz by 1000.",
+            message("the torques are in N·mm"),
+            message("Divide mx, my and mz by 1000."),
             wrenches * [1, 1, 1, 1e-3, 1e-3, 1e-3],
         )
     yield (
         "reversed",
-        "the signs are reversed",
-        "Negate all six channels: the file must contain the force of the tissue on the probe.",
+        message("the signs are reversed"),
+        message("Negate all six channels: the file must contain the force of the tissue on the probe."),
         -wrenches,
     )
     rest = _at_rest(wrenches)
     if np.linalg.norm(rest[:3]) > _HEAVY_N:
         yield (
             "not_compensated",
-            f"weight or offset is still in the wrenches ({np.linalg.norm(rest[:3]):.2g} N, repeatedly)",
-            "Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.",
+            message(
+                f"weight or offset is still in the wrenches ({arg(np.linalg.norm(rest[:3])):.2g} N, repeatedly)"
+            ),
+            message(
+                "Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES."
+            ),
             wrenches - rest,
         )
     for name, turn in _TURNS:
         yield (
             "turned",
-            f"the mount is off by a turn of {name}",
-            f"Turn the mesh by {name}, in --place or with `contactbench probe align`.",
+            message(f"the mount is off by a turn of {arg(name)}"),
+            message(f"Turn the mesh by {arg(name)}, in --place or with `contactbench probe align`."),
             np.hstack([wrenches[:, :3] @ turn, wrenches[:, 3:] @ turn]),
         )
 

@@ -18,7 +18,7 @@ from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHAB
 from contactbench.pipeline.contact.plausibility import Plausibility, Sample, unexplained
 from contactbench.pipeline.contact.wrench_csv import WrenchBlock, WrenchFileError, WrenchReader
 from contactbench.pipeline.durable import scratch_beside, sync_folder
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
@@ -212,9 +212,9 @@ class _Tracked(_Untracked):
     def warnings(self) -> tuple[str, ...]:
         if not self._stale:
             return ()
-        sentences = (
-            f"Rows that are not later than all rows before them: {self._stale}, the first on line"
-            f" {self._first_stale}. Their answer is stale. If recordings were joined, split them."
+        sentences = message(
+            f"Rows that are not later than all rows before them: {arg(self._stale)}, the first on line"
+            f" {arg(self._first_stale)}. Their answer is stale. If recordings were joined, split them."
         )
         return (sentences,)
 
@@ -222,7 +222,9 @@ class _Tracked(_Untracked):
 def _tracked(locator: Locator) -> _Tracked:
     if not hasattr(locator, "track_batch"):
         name = getattr(locator, "name", type(locator).__name__)
-        raise InputError(f"method {name} cannot track: only contactbench can. Choose it, or do not track.")
+        raise InputError(
+            f"method {arg(name)} cannot track: only contactbench can. Choose it, or do not track."
+        )
     return _Tracked(locator)
 
 
@@ -305,18 +307,18 @@ class _Tally:
         return float(f"{value:.4g}")
 
     def warnings(self) -> tuple[str, ...]:
-        sentences = {
-            INVENTED: (
-                "Contacts on invented facets: {} of {}. The mesh file had an opening there, so"
-                " surface and contacts are guesses."
-            ),
-            UNTOUCHABLE: "Contacts on untouchable regions: {} of {}. Nothing should be able to touch there: check the"
-            " region, then the mount and the compensation.",
-        }
         contacts = self._bins.sum()
-        return tuple(
-            text.format(self.on[mark], contacts) for mark, text in sentences.items() if self.on[mark]
-        )
+        sentences = {
+            INVENTED: message(
+                f"Contacts on invented facets: {arg(self.on[INVENTED])} of {arg(contacts)}. The mesh file had an"
+                " opening there, so surface and contacts are guesses."
+            ),
+            UNTOUCHABLE: message(
+                f"Contacts on untouchable regions: {arg(self.on[UNTOUCHABLE])} of {arg(contacts)}. Nothing should"
+                " be able to touch there: check the region, then the mount and the compensation."
+            ),
+        }
+        return tuple(text for mark, text in sentences.items() if self.on[mark])
 
 
 # ---- files -------------------------------------------------------------------------------------
@@ -338,7 +340,9 @@ def refuse_overwriting(out: Path | BinaryIO, source: Path | BinaryIO) -> None:
     except (OSError, ValueError):  # ValueError: a path that no file system can hold
         return  # one of them does not exist, or opening it will say what is wrong
     if same:
-        raise WrenchFileError(f"{out}: the output would overwrite the input: choose another name for it.")
+        raise WrenchFileError(
+            f"{arg(out)}: the output would overwrite the input: choose another name for it."
+        )
 
 
 @contextmanager
@@ -371,7 +375,7 @@ def whole_output(out: Path | BinaryIO, what: str) -> Iterator[Callable[[bytes], 
         # A link stays one: what it points at is replaced.
         file = out.resolve()
         if file.exists() and not file.is_file():
-            raise WrenchFileError(f"{out}: this is a folder or a device: choose the name of a file.")
+            raise WrenchFileError(f"{arg(out)}: this is a folder or a device: choose the name of a file.")
         scratch = scratch_beside(file)
         stream = scratch.open("xb")
 
@@ -399,6 +403,6 @@ def _explained(out: Path, what: str) -> Iterator[None]:
         yield
     except OSError as error:
         raise WrenchFileError(
-            f"{out}: the {what} cannot be written ({error.strerror or error}): choose a folder that exists,"
-            " is writable and has space."
+            f"{arg(out)}: the {arg(what)} cannot be written ({arg(error.strerror or error)}): choose a"
+            " folder that exists, is writable and has space."
         ) from error

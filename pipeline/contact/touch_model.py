@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from math import isfinite
 
 from contactbench.pipeline.contact.noise import WrenchNoise
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM, TORSION_ARM_M
 
 
@@ -42,4 +42,4 @@ class TouchModel:
         for name in ("torsion_arm", "mesh_deviation"):
             value = getattr(self, name)
             if not (isfinite(value) and 0 <= value <= 1000):
-                raise InputError(f"TouchModel.{name} must be between 0 and 1000 m, not {value}")
+                raise InputError(f"TouchModel.{arg(name)} must be between 0 and 1000 m, not {arg(value)}")

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.contact.solver import ContactSolver
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.kernel import Batch, Contact
 
@@ -87,7 +87,7 @@ class EmbreeAxis(WrenchAxis):
             scene_module = import_module("embreex.rtcore_scene")
             mesh_module = import_module("embreex.mesh_construction")
         except ImportError as error:
-            raise InputError(f"the wrench_axis method needs Embree: {remedy('embree')}") from error
+            raise InputError(f"the wrench_axis method needs Embree: {arg(remedy('embree'))}") from error
         super().__init__(solver)
         self.scene = scene_module.EmbreeScene()
         self._mesh = mesh_module.TriangleMesh(self.scene, *self._single)

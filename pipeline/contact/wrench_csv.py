@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.tables import BLOCK_BYTES, TableError, TableReader, Wording
 
 if TYPE_CHECKING:
@@ -33,8 +34,8 @@ class WrenchFileError(TableError):
 _WORDING = Wording(
     header=",".join(COLUMNS),
     rows="wrenches",
-    meaning="forces in N, torques in N·m, in the sensor frame S",
-    not_finite="remove the row, or pass --allow-nan to get the answer not_finite.",
+    meaning=message("forces in N, torques in N·m, in the sensor frame S"),
+    not_finite=message("remove the row, or pass --allow-nan to get the answer not_finite."),
     text="a time",
     error=WrenchFileError,
 )
@@ -98,8 +99,8 @@ class WrenchReader:
         """
         raw = [name for name in self._table.names if name in RAW_COLUMNS]
         if raw:
-            what = (
-                f"column{'s' * (len(raw) > 1)} {', '.join(raw)}: this is a raw recording that"
+            what = message(
+                f"column{arg('s' * (len(raw) > 1))} {arg(', '.join(raw))}: this is a raw recording that"
                 " includes the tool's weight and the sensor's offset. Compensate it first:"
                 " contactbench calibrate compensate calibration.json RECORDING --out WRENCHES; or"
                 " pass --compensated if that is done."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 
 class Admittance:
@@ -34,8 +34,8 @@ class Admittance:
     def __init__(self, mass: float, damping: float, stiffness: float = 0.0) -> None:
         if not (0 < mass < math.inf and 0 < damping < math.inf and 0 <= stiffness < math.inf):
             raise InputError(
-                f"admittance: mass {mass}, damping {damping}, stiffness {stiffness}: the first two must be positive,"
-                " the last 0 or more."
+                f"admittance: mass {arg(mass)}, damping {arg(damping)}, stiffness {arg(stiffness)}: the"
+                " first two must be positive, the last 0 or more."
             )
         self.mass, self.damping, self.stiffness = mass, damping, stiffness
         self.speed = self.path = 0.0
@@ -54,7 +54,9 @@ class Admittance:
             A number is not finite, or dt not positive.
         """
         if not (math.isfinite(error) and 0 < dt < math.inf):
-            raise InputError(f"admittance: error {error}, dt {dt}: they must be finite, dt positive.")
+            raise InputError(
+                f"admittance: error {arg(error)}, dt {arg(dt)}: they must be finite, dt positive."
+            )
         before = self.path
         if self.stiffness == 0:
             decay = math.exp(-self.damping * dt / self.mass)

@@ -14,7 +14,7 @@ from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.control.command import SensorMount
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike 
         )
     if told is not None and given is not None and abs(float(np.dot(told, given))) < 1 - 1e-6:
         raise InputError(
-            f"bundle: frames.quaternion_ES is {told}, but {given.tolist()} was given: leave it"
+            f"bundle: frames.quaternion_ES is {arg(told)}, but {arg(given.tolist())} was given: leave it"
             " out, or recalibrate."
         )
     quaternion = given if told is None else np.array(told)

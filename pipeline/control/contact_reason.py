@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:
@@ -35,11 +36,11 @@ NEAR_M, NEAR_S = 0.01, 0.5  # how far from the last sure place, and how old that
 class Heed(StrEnum):
     """What is done."""
 
-    TURN = "turn by it"
-    NEAR = "turn by what is near the last sure place"
-    KEEP = "keep the force"
+    TURN = message("turn by it")
+    NEAR = message("turn by what is near the last sure place")
+    KEEP = message("keep the force")
     HOLD = "hold"
-    RETRACT = "go back"
+    RETRACT = message("go back")
 
 
 HEED = {

@@ -25,7 +25,7 @@ from contactbench.pipeline.control.surface import TissueSurface
 from contactbench.pipeline.control.tare import Tare
 from contactbench.pipeline.control.tilt import Tilt
 from contactbench.pipeline.control.upright import Upright
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -245,7 +245,7 @@ class Controller:
         here = np.asarray(q_measured, dtype=np.float64)
         if here.shape != self._q.shape:
             raise InputError(
-                f"controller: {here.shape} joints for an arm that has {self._q.shape}: give all of them."
+                f"controller: {arg(here.shape)} joints for an arm that has {arg(self._q.shape)}: give all of them."
             )
         if not np.isfinite(here).all():
             return self._q, False

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -113,14 +113,16 @@ def read_line(line: str | bytes) -> Beginning | LoopFrame | dict[str, Any]:
         if kind == FRAME:
             return LoopFrame(**_checked(LoopFrame, content))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(f"line of a closed loop: it cannot be read ({error!r:.100}).") from error
-    raise InputError(f"line of a closed loop: its kind is {kind!a:.60}, not {BEGIN}, {FRAME} or {END}.")
+        raise InputError(f"line of a closed loop: it cannot be read ({arg(repr(error)[:100])}).") from error
+    raise InputError(
+        f"line of a closed loop: its kind is {arg(ascii(kind)[:60])}, not {arg(BEGIN)}, {arg(FRAME)} or {arg(END)}."
+    )
 
 
 def _checked(kind: type, content: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of a kind, arrays as tuples, numbers finite."""
     if unknown := set(content) - {each.name for each in fields(kind)}:
-        raise ValueError(f"{sorted(unknown)[0]} is unknown")
+        raise ValueError(message(f"{arg(sorted(unknown)[0])} is unknown"))
     found = {}
     for each in fields(kind):
         value = content[each.name]

@@ -18,7 +18,7 @@ import numpy as np
 from contactbench.pipeline.control.bundle import controller_of, limits_of
 from contactbench.pipeline.control.margins import AXES, Axis, Margins, loop_of, margins
 from contactbench.pipeline.control.settings import USUAL_GAIN, ControlSettings, Variant
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.control.foundation import Foundation
@@ -47,12 +47,12 @@ class WantedMargins:
     def __post_init__(self) -> None:
         if not (1 < self.gain <= 100 and 0 < self.phase < math.pi / 2):
             raise InputError(
-                f"tuning: gain margin {self.gain:g}, phase margin {math.degrees(self.phase):g} degrees: give 1 to 100,"
-                " and 0 to 90."
+                f"tuning: gain margin {arg(self.gain):g}, phase margin {arg(math.degrees(self.phase)):g}"
+                " degrees: give 1 to 100, and 0 to 90."
             )
         if not (1 <= self.spread <= 20 and _SLOWEST < self.fastest <= 50):
             raise InputError(
-                f"tuning: spread {self.spread:g}, fastest {self.fastest:g}/s: give 1 to 20, and up to 50."
+                f"tuning: spread {arg(self.spread):g}, fastest {arg(self.fastest):g}/s: give 1 to 20, and up to 50."
             )
 
     def kept(self, found: Margins) -> bool:
@@ -165,8 +165,14 @@ class _Search:
                 break
         gain = self._highest(axis)
         self._gains[axis] = gain
-        slower = "" if self._bandwidths[axis] == usual else f", lead slowed to {self._bandwidths[axis]:.3g}/s"
-        self.reached[axis] = ("as fast as is useful" if gain == fastest else "the margins") + slower
+        slower = (
+            ""
+            if self._bandwidths[axis] == usual
+            else message(f", lead slowed to {arg(self._bandwidths[axis]):.3g}/s")
+        )
+        self.reached[axis] = (
+            message("as fast as is useful") if gain == fastest else message("the margins")
+        ) + slower
 
     def _left(self, axis: Axis, gain: float) -> bool:
         self._gains[axis] = gain
@@ -183,7 +189,7 @@ class _Search:
             return high
         if not self._left(axis, low):
             raise InputError(
-                f"tuning: {axis}: even a gain of {low:g}/s leaves less than the wanted margins:"
+                f"tuning: {arg(axis)}: even a gain of {arg(low):g}/s leaves less than the wanted margins:"
                 " lower the margins or the spread of stiffness."
             )
         for _ in range(_STEPS):

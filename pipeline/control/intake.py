@@ -14,6 +14,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.control.contact_reason import Heed, SurePlace, heed
 from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.gates import Gates
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ class SensingFault(StrEnum):
     STALE = "stale"
     STUCK = "stuck"
     SATURATED = "saturated"
-    CLOCK = "from a clock that went back"
+    CLOCK = message("from a clock that went back")
     UNHEALTHY = "unhealthy"  # a method says so of its readings
 
 

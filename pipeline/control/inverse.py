@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -25,8 +27,8 @@ _PLANNED = 0.6
 class MotionLimit(StrEnum):
     """What kept the arm from going as it should."""
 
-    SPEED = "joint speed"
-    LIMIT = "joint limit"
+    SPEED = message("joint speed")
+    LIMIT = message("joint limit")
     SINGULAR = "singularity"
 
 

@@ -15,7 +15,7 @@ from contactbench.pipeline.control.axes import cross
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.control.trace import STATES, Trace
 from contactbench.pipeline.devices.sample import Status, WrenchSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes import ArmScene
 
 if TYPE_CHECKING:
@@ -214,7 +214,7 @@ def run_loop(
         See `PhysicsScene.step`.
     """
     if not 0 < seconds <= _LONGEST_S:
-        raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
+        raise InputError(f"closed loop: {arg(seconds)} s: give a time above 0, up to {arg(_LONGEST_S):g} s.")
     loop = Loop(scene, controller, sensor, line, poses_late=poses_late)
     begin = scene.time
     while scene.time < begin + seconds - 1e-9:

@@ -11,7 +11,7 @@ import numpy as np
 from contactbench.pipeline.control.admittance import Admittance
 from contactbench.pipeline.control.follower import Follower
 from contactbench.pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -88,7 +88,7 @@ def loop_of(
     """
     if not (0 < modulus < math.inf and -1 <= unknown <= 1):
         raise InputError(
-            f"margins: modulus {modulus} N/m³, unknown {unknown}: give a positive one, and -1 to 1."
+            f"margins: modulus {arg(modulus)} N/m³, unknown {arg(unknown)}: give a positive one, and -1 to 1."
         )
     force = settings.desired_force
     true = foundation.at(force, modulus)

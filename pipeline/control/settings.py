@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from contactbench.pipeline.control.foundation import Foundation
@@ -114,16 +114,18 @@ class ControlSettings:
             numbers = np.atleast_1d(value) if not isinstance(value, str) else np.ones(1)
             low_ok = numbers >= 0 if each.name in _MAY_BE_ZERO else numbers > 0
             if not (np.isfinite(numbers).all() and low_ok.all()):
-                raise InputError(f"control settings: {each.name} is {value}: give positive, finite numbers.")
+                raise InputError(
+                    f"control settings: {arg(each.name)} is {arg(value)}: give positive, finite numbers."
+                )
         if not self.touch_force < self.desired_force < 0.8 * self.max_force:
             raise InputError(
-                f"control settings: the wanted force of {self.desired_force:g} N must be above"
-                f" {self.touch_force:g} N and below 80 % of the limit of {self.max_force:g} N:"
+                f"control settings: the wanted force of {arg(self.desired_force):g} N must be above"
+                f" {arg(self.touch_force):g} N and below 80 % of the limit of {arg(self.max_force):g} N:"
                 " change one of them."
             )
         if self.max_tilt >= math.pi / 2:
             raise InputError(
-                f"control settings: max_tilt is {self.max_tilt:g} rad: give less than a quarter turn, 1.57."
+                f"control settings: max_tilt is {arg(self.max_tilt):g} rad: give less than a quarter turn, 1.57."
             )
 
     @classmethod

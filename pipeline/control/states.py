@@ -49,6 +49,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.control.intake import SensingFault
 from contactbench.pipeline.control.inverse import MotionLimit
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.control.intake import Sensed
@@ -181,13 +182,16 @@ class Safety:
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
                 sensed.fault is not None
             ):
-                self._wait(f"the sensor is {sensed.fault.value}: no motion on stale readings.", rising)
+                self._wait(
+                    message(f"the sensor is {arg(sensed.fault.value)}: no motion on stale readings."), rising
+                )
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if (
                 self._delayed > _DELAYED_S
             ):
                 late_ms = 1e3 * poses_late
                 self._to(
-                    ControlState.RETRACT, f"the poses are {late_ms:.0f} ms late, so the position is unknown."
+                    ControlState.RETRACT,
+                    message(f"the poses are {arg(late_ms):.0f} ms late, so the position is unknown."),
                 )
             case ControlState.APPROACH | ControlState.CONTACT | ControlState.TRACK if late:
                 self._behind(rising)
@@ -233,11 +237,11 @@ class Safety:
 
     def _danger(self, sensed: Sensed) -> str | None:
         if self._stop:
-            return "it was stopped."
+            return message("it was stopped.")
         if sensed.fault is SensingFault.SATURATED:
-            return "the sensor is at the end of its range, so the force is unknown."
+            return message("the sensor is at the end of its range, so the force is unknown.")
         if self._blocked > _STOPPED_S and self.state is not ControlState.HOLD:
-            return "the arm cannot move farther: joint limit or singularity."
+            return message("the arm cannot move farther: joint limit or singularity.")
         return None
 
     def _overload(self, sensed: Sensed, dt: float) -> str | None:
@@ -251,19 +255,21 @@ class Safety:
         limits = ("N", self.settings.max_force), ("N·m", self.settings.max_torque)
         for (unit, most), size, old in zip(limits, self._loads, before, strict=True):
             if size > _ALARM * most:
-                return f"{size:.1f} {unit} come too close to the limit of {most:g} {unit}."
+                return message(
+                    f"{arg(size):.1f} {arg(unit)} come too close to the limit of {arg(most):g} {arg(unit)}."
+                )
             rate = (size - old) / age
             if size + _REACTION_S * rate > most:  # never of NaN, as at first
-                return (
-                    f"{size:.1f} {unit} grow by {rate:.0f} {unit} per s and will soon exceed the limit"
-                    f" of {most:g} {unit}."
+                return message(
+                    f"{arg(size):.1f} {arg(unit)} grow by {arg(rate):.0f} {arg(unit)} per s and will soon"
+                    f" exceed the limit of {arg(most):g} {arg(unit)}."
                 )
         return None
 
     def _askew(self, turned: float) -> str | None:
         if self.state in (ControlState.CONTACT, ControlState.TRACK) and turned > self.settings.max_tilt:
-            return (
-                f"it has turned by {math.degrees(turned):.0f} degrees from the start, more than any"
+            return message(
+                f"it has turned by {arg(math.degrees(turned)):.0f} degrees from the start, more than any"
                 " tissue requires."
             )
         return None
@@ -274,17 +280,17 @@ class Safety:
             and sensed.fresh
             and force > _PRESSED * self.settings.desired_force
         ):
-            return f"the tissue pushes with {force:.1f} N while the arm stands still."
+            return message(f"the tissue pushes with {arg(force):.1f} N while the arm stands still.")
         return None
 
     # ---- one state each --------------------------------------------------------------------------
 
     def _approach(self, force: float, travelled: float) -> None:
         if force > self.settings.touch_force:
-            self._to(ControlState.CONTACT, f"in contact, with {force:.1f} N.")
+            self._to(ControlState.CONTACT, message(f"in contact, with {arg(force):.1f} N."))
         elif travelled > self.settings.approach_travel:
             far = 1000 * self.settings.approach_travel
-            self._to(ControlState.RETRACT, f"no tissue found within {far:.0f} mm.")
+            self._to(ControlState.RETRACT, message(f"no tissue found within {arg(far):.0f} mm."))
 
     def _contact(self, force: float, probed: bool, dt: float) -> None:
         if self._again():
@@ -292,39 +298,47 @@ class Safety:
         near = abs(force - self.settings.desired_force) < _NEAR * self.settings.desired_force
         self._steady = self._steady + dt if near else 0.0
         if self._steady >= _STEADY_S and probed and self.elapsed > self.settings.ramp:
-            self._to(ControlState.TRACK, f"the force is {force:.1f} N.")
+            self._to(ControlState.TRACK, message(f"the force is {arg(force):.1f} N."))
 
     def _track(self) -> None:
         if not self._again() and self._lost > _GIVEN_UP_S:
-            self._to(ControlState.RETRACT, f"the contact was unknown for {_GIVEN_UP_S:g} s{self._unsure}.")
+            self._to(
+                ControlState.RETRACT,
+                message(f"the contact was unknown for {arg(_GIVEN_UP_S):g} s{arg(self._unsure)}."),
+            )
 
     def _again(self) -> bool:
         if self._low < _LOW_S:
             return False
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(ControlState.RETRACT, f"the tissue was lost {self._attempts} times.")
+            self._to(ControlState.RETRACT, message(f"the tissue was lost {arg(self._attempts)} times."))
         else:
-            self._to(ControlState.APPROACH, "the tissue was lost: searching for it again.")
+            self._to(ControlState.APPROACH, message("the tissue was lost: searching for it again."))
         return True
 
     def _behind(self, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
-            self._to(ControlState.RETRACT, f"the arm missed its commanded position {self._attempts} times.")
+            self._to(
+                ControlState.RETRACT,
+                message(f"the arm missed its commanded position {arg(self._attempts)} times."),
+            )
         else:
-            self._wait("the arm is not at its commanded position: motion waits until it is.", rising)
+            self._wait(message("the arm is not at its commanded position: motion waits until it is."), rising)
 
     def _swings(self, amplitude: float, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
             self._to(
                 ControlState.RETRACT,
-                f"the force oscillated {self._attempts} times, now by {amplitude:.1f} N.",
+                message(f"the force oscillated {arg(self._attempts)} times, now by {arg(amplitude):.1f} N."),
             )
         else:
             self._wait(
-                f"the force oscillates by {amplitude:.1f} N although the gain was lowered: holding still.",
+                message(
+                    f"the force oscillates by {arg(amplitude):.1f} N although the gain was lowered: holding still."
+                ),
                 rising,
             )
             # On this tissue nothing is known any more.
@@ -337,9 +351,12 @@ class Safety:
             after = ControlState.CONTACT if force > self.settings.touch_force else ControlState.APPROACH
             if self._held_from is ControlState.TRACK and after is ControlState.CONTACT:
                 after = ControlState.TRACK  # all is known; and tissue that moves does not wait
-            self._to(after, "the readings are fresh, and the arm is at its commanded position.")
+            self._to(after, message("the readings are fresh, and the arm is at its commanded position."))
         elif self.elapsed > self._patience:
-            self._to(ControlState.RETRACT, f"{self.elapsed:.2g} s did not help: retracting along its path.")
+            self._to(
+                ControlState.RETRACT,
+                message(f"{arg(self.elapsed):.2g} s did not help: retracting along its path."),
+            )
 
     def _wait(self, reason: str, rising: float) -> None:
         """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
@@ -354,7 +371,10 @@ class Safety:
         free = not sensed.fresh or force < self.settings.low_force
         stuck = self.elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
         if (away and free) or travelled >= 2 * self.settings.retract_travel or stuck:
-            self._to(ControlState.SAFE, "fully retracted." if not stuck else "it cannot retract farther.")
+            self._to(
+                ControlState.SAFE,
+                message("fully retracted.") if not stuck else message("it cannot retract farther."),
+            )
 
     def _to(self, state: ControlState, reason: str) -> None:
         self.changes.append(StateChange(self._now, self.state, state, reason))

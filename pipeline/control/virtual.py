@@ -12,7 +12,7 @@ from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.loop import Rig, arm_of
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.gates import Gates
 from contactbench.pipeline.simulation.scenes import (
     ArmScene,
@@ -105,8 +105,8 @@ def check_address(address: str) -> None:
     """
     if address not in ROBOTS:
         raise InputError(
-            f"robot {address!r}: motion is only sent to a virtual robot, never to a real one: give"
-            f" {' or '.join(ROBOTS)}. A real arm needs its maker's controller, which loads the"
+            f"robot {arg(address)!r}: motion is only sent to a virtual robot, never to a real one: give"
+            f" {arg(' or '.join(ROBOTS))}. A real arm needs its maker's controller, which loads the"
             " same bundle."
         )
 
@@ -126,8 +126,8 @@ def _scene(
         return ArmScene(truth, payload=payload, tissue=tissue, motion=motion, servo=servo, R_ES=R_ES)
     if not np.allclose(R_ES, np.eye(3), atol=1e-6):
         raise InputError(
-            f"robot {address}: its mount holds the sensor unturned, but the bundle says that it is turned: give"
-            f" {ROBOTS[0]}."
+            f"robot {arg(address)}: its mount holds the sensor unturned, but the bundle says that it is turned: give"
+            f" {arg(ROBOTS[0])}."
         )
     return PlatformScene(truth, payload=payload, tissue=tissue, motion=motion, period=period)
 
@@ -139,7 +139,7 @@ def _tissue(config: RuntimeConfig, stiffness: float | None, friction: float) -> 
     if stiffness is not None:
         if not 0 < stiffness < 1e6:
             raise InputError(
-                f"stiffness {stiffness:g} N/m: give a number above 0; soft tissue has 300 to 20,000."
+                f"stiffness {arg(stiffness):g} N/m: give a number above 0; soft tissue has 300 to 20,000."
             )
         modulus = Foundation(config.probe).modulus_of(force, stiffness)
     return Tissue(modulus, modulus / 60, friction)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Protocol
 
 from contactbench.pipeline.devices.faults import EmulatorError
+from contactbench.pipeline.errors import arg
 
 _LOOPBACK = "127.0.0.1"
 _READ = 65_536
@@ -110,7 +111,7 @@ class PtyLine:
 
     def _master(self) -> int:
         if self._ends is None:
-            raise EmulatorError(f"{self.where}: the line is broken. Restore it first.")
+            raise EmulatorError(f"{arg(self.where)}: the line is broken. Restore it first.")
         return self._ends[0]
 
     def _flush(self, master: int) -> None:
@@ -273,4 +274,6 @@ class UdpServerLine:
 
 
 def _taken(port: int, error: Exception) -> EmulatorError:
-    return EmulatorError(f"port {port} cannot be used ({error}): choose another, or 0 for any free port.")
+    return EmulatorError(
+        f"port {arg(port)} cannot be used ({arg(error)}): choose another, or 0 for any free port."
+    )

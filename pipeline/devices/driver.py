@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactbench.pipeline.devices.options import Option
 from contactbench.pipeline.devices.protocols.device_model import Model
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -103,7 +103,7 @@ class Driver:
             It is no sensor.
         """
         raise AddressError(
-            f"address {str(address)!r}: not a force/torque sensor. Give the address of a sensor."
+            f"address {arg(str(address))!r}: not a force/torque sensor. Give the address of a sensor."
         )
 
     def poses(
@@ -121,7 +121,7 @@ class Driver:
             It is no robot.
         """
         del on_samples, on_change
-        raise AddressError(f"address {str(address)!r}: not a robot. Give the address of a robot.")
+        raise AddressError(f"address {arg(str(address))!r}: not a robot. Give the address of a robot.")
 
     def gives_wrenches(self, address: DeviceAddress) -> bool:
         """Tell whether an address of it can be opened as a force/torque sensor."""
@@ -171,7 +171,7 @@ class Driver:
         from contactbench.pipeline.devices.faults import EmulatorError
 
         if self.emulated is None:
-            raise EmulatorError(f"{self.scheme}: its driver has no emulator.")
+            raise EmulatorError(f"{arg(self.scheme)}: its driver has no emulator.")
         return self.emulated(rate, quirks), options
 
     def way(self, carrier: Carrier) -> Way:
@@ -182,34 +182,38 @@ class Driver:
 def fault_of(driver: object) -> str:
     """Say what is wrong with a driver's declaration; empty: nothing."""
     if not isinstance(driver, Driver):
-        return "it is not a subclass of contactbench.pipeline.devices.driver.Driver"
+        return message("it is not a subclass of contactbench.pipeline.devices.driver.Driver")
     if not isinstance(driver.scheme, str) or not _SCHEME.fullmatch(driver.scheme) or driver.scheme in _TAKEN:
-        return f"its scheme is {driver.scheme!r}: give small letters and digits"
+        return message(f"its scheme is {arg(driver.scheme)!r}: give small letters and digits")
     if not isinstance(driver.title, str) or not driver.title.strip():
-        return "it has no title"
+        return message("it has no title")
     if not isinstance(driver.ways, tuple) or not driver.ways:
-        return "it has no ways: name the lines on which the device can be"
+        return message("it has no ways: name the lines on which the device can be")
     return next(filter(None, map(_fault_of_way, driver.ways)), "") or _fault_of_the_rest(driver)
 
 
 def _fault_of_way(way: object) -> str:
     if not isinstance(way, Way):
-        return f"its way {way!r} is not a Way"
+        return message(f"its way {arg(way)!r} is not a Way")
     if way.carrier is Carrier.SERIAL:
-        return "" if way.baud else "its serial way has no baud rate"
+        return "" if way.baud else message("its serial way has no baud rate")
     if way.carrier not in (Carrier.TCP, Carrier.UDP):
-        return f"its way {way.carrier} is none of serial, tcp, udp"
-    return "" if way.port is not None and 1 <= way.port <= 65_535 else f"its {way.carrier} way has no port"
+        return message(f"its way {arg(way.carrier)} is none of serial, tcp, udp")
+    return (
+        ""
+        if way.port is not None and 1 <= way.port <= 65_535
+        else message(f"its {arg(way.carrier)} way has no port")
+    )
 
 
 def _fault_of_the_rest(driver: Driver) -> str:
     for key, option in driver.options.items():
         if not _OPTION.fullmatch(key) or key in _TAKEN or not isinstance(option, Option):
-            return f"its option {key!r} is not an Option with a name of its own"
+            return message(f"its option {arg(key)!r} is not an Option with a name of its own")
     emulated: object = driver.emulated
     if emulated is not None and not (isinstance(emulated, type) and issubclass(emulated, Model)):
-        return "its emulated is not a subclass of Model"
+        return message("its emulated is not a subclass of Model")
     kind = type(driver)
     if kind.sensor is Driver.sensor and kind.poses is Driver.poses:
-        return "it has neither sensor nor poses"
+        return message("it has neither sensor nor poses")
     return ""

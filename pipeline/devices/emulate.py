@@ -28,7 +28,7 @@ from contactbench.pipeline.devices.faults import (
 from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
 from contactbench.pipeline.devices.url import options_query, read_options
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -145,7 +145,9 @@ class Emulator:
             self._thread.join()
         self._line.close()
         if self.failure is not None:
-            raise EmulatorError(f"emulated {self.model.name}: it failed: {self.failure!r}.") from self.failure
+            raise EmulatorError(
+                f"emulated {arg(self.model.name)}: it failed: {arg(self.failure)!r}."
+            ) from self.failure
 
     def __enter__(self) -> Emulator:
         return self.start()
@@ -354,17 +356,21 @@ def emulator(
     known = _driver(scheme)
     carriers = tuple(way.carrier for way in known.ways)
     if carrier is not None and carrier not in list(carriers):
-        raise EmulatorError(f"{scheme} over {carrier} is not supported: use {', '.join(carriers)}.")
+        raise EmulatorError(
+            f"{arg(scheme)} over {arg(carrier)} is not supported: use {arg(', '.join(carriers))}."
+        )
     try:
         given = {name: read_options(known, name, text) for name, text in (options or {}).items()}
     except ValueError as error:
-        raise EmulatorError(f"{scheme}: {error}.") from error
+        raise EmulatorError(f"{arg(scheme)}: {arg(error)}.") from error
     try:
         model, needed = known.emulate(rate, quirks, given)
     except InputError:
         raise
     except Exception as error:
-        raise EmulatorError(f"{scheme}: the driver of {known.title} failed: {error!r}.") from error
+        raise EmulatorError(
+            f"{arg(scheme)}: the driver of {arg(known.title)} failed: {arg(error)!r}."
+        ) from error
     if script is not None:
         script.check(model.faults, model.name)
     over = Carrier(carrier or carriers[0])
@@ -400,9 +406,9 @@ def _driver(scheme: str) -> Driver:
     try:
         known = driver_of(scheme)
     except ValueError as error:
-        raise EmulatorError(f"device {scheme!r}: {error}.") from error
+        raise EmulatorError(f"device {arg(scheme)!r}: {arg(error)}.") from error
     if known is None or known.emulated is None:
-        raise EmulatorError(f"unknown device {scheme!r}. Known: {', '.join(emulated())}.")
+        raise EmulatorError(f"unknown device {arg(scheme)!r}. Known: {arg(', '.join(emulated()))}.")
     return known
 
 

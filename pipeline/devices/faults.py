@@ -12,7 +12,7 @@ from enum import StrEnum
 from random import Random
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -75,14 +75,14 @@ class FaultEvent:
     def __post_init__(self) -> None:
         if not (0 <= self.start < math.inf and 0 < self.duration < math.inf):
             raise EmulatorError(
-                f"fault {self.fault}: start {self.start} s, duration {self.duration} s: give a start of 0 or more"
-                " and a positive duration."
+                f"fault {arg(self.fault)}: start {arg(self.start)} s, duration {arg(self.duration)} s: give"
+                " a start of 0 or more and a positive duration."
             )
         if self.size is None:
             object.__setattr__(self, "size", _DEFAULT_SIZE.get(self.fault, 1.0))
         if not math.isfinite(self.amount) or (self.fault is Fault.WRONG_RATE and self.amount <= 0):
             raise EmulatorError(
-                f"fault {self.fault}: size {self.size}: give a finite number, positive for a rate."
+                f"fault {arg(self.fault)}: size {arg(self.size)}: give a finite number, positive for a rate."
             )
 
     @classmethod
@@ -97,13 +97,15 @@ class FaultEvent:
         names = ", ".join(fault.value for fault in Fault)
         if not found or found["fault"] not in list(Fault):
             raise EmulatorError(
-                f"fault {text!r}: write it as NAME@START+DURATION in s, such as stall@2+0.5. Names: {names}."
+                f"fault {arg(text)!r}: write it as NAME@START+DURATION in s, such as stall@2+0.5. Names: {arg(names)}."
             )
         try:
             start, duration = float(found["start"]), float(found["duration"] or 1)
             size = float(found["size"]) if found["size"] else None
         except ValueError as error:
-            raise EmulatorError(f"fault {text!r}: {error}. Write the numbers as in stall@2+0.5.") from error
+            raise EmulatorError(
+                f"fault {arg(text)!r}: {arg(error)}. Write the numbers as in stall@2+0.5."
+            ) from error
         return cls(start, Fault(found["fault"]), duration, size)
 
     @property
@@ -162,7 +164,9 @@ class Script:
         for event in self.events:
             if event.fault not in possible:
                 names = ", ".join(sorted(possible))
-                raise EmulatorError(f"fault {event.fault}: not available for {device}. Choose from {names}.")
+                raise EmulatorError(
+                    f"fault {arg(event.fault)}: not available for {arg(device)}. Choose from {arg(names)}."
+                )
 
 
 # ---- what is measured, and what faults make of it ------------------------------------------------
@@ -237,7 +241,7 @@ def recorded(times: Sequence[float], rows: Sequence[Sequence[float]]) -> Signal:
 
 def _six(row: Sequence[float]) -> Six:
     if len(row) != 6:
-        raise EmulatorError(f"signal: {len(row)} numbers were given: give six.")
+        raise EmulatorError(f"signal: {arg(len(row))} numbers were given: give six.")
     return (row[0], row[1], row[2], row[3], row[4], row[5])
 
 

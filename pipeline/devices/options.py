@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -36,7 +38,7 @@ def number(unit: str) -> Callable[[str], float]:
         except ValueError:
             value = math.nan
         if not 1e-3 <= value <= 1e9:
-            raise ValueError(f"give a positive number of {unit}")
+            raise ValueError(message(f"give a positive number of {arg(unit)}"))
         return value
 
     return read
@@ -51,8 +53,10 @@ def numbers(fewest: int, most: int, largest: float) -> Callable[[str], tuple[flo
         except ValueError:
             values = ()
         if not fewest <= len(values) <= most or not all(abs(value) <= largest for value in values):
-            many = str(fewest) if fewest == most else f"{fewest} to {most}"
-            raise ValueError(f"give {many} numbers separated by commas, none beyond {largest:g}")
+            many = str(fewest) if fewest == most else message(f"{arg(fewest)} to {arg(most)}")
+            raise ValueError(
+                message(f"give {arg(many)} numbers separated by commas, none beyond {arg(largest):g}")
+            )
         return values
 
     return read
@@ -73,7 +77,7 @@ def whole(fewest: int, most: int, remedy: str) -> Callable[[str], int]:
 def name(text: str) -> str:
     """Read a name or a path."""
     if not text.strip() or not text.isprintable():
-        raise ValueError("give its name, or leave the option out")
+        raise ValueError(message("give its name, or leave the option out"))
     return text
 
 
@@ -82,11 +86,11 @@ def choice(*names: str) -> Callable[[str], str]:
 
     def read(text: str) -> str:
         if text not in names:
-            raise ValueError(f"choose one of {', '.join(names)}")
+            raise ValueError(message(f"choose one of {arg(', '.join(names))}"))
         return text
 
     return read
 
 
-read_baud = whole(50, 12_000_000, "give a whole number of bit/s such as 115200")
+read_baud = whole(50, 12_000_000, message("give a whole number of bit/s such as 115200"))
 read_rate = number("Hz")

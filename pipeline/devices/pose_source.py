@@ -12,7 +12,7 @@ import numpy as np
 
 from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.sample import FlangeSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
 
 if TYPE_CHECKING:
@@ -140,7 +140,7 @@ def file_track(address: DeviceAddress) -> Track:
     wording = Wording(
         header=",".join(("t", *names)),
         rows="poses",
-        meaning=(
+        meaning=message(
             "time in s and the flange pose in the robot's base as a quaternion; joints, in degrees,"
             " need ?robot=NAME"
         ),
@@ -176,7 +176,7 @@ def _typed(
     try:
         robot.check_joints(joints)
     except InputError as error:
-        raise AddressError(f"address {str(address)!r}: joints: {error}") from error
+        raise AddressError(f"address {arg(str(address))!r}: joints: {arg(error)}") from error
     return *robot.flange_pose(joints), joints
 
 
@@ -186,7 +186,7 @@ def _robot(address: DeviceAddress) -> Robot:
     try:
         return Known.named(address.robot or "")
     except InputError as error:
-        raise AddressError(f"address {str(address)!r}: robot: {error}") from error
+        raise AddressError(f"address {arg(str(address))!r}: robot: {arg(error)}") from error
 
 
 # ---- from a file -------------------------------------------------------------------------------
@@ -205,7 +205,7 @@ class _Table:
         there = [name in reader.names for name in self._position]
         if any(there) and not all(there):
             raise reader.error(
-                "a position needs all of x, y, z: add the missing columns, or rename the others.", 1
+                message("a position needs all of x, y, z: add the missing columns, or rename the others."), 1
             )
         reader.select(("t", *self._names), optional=self._position, allow_nan=self._position)
 
@@ -215,7 +215,7 @@ def _times(reader: TableReader, rows: TableRows) -> NDArray[np.float64]:
     times: NDArray[np.float64] = rows.column("t") - rows.column("t")[0]
     wrong = np.append(False, np.diff(times) < 0) | ~(np.abs(times) <= _LONGEST_S)
     if wrong.any():
-        what = "column t runs backwards or jumps far: sort the rows by time, and write seconds."
+        what = message("column t runs backwards or jumps far: sort the rows by time, and write seconds.")
         raise reader.error(what, int(rows.lines[int(np.argmax(wrong))]))
     return times
 
@@ -226,7 +226,9 @@ def _unit(reader: TableReader, rows: TableRows, quaternions: NDArray[np.float64]
     wrong = ~(np.abs(sizes - 1) <= _UNIT)
     if wrong.any():
         row = int(np.argmax(wrong))
-        what = f"the quaternion has length {sizes[row]:.3g} instead of 1: check the columns qw, qx, qy, qz."
+        what = message(
+            f"the quaternion has length {arg(sizes[row]):.3g} instead of 1: check the columns qw, qx, qy, qz."
+        )
         raise reader.error(what, int(rows.lines[row]))
     return np.asarray(quaternions / sizes[:, None])
 
@@ -237,7 +239,7 @@ def _positions(reader: TableReader, rows: TableRows) -> NDArray[np.float64]:
     positions = np.column_stack([rows.column(name) for name in _POSITION])
     wrong = (np.abs(positions) > _FARTHEST_M).any(axis=1)
     if wrong.any():
-        what = f"a position is more than {_FARTHEST_M:g} m away: write x, y, z in metres."
+        what = message(f"a position is more than {arg(_FARTHEST_M):g} m away: write x, y, z in metres.")
         raise reader.error(what, int(rows.lines[int(np.argmax(wrong))]))
     return positions
 

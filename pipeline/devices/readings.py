@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import FrozenDetector
 
 if TYPE_CHECKING:
@@ -87,18 +88,26 @@ class Readings:
             # With an error no reading is a measurement: the error is what can be mended.
             found.pop("INVALID", None)
         if self._now - self._beyond <= _HELD_S:
-            found["range"] = "A channel is beyond the sensor's range: remove the load, and use less force."
+            found["range"] = message(
+                "A channel is beyond the sensor's range: remove the load, and use less force."
+            )
         at_end = [k for k in range(6) if self._at_end(k)]
         if at_end and self._last is not None:
-            which = ", ".join(f"{_CHANNELS[k]} at {self._last[k]:.4g} {_UNITS[k]}" for k in at_end)
-            found["end"] = (
-                f"{which}: exactly the same for {min(self._same[k] for k in at_end)} samples, and"
+            which = join(
+                ", ",
+                (
+                    message(f"{arg(_CHANNELS[k])} at {arg(self._last[k]):.4g} {arg(_UNITS[k])}")
+                    for k in at_end
+                ),
+            )
+            found["end"] = message(
+                f"{arg(which)}: exactly the same for {arg(min(self._same[k] for k in at_end))} samples, and"
                 " farther than ever before: this looks like the end of the range. Remove the"
                 " load, and use less force."
             )
         elif self._frozen:
-            found["frozen"] = (
-                f"No channel has changed for {min(self._same)} samples: the sensor hangs, or is"
+            found["frozen"] = message(
+                f"No channel has changed for {arg(min(self._same))} samples: the sensor hangs, or is"
                 " disconnected from its box. Switch it off and on."
             )
         return found | self._warmed()
@@ -140,20 +149,20 @@ class Readings:
         if abs(warmer) <= _WARMER_K:
             return {}
         return {
-            "temperature": (
-                f"The sensor is {abs(warmer):.1f} K {'warmer' if warmer > 0 else 'colder'} than at the"
+            "temperature": message(
+                f"The sensor is {arg(abs(warmer)):.1f} K {arg('warmer' if warmer > 0 else 'colder')} than at the"
                 " start, and its zero drifts with it: let it settle, then recalibrate."
             )
         }
 
 
 _FLAGS = {
-    Status.OVERRANGE: "A channel is at the end of its range: remove the load, and use less force.",
-    Status.INVALID: "The sensor reports that its readings are invalid: switch it off and on.",
-    Status.ERROR: (
+    Status.OVERRANGE: message("A channel is at the end of its range: remove the load, and use less force."),
+    Status.INVALID: message("The sensor reports that its readings are invalid: switch it off and on."),
+    Status.ERROR: message(
         "The sensor reports an error or overload: remove the load. If that does not help, check its"
         " own display or manual."
     ),
-    Status.LATE: "The sensor cannot keep its rate: choose a lower one.",
-    Status.RAW: "The readings are raw, not calibrated by the sensor: set it to engineering units.",
+    Status.LATE: message("The sensor cannot keep its rate: choose a lower one."),
+    Status.RAW: message("The readings are raw, not calibrated by the sensor: set it to engineering units."),
 }

@@ -13,7 +13,7 @@ from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
 from contactbench.pipeline.devices.stream import Health, Sample, Stream, StreamState
 from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine, UdpLine
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -171,7 +171,9 @@ class ReconnectingStream(Stream[Sample]):
 
     def _fail(self, error: BaseException) -> None:
         why = (
-            str(error) if isinstance(error, InputError) else f"{self.address}: the stream failed: {error!r}."
+            str(error)
+            if isinstance(error, InputError)
+            else message(f"{arg(self.address)}: the stream failed: {arg(error)!r}.")
         )
         with self._watching:
             self._failure, self._why = error, why
@@ -199,7 +201,7 @@ class ReconnectingStream(Stream[Sample]):
                     begun_again = time.monotonic()
             if self.address.carrier is Carrier.TCP and chunk.time - self._heard > _DEAD_S:
                 raise LineLost(
-                    f"{self._line.name}: nothing received for {_DEAD_S:g} s: check cable and"
+                    f"{arg(self._line.name)}: nothing received for {arg(_DEAD_S):g} s: check cable and"
                     " device. Reconnecting."
                 )
             self._review(chunk.time)
@@ -211,8 +213,8 @@ class ReconnectingStream(Stream[Sample]):
         self._change(StreamState.SILENT)
 
     def _silence(self, now: float) -> str:
-        return (
-            f"{self.address}: no sample for {now - self._last:.1f} s: check that the device has"
+        return message(
+            f"{arg(self.address)}: no sample for {arg(now - self._last):.1f} s: check that the device has"
             " power and that no other program uses its line."
         )
 

@@ -7,6 +7,8 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -35,8 +37,8 @@ class ZeroStep:
 
     def __str__(self) -> str:
         """Return what an operator is told."""
-        return (
-            f"The reading jumped by {self.force:.1f} N and {self.torque:.2f} N·m within one"
+        return message(
+            f"The reading jumped by {arg(self.force):.1f} N and {arg(self.torque):.2f} N·m within one"
             " sample, to nearly zero in all six channels, and stayed there: the sensor may have"
             " been re-zeroed. If so, recalibrate."
         )

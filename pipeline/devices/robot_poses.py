@@ -13,6 +13,7 @@ from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.driver import OnChange, OnFlanges
@@ -92,5 +93,5 @@ def poses_from(
     where = DeviceAddress.parse(address) if isinstance(address, str) else address
     known = driver_of(where.protocol)
     if known is None:
-        raise AddressError(f"address {str(where)!r}: not a robot. Give the address of a robot.")
+        raise AddressError(f"address {arg(str(where))!r}: not a robot. Give the address of a robot.")
     return known.poses(where, on_samples, on_change)

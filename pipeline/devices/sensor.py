@@ -12,6 +12,7 @@ from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -85,7 +86,7 @@ class SensorStream(ReconnectingStream[WrenchSample]):
         if command.instead is not None:
             self._send(command.instead)
         elif heard:  # a device that says nothing at all is silent: that is told anyway
-            self._refused(command, "refused it" if agreed is False else "did not answer")
+            self._refused(command, message("refused it") if agreed is False else message("did not answer"))
 
     def _settle(self, seconds: float) -> None:
         """Let pass what a stream before this one left on the line."""
@@ -100,8 +101,8 @@ class SensorStream(ReconnectingStream[WrenchSample]):
     def _refused(self, command: Command, what: str) -> None:
         shown = command.data.decode("ascii", "backslashreplace").strip()
         with self._watching:
-            self._unaccepted[shown] = (
-                f"The device did not accept {shown[:60]!r} (it {what}): its rate or units may"
+            self._unaccepted[shown] = message(
+                f"The device did not accept {arg(shown[:60])!r} (it {arg(what)}): its rate or units may"
                 " differ. Check that its firmware is supported."
             )
 

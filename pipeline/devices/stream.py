@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -226,7 +227,9 @@ class SourceStream(Stream[Sample]):
             It does not go by steps.
         """
         if not self.source.stepwise:
-            raise RuntimeError("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+            raise RuntimeError(
+                message("only a replay or a virtual bench can be stepped: open it with ?speed=step")
+            )
         return self.source.step(count)
 
     def take(self, samples: Sequence[Sample], findings: tuple[str, ...] = ()) -> None:

@@ -20,7 +20,7 @@ from contactbench.pipeline.devices.options import (
     write_option,
 )
 from contactbench.pipeline.devices.protocols.registry import driver_of, drivers
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -58,12 +58,12 @@ def _reality(text: str) -> Reality:
 
 def _step(text: str) -> float:
     if text != "step":
-        raise ValueError("give step, or leave the option out for real time")
+        raise ValueError(message("give step, or leave the option out for real time"))
     return STEPWISE
 
 
 def _pace(text: str) -> float:
-    return STEPWISE if text == "step" else number("multiple of the recorded pace, or step")(text)
+    return STEPWISE if text == "step" else number(message("multiple of the recorded pace, or step"))(text)
 
 
 def _option(read: Callable[[str], Any], default: Any = None, *, called: str = "") -> Any:
@@ -73,7 +73,7 @@ def _option(read: Callable[[str], Any], default: Any = None, *, called: str = ""
 
 _SPEEDS: dict[str, Callable[[str], float]] = {
     Protocol.VIRTUAL: _step,
-    Protocol.POSES: number("multiple of the pace of the file"),
+    Protocol.POSES: number(message("multiple of the pace of the file")),
 }
 
 
@@ -114,7 +114,7 @@ class BenchOptions:
     probe: str = _option(name, "t-shape")  # name of a bundled probe
     mesh: str | None = _option(name)  # file of a probe to take instead, in metres and S
     sensor: str = _option(name, "paper")  # name of a preset
-    seed: int = _option(whole(0, 10**15, "give a whole number of 0 or more"), 0)  # of the noise
+    seed: int = _option(whole(0, 10**15, message("give a whole number of 0 or more")), 0)  # of the noise
     pose_rate: float = _option(number("Hz"), 50.0)  # poses a second
     script: str | None = _option(name)  # file of timed commands
     # what it adds to the ideal bench; None: nothing
@@ -168,7 +168,7 @@ class DeviceAddress:
         try:
             return cls._parsed(text)
         except ValueError as error:
-            raise AddressError(f"address {text!r}: {error}.") from error
+            raise AddressError(f"address {arg(text)!r}: {arg(error)}.") from error
 
     @classmethod
     def _parsed(cls, text: str) -> DeviceAddress:
@@ -276,7 +276,7 @@ def read_options(driver: Driver, key: str, text: str) -> Any:
     """
     if key not in driver.options:
         known = ", ".join(driver.options) or "none"
-        raise ValueError(f"unknown option {key!r}. Possible: {known}")
+        raise ValueError(message(f"unknown option {arg(key)!r}. Possible: {arg(known)}"))
     return _read(key, text, driver.options[key].read)
 
 
@@ -300,13 +300,13 @@ def _written(driver: Driver, options: Mapping[str, Any]) -> dict[str, str]:
 def _split(text: str) -> SplitResult:
     # urlsplit drops tabs and line ends without a word, so they are looked for first.
     if any(not character.isprintable() for character in text):
-        raise ValueError("it contains a control character: type it again")
+        raise ValueError(message("it contains a control character: type it again"))
     try:
         parts = urlsplit(text)
     except ValueError as error:
-        raise ValueError(f"host: {error}: write an IPv6 address as [::1]") from error
+        raise ValueError(message(f"host: {arg(error)}: write an IPv6 address as [::1]")) from error
     if parts.fragment or text.endswith("#"):
-        raise ValueError("'#': write it as %23 if it belongs to the path")
+        raise ValueError(message("'#': write it as %23 if it belongs to the path"))
     return parts
 
 
@@ -319,7 +319,9 @@ def _kind(scheme: str) -> _Kind:
             return kind
     devices = [kind.scheme for each in drivers().values() for kind in _kinds_of(each)]
     known = ", ".join((*devices, *_SOURCES))
-    raise ValueError(f"scheme {scheme or 'missing'}: start it with one of {known}, then ://")
+    raise ValueError(
+        message(f"scheme {arg(scheme or 'missing')}: start it with one of {arg(known)}, then ://")
+    )
 
 
 def _given(query: str, kind: _Kind) -> dict[str, Any]:
@@ -331,12 +333,14 @@ def _given(query: str, kind: _Kind) -> dict[str, Any]:
             query.replace("+", "%2B"), keep_blank_values=True, strict_parsing=bool(query), errors="strict"
         )
     except ValueError as error:
-        raise ValueError(f"options: {error}: write them as ?name=value&name=value") from error
+        raise ValueError(message(f"options: {arg(error)}: write them as ?name=value&name=value")) from error
     for key, value in pairs:
         if key not in kind.defaults:
-            raise ValueError(f"unknown option {key!r}. Possible: {', '.join(kind.defaults)}")
+            raise ValueError(
+                message(f"unknown option {arg(key)!r}. Possible: {arg(', '.join(kind.defaults))}")
+            )
         if key in found:
-            raise ValueError(f"option {key!r} appears twice: keep one")
+            raise ValueError(message(f"option {arg(key)!r} appears twice: keep one"))
         found[key] = value
     with _own_failures(kind.driver):
         return {key: _read(key, value, _reader(key, kind)) for key, value in found.items()}
@@ -359,14 +363,16 @@ def _own_failures(driver: Driver | None) -> Iterator[None]:
         raise
     except Exception as error:
         title = "" if driver is None else driver.title
-        raise ValueError(f"the driver of {title} failed: {error!r}: update its package") from error
+        raise ValueError(
+            message(f"the driver of {arg(title)} failed: {arg(error)!r}: update its package")
+        ) from error
 
 
 def _read(key: str, value: str, read: Callable[[str], Any]) -> Any:
     try:
         return read(value)
     except ValueError as error:
-        raise ValueError(f"{key} {value[:80]!r}: {error}") from error
+        raise ValueError(message(f"{arg(key)} {arg(value[:80])!r}: {arg(error)}")) from error
 
 
 def _place(parts: SplitResult, kind: _Kind) -> tuple[str, int | None, str]:
@@ -376,12 +382,14 @@ def _place(parts: SplitResult, kind: _Kind) -> tuple[str, int | None, str]:
         return *_socket(parts, None if kind.driver is None else kind.driver.way(carrier).port), ""
     if carrier in (Carrier.TYPED, Carrier.SIMULATED):
         host, what, begin = (
-            ("", "a typed pose has no host or path", f"{parts.scheme}://?")
+            ("", message("a typed pose has no host or path"), f"{parts.scheme}://?")
             if carrier is Carrier.TYPED
-            else ("bench", "the virtual bench has no host or path", "virtual://bench")
+            else ("bench", message("the virtual bench has no host or path"), "virtual://bench")
         )
         if parts.netloc != host or parts.path not in ("", "/"):
-            raise ValueError(f"{parts.netloc + parts.path!r}: {what}: begin with {begin}")
+            raise ValueError(
+                message(f"{arg(parts.netloc + parts.path)!r}: {arg(what)}: begin with {arg(begin)}")
+            )
         return host, None, ""
     return "", None, _path(parts, serial=carrier is Carrier.SERIAL)
 
@@ -389,19 +397,19 @@ def _place(parts: SplitResult, kind: _Kind) -> tuple[str, int | None, str]:
 def _socket(parts: SplitResult, usual: int | None) -> tuple[str, int]:
     """Return host and port; `usual` is the port where none is given."""
     if "@" in parts.netloc:
-        raise ValueError("user name: devices do not use one: leave out the part before the @")
+        raise ValueError(message("user name: devices do not use one: leave out the part before the @"))
     host = _zoned(parts.hostname or "")
     if not host or any(character in host.split("%")[0] for character in " %\\"):
-        raise ValueError("host: give a name or an IP address after ://")
+        raise ValueError(message("host: give a name or an IP address after ://"))
     if parts.path not in ("", "/"):
-        raise ValueError(f"path {parts.path!r}: a socket has no path: leave it out")
+        raise ValueError(message(f"path {arg(parts.path)!r}: a socket has no path: leave it out"))
     try:
         port = parts.port
     except ValueError:
         port = -1
     port = usual if port is None else port
     if port is None or not 1 <= port <= 65_535:
-        raise ValueError(f"port: give a whole number from 1 to 65535, or none for {usual}")
+        raise ValueError(message(f"port: give a whole number from 1 to 65535, or none for {arg(usual)}"))
     return host, port
 
 
@@ -421,15 +429,15 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
     if serial and parts.netloc and path in ("", "/"):
         return parts.netloc  # COM3 as in sri+serial://COM3
     if parts.netloc:
-        raise ValueError(f"host {parts.netloc!r}: a path needs three slashes: :///path")
+        raise ValueError(message(f"host {arg(parts.netloc)!r}: a path needs three slashes: :///path"))
     # A path of Windows has no leading slash of its own: /COM3, /C:/folder.
     drive = path[1:]
     if (drive.upper().startswith("COM") and drive[3:].isdigit()) or drive[1:3] in (":/", ":\\"):
         path = drive
     if path in ("", "/") or "\0" in path:
         file = "poses.csv" if parts.scheme == "poses" else "recording.mcap"
-        what, example = ("serial port", "/dev/ttyUSB0") if serial else ("file", f"/folder/{file}")
-        raise ValueError(f"path: give the {what} after three slashes: ://{example}")
+        what, example = (message("serial port"), "/dev/ttyUSB0") if serial else ("file", f"/folder/{file}")
+        raise ValueError(message(f"path: give the {arg(what)} after three slashes: ://{arg(example)}"))
     return path
 
 
@@ -438,25 +446,27 @@ def _path(parts: SplitResult, *, serial: bool) -> str:
 
 def _check_bench(given: Mapping[str, Any]) -> None:
     if "probe" in given and "mesh" in given:
-        raise ValueError("probe and mesh: give only one of them")
+        raise ValueError(message("probe and mesh: give only one of them"))
     for key in ("rate", "pose_rate"):
         if given.get(key, 0.0) > _FASTEST_HZ:
-            raise ValueError(f"{key}: the bench provides at most {_FASTEST_HZ:g} Hz")
+            raise ValueError(message(f"{arg(key)}: the bench provides at most {arg(_FASTEST_HZ):g} Hz"))
 
 
 def _check_typed(address: DeviceAddress) -> None:
     ways = (address.rpy_degrees, address.quaternion, address.joints_degrees)
     if sum(way is not None for way in ways) != 1:
         raise ValueError(
-            "pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
-            " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
+            message(
+                "pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
+                " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)"
+            )
         )
     if (address.rate or 0) > _FASTEST_HZ:
-        raise ValueError(f"rate: a fixed pose needs at most {_FASTEST_HZ:g} Hz")
+        raise ValueError(message(f"rate: a fixed pose needs at most {arg(_FASTEST_HZ):g} Hz"))
     if (address.joints_degrees is None) != (address.robot is None):
-        raise ValueError("robot: joints need their robot, and nothing else does")
+        raise ValueError(message("robot: joints need their robot, and nothing else does"))
     if address.quaternion is not None and not abs(math.hypot(*address.quaternion) - 1) <= _UNIT:
-        raise ValueError("quaternion: its length is not 1: check its four numbers w,x,y,z")
+        raise ValueError(message("quaternion: its length is not 1: check its four numbers w,x,y,z"))
 
 
 def _check_ceiling(address: DeviceAddress, kind: _Kind) -> None:
@@ -466,6 +476,8 @@ def _check_ceiling(address: DeviceAddress, kind: _Kind) -> None:
     ceiling = address.baud / (_BITS_PER_BYTE * frame)
     if address.rate > ceiling:
         raise ValueError(
-            f"rate: {address.rate:g} samples/s are too many for {address.baud} bit/s: choose at"
-            f" most {math.floor(ceiling)}, or a faster line if the device is set to one"
+            message(
+                f"rate: {arg(address.rate):g} samples/s are too many for {arg(address.baud)} bit/s: choose at"
+                f" most {arg(math.floor(ceiling))}, or a faster line if the device is set to one"
+            )
         )

@@ -12,6 +12,7 @@ from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.readings import Readings
 from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -215,8 +216,8 @@ class Pace:
         wrong = self._wrong()
         if wrong is None or self._expected is None:
             return {}
-        rates = f"{wrong:.0f} Hz instead of {self._expected:.0f} Hz"
-        return {"rate": f"Samples arrive at {rates}: check the rate and the line speed."}
+        rates = message(f"{arg(wrong):.0f} Hz instead of {arg(self._expected):.0f} Hz")
+        return {"rate": message(f"Samples arrive at {arg(rates)}: check the rate and the line speed.")}
 
     def _look_at_gap(self, last: float, time: float) -> None:
         gapped = time - last > max(_GAP_S, _GAP_SAMPLES / (self._expected or 1.0))
@@ -316,8 +317,8 @@ class Leap:
         if self._now - self._at > _LEAP_SHOWN_S:
             return {}
         return {
-            "leap": (
-                f"The device's clock or counter jumped ahead by {self._size:.1f} s while samples kept"
+            "leap": message(
+                f"The device's clock or counter jumped ahead by {arg(self._size):.1f} s while samples kept"
                 " coming: its clock was set, or its counter is wrong. The times of the next 0.2 s are"
                 " estimates and are marked."
             )
@@ -418,22 +419,22 @@ class Damage:
         damaged, frames = last.damaged - first.damaged, last.frames - first.frames
         skipped, received = last.skipped - first.skipped, last.received - first.received
         if damaged >= self._least:
-            found["damaged"] = (
-                f"{damaged} of the last {damaged + frames} frames were damaged: check cable,"
+            found["damaged"] = message(
+                f"{arg(damaged)} of the last {arg(damaged + frames)} frames were damaged: check cable,"
                 " shield and line speed."
             )
         elif skipped > 0 and skipped >= _SHARE * received:
-            found["skipped"] = (
-                f"{skipped} of the last {received} bytes belong to no frame: check cable, shield"
+            found["skipped"] = message(
+                f"{arg(skipped)} of the last {arg(received)} bytes belong to no frame: check cable, shield"
                 " and line speed, and that no other program uses the line."
             )
         if (lost := last.lost - first.lost) >= self._least:
-            found["lost"] = (
-                f"{lost} of the last {lost + frames} samples were lost according to the device's"
+            found["lost"] = message(
+                f"{arg(lost)} of the last {arg(lost + frames)} samples were lost according to the device's"
                 " own counter: check the line, or choose a lower rate."
             )
         if last.restarts > first.restarts:
-            found["restarted"] = (
+            found["restarted"] = message(
                 "The device's counter or clock restarted: it was switched off and on, or its"
                 " clock was set. The times of the next 0.2 s are estimates and are marked."
             )
@@ -455,7 +456,7 @@ def _without(first: _Mark, last: _Mark, since: int) -> dict[str, str]:
     if last.frames > since or received < _NO_FRAME_BYTES:
         return {}
     return {
-        "no frame": (
-            f"{received} bytes received, but no frame in them: check the device type and the line speed."
+        "no frame": message(
+            f"{arg(received)} bytes received, but no frame in them: check the device type and the line speed."
         )
     }

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg.lapack import dgttrs
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.filtering.rows import Bools, Floats, alike, as_row, as_rows, positive, time_steps
 
 _BLOCK = 16384  # rows at a time: a whole recording needs no second copy, and a block stays in the cache
@@ -57,10 +57,11 @@ class KalmanFigures:
         return sqrt(self.predicted_variance / (self.predicted_variance + 2 * self.r))
 
     def __str__(self) -> str:
-        cutoff = "no cut-off" if self.cutoff is None else f"-3 dB at {self.cutoff:.3g} Hz"
-        return (
-            f"at {self.rate:g} Hz gain {self.gain:.3g}, time constant {1e3 * self.time_constant:.3g} ms, {cutoff},"
-            f" lag {1e3 * self.delay:.3g} ms, {100 * self.noise_left:.3g} % of white noise left"
+        cutoff = message("no cut-off") if self.cutoff is None else f"-3 dB at {self.cutoff:.3g} Hz"
+        return message(
+            f"at {arg(self.rate):g} Hz gain {arg(self.gain):.3g}, time constant"
+            f" {arg(1e3 * self.time_constant):.3g} ms, {arg(cutoff)}, lag {arg(1e3 * self.delay):.3g} ms,"
+            f" {arg(100 * self.noise_left):.3g} % of white noise left"
         )
 
 
@@ -125,13 +126,17 @@ class KalmanFilter:
         """
         if rate is None and self.per_sample:
             rate = self.tuned_rate
-        here = f"Kalman filter with Q = {self.q:g}, R = {self.r:g}"
-        here += " per sample" if self.per_sample else f" at {self.tuned_rate:g} Hz"
-        text = f"{here}: {self.figures()}."
+        here = message(f"Kalman filter with Q = {arg(self.q):g}, R = {arg(self.r):g}")
+        here += message(" per sample") if self.per_sample else message(f" at {arg(self.tuned_rate):g} Hz")
+        text = message(f"{arg(here)}: {arg(self.figures())}.")
         if rate is None or rate == self.rate:
             return text
-        same = "The same Q and R are another filter" if self.per_sample else "Q and R follow time"
-        return f"{text} {same}: {self.figures(rate)}."
+        same = (
+            message("The same Q and R are another filter")
+            if self.per_sample
+            else message("Q and R follow time")
+        )
+        return message(f"{arg(text)} {arg(same)}: {arg(self.figures(rate))}.")
 
     @property
     def state(self) -> Floats | None:
@@ -157,7 +162,7 @@ class KalmanFilter:
             return
         row = as_row("KalmanFilter.reset", state)
         if not np.all(np.isfinite(row)):
-            raise InputError(f"KalmanFilter.reset: the state must be finite, not {row}; or give none")
+            raise InputError(f"KalmanFilter.reset: the state must be finite, not {arg(row)}; or give none")
         self._state, self._variance = row.copy(), np.full(row.shape, self._r)
 
     def update(self, sample: ArrayLike, dt: float | None = None) -> Floats:
@@ -188,7 +193,8 @@ class KalmanFilter:
             self._state, self._variance = np.zeros(rows.shape[1]), np.full(rows.shape[1], inf)
         if rows.shape[1] != self._state.size:
             raise InputError(
-                f"KalmanFilter: {rows.shape[1]} channels after {self._state.size}; call reset() for another stream"
+                f"KalmanFilter: {arg(rows.shape[1])} channels after {arg(self._state.size)}; call reset()"
+                " for another stream"
             )
         answers = np.empty_like(rows)
         for start in range(0, rows.shape[0], _BLOCK):
@@ -230,7 +236,9 @@ class KalmanFilter:
             return np.full(count, self._q)
         steps = np.asarray(dt, dtype=np.float64)
         if steps.shape not in {(), (count,)}:
-            raise InputError(f"KalmanFilter: dt has shape {steps.shape}; give one number or {count}")
+            raise InputError(
+                f"KalmanFilter: dt has shape {arg(steps.shape)}; give one number or {arg(count)}"
+            )
         if not np.all((steps > 0) & (steps < inf)):
             raise InputError(
                 "KalmanFilter: every dt must be positive and finite (seconds); is a time repeated?"

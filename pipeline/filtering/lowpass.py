@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering.rows import Bools, Columns, Floats, alike, as_row, as_rows, positive
 
 
@@ -36,10 +36,10 @@ class LowPass:
         self.rate = positive("LowPass.rate", rate)
         if not 0 < cutoff < rate / 2:
             raise InputError(
-                f"LowPass.cutoff must be above 0 and below half the rate, {rate / 2:g} Hz, not {cutoff} Hz"
+                f"LowPass.cutoff must be above 0 and below half the rate, {arg(rate / 2):g} Hz, not {arg(cutoff)} Hz"
             )
         if not isinstance(order, int) or order < 1:
-            raise InputError(f"LowPass.order must be a whole number of at least 1, not {order}")
+            raise InputError(f"LowPass.order must be a whole number of at least 1, not {arg(order)}")
         self.cutoff, self.order = float(cutoff), order
         self._sections: Floats = butter(order, cutoff, fs=rate, output="sos")
         self._first: Floats = sosfilt_zi(self._sections)[:, :, None]
@@ -98,7 +98,7 @@ class LowPass:
             self._last = np.full(rows.shape[1], np.nan)
         if rows.shape[1] != self._last.size:
             raise InputError(
-                f"LowPass: {rows.shape[1]} channels after {self._last.size}; call reset() for another stream"
+                f"LowPass: {arg(rows.shape[1])} channels after {arg(self._last.size)}; call reset() for another stream"
             )
         missing = ~np.isfinite(rows)
         answers = np.empty_like(rows)

@@ -10,6 +10,7 @@ import numpy as np
 from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.samples import measured_noise, settled, usual_step, with_calibration
 from contactbench.pipeline.tables import TableReader, Wording
@@ -35,12 +36,12 @@ _BLOCK_ROWS = 65_536
 _CONTACTS = Wording(
     header=HEADER.decode().strip(),
     rows="contacts",
-    meaning="m, in the sensor frame S",
+    meaning=message("m, in the sensor frame S"),
     text="a reason",
     error=HeatmapError,
 )
 _POINTS = Wording(
-    header="x_mm,y_mm,z_mm", rows="points", meaning="mm, in the sensor frame S", error=HeatmapError
+    header="x_mm,y_mm,z_mm", rows="points", meaning=message("mm, in the sensor frame S"), error=HeatmapError
 )
 
 
@@ -119,7 +120,7 @@ def read_contacts(file: File, wrenches: Path | None = None) -> Contacts:
     if not known.all():
         row = int(np.argmin(known))
         raise HeatmapError(
-            f"{file}: row {row + 1}: {reasons[row].decode()!r} is not a reason: give a file"
+            f"{arg(file)}: row {arg(row + 1)}: {arg(reasons[row].decode())!r} is not a reason: give a file"
             " written by `contactbench locate`."
         )
     forces = None if wrenches is None else _forces(wrenches, len(numbers), file)
@@ -135,8 +136,8 @@ def _check_confidences(file: File, confidences: NDArray[np.float64], used: NDArr
     if bad.any():
         row = int(np.argmax(bad))
         raise HeatmapError(
-            f"{file}: row {row + 1}: the confidence is {confidences[row]:g}, not between 0 and 1: locate the contacts"
-            " again."
+            f"{arg(file)}: row {arg(row + 1)}: the confidence is {arg(confidences[row]):g}, not between 0"
+            " and 1: locate the contacts again."
         )
 
 
@@ -221,21 +222,21 @@ def locate_recording(
     recording = read_recording(file, progress)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise HeatmapError(
-            f"{file}: it contains {len(recording.wrenches)} sensors and {len(recording.flanges)}"
+            f"{arg(file)}: it contains {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))}"
             " robots: record one of each, the robot with --pose."
         )
     (track,), (poses,) = recording.wrenches.values(), recording.flanges.values()
     parts = list(_compensated(track, poses, model, R_ES, delay))
     if not parts:
-        raise HeatmapError(f"{file}: no reading has a pose: record the robot throughout.")
+        raise HeatmapError(f"{arg(file)}: no reading has a pose: record the robot throughout.")
     times, wrenches, R_WS = (np.concatenate(column) for column in zip(*parts, strict=True))
     said, count = [*recording.warnings], len(track.times)
     del recording, track, poses, parts  # nothing is held twice while contacts are located
     if lost := count - len(times):
-        said.append(f"{lost:,} readings left out: flagged as bad, or without a pose.")
+        said.append(message(f"{arg(lost):,} readings left out: flagged as bad, or without a pose."))
     own = noise or measured_noise(times, wrenches)
     if own is None:
-        said.append("The recording does not show its noise, so a typical sensor noise is assumed.")
+        said.append(message("The recording does not show its noise, so a typical sensor noise is assumed."))
     total = with_calibration(own or WrenchNoise(), model, R_WS)
     solver = ContactSolver(probe, total, gates)
     found = [
@@ -285,8 +286,8 @@ def _contacts(
     names, counts = np.unique(reasons[~used], return_counts=True)
     doubtful = int(counts[names == b"ambiguous"].sum())
     if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
-        said = (
-            f"{doubtful:,} of {doubtful + used.sum():,} contacts are ambiguous and not in the map:"
+        said = message(
+            f"{arg(doubtful):,} of {arg(doubtful + used.sum()):,} contacts are ambiguous and not in the map:"
             " mark the touched region, and locate them again."
         )
         notes = (*notes, said)
@@ -322,8 +323,8 @@ def _forces(file: Path, count: int, contacts: File) -> NDArray[np.float64]:
     forces = np.concatenate(parts)
     if len(forces) != count:
         raise HeatmapError(
-            f"{file} has {len(forces):,} rows, {contacts} {count:,}: give the wrenches that these contacts were located"
-            " from."
+            f"{arg(file)} has {arg(len(forces)):,} rows, {arg(contacts)} {arg(count):,}: give the wrenches"
+            " that these contacts were located from."
         )
     return forces
 
@@ -331,4 +332,4 @@ def _forces(file: Path, count: int, contacts: File) -> NDArray[np.float64]:
 def _unread(file: File, error: Exception) -> Exception:
     if isinstance(error, HeatmapError) or not isinstance(error, OSError):
         return error
-    return HeatmapError(f"{file}: the file cannot be read ({error}): check the path.")
+    return HeatmapError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.durable import scratch_beside, sync_folder
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.heatmap import picture
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.selection import empty_words
@@ -51,9 +51,11 @@ class FilmSettings:
     def check(self) -> None:
         """Refuse what makes no film; HeatmapError."""
         if not SLOWEST <= self.speed <= FASTEST:
-            raise HeatmapError(f"a speed of {self.speed:g}: choose {SLOWEST:g} to {FASTEST:g} times.")
+            raise HeatmapError(
+                f"a speed of {arg(self.speed):g}: choose {arg(SLOWEST):g} to {arg(FASTEST):g} times."
+            )
         if self.window is not None and not 0 < self.window < np.inf:
-            raise HeatmapError(f"a window of {self.window:g} s: choose more than 0 s, or none.")
+            raise HeatmapError(f"a window of {arg(self.window):g} s: choose more than 0 s, or none.")
 
 
 def moments(playback: Playback, selection: Selection, settings: FilmSettings, rate: int) -> list[Selection]:
@@ -65,13 +67,14 @@ def moments(playback: Playback, selection: Selection, settings: FilmSettings, ra
         raise HeatmapError(empty_words(playback.contacts, selection))
     if not end > start:
         raise HeatmapError(
-            f"a film of {max(end - start, 0.0):g} s shows no motion: widen the time window, or"
+            f"a film of {arg(max(end - start, 0.0)):g} s shows no motion: widen the time window, or"
             " save a picture."
         )
     count = int(np.ceil((end - start) / settings.speed * rate)) + 1
     if count > _MOST_FRAMES:
         raise HeatmapError(
-            f"a film of {count / rate / 60:.0f} minutes is too long: choose a higher speed, or a shorter time window."
+            f"a film of {arg(count / rate / 60):.0f} minutes is too long: choose a higher speed, or a"
+            " shorter time window."
         )
     ends = np.minimum(start + np.arange(count) * settings.speed / rate, end)
     begins = np.full(count, start) if settings.window is None else np.maximum(ends - settings.window, start)
@@ -136,7 +139,7 @@ def write_film(
     """
     kind = file.suffix.lower()
     if kind not in SUFFIXES:
-        raise HeatmapError(f"{file}: the name of a film must end in .mp4 or .gif.")
+        raise HeatmapError(f"{arg(file)}: the name of a film must end in .mp4 or .gif.")
     settings = settings or FilmSettings()
     rate, shown = _RATES[kind], 0
 
@@ -157,7 +160,7 @@ def write_film(
         sync_folder(file.parent)
     except OSError as error:
         raise InputError(
-            f"{file}: the film cannot be written ({error}): choose a folder that exists and has space."
+            f"{arg(file)}: the film cannot be written ({arg(error)}): choose a folder that exists and has space."
         ) from error
     finally:
         scratch.unlink(missing_ok=True)
@@ -169,7 +172,7 @@ def _write_mp4(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> No
         import imageio_ffmpeg
     except ImportError as error:
         raise HeatmapError(
-            f"a film as .mp4 needs ffmpeg: {remedy('video')}, or name a file that ends in .gif."
+            f"a film as .mp4 needs ffmpeg: {arg(remedy('video'))}, or name a file that ends in .gif."
         ) from error
     file.touch()  # ffmpeg's own words about a folder that is not there are long
     first = next(images)

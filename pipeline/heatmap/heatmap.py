@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from contactbench.pipeline.colour_ramp import end_of_colours
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 from contactbench.pipeline.settings import Normalisation, Quantity
 
@@ -25,11 +25,11 @@ _UNITS = {"force": "N", "peak": "N", "error": "mm", "uncertainty": "mm"}
 _DENSITY_UNITS = {"contacts": "1/mm²", "seconds": "s/mm²", "rate": "1/(mm²·s)"}
 _SCALES = {"density": 1e-6, "error": 1e3, "uncertainty": 1e3}  # from SI
 _WORDS = {
-    "density": "contact density",
-    "force": "mean force",
-    "peak": "peak force",
-    "error": "mean error",
-    "uncertainty": "uncertainty (1 sigma)",
+    "density": message("contact density"),
+    "force": message("mean force"),
+    "peak": message("peak force"),
+    "error": message("mean error"),
+    "uncertainty": message("uncertainty (1 sigma)"),
 }
 
 
@@ -81,7 +81,7 @@ class Heatmap:
     @property
     def title(self) -> str:
         """The quantity in words."""
-        return _WORDS[self.quantity] + (", weighed by confidence" if self.by_confidence else "")
+        return _WORDS[self.quantity] + (message(", weighed by confidence") if self.by_confidence else "")
 
     @property
     def known(self) -> NDArray[np.bool_]:
@@ -109,7 +109,9 @@ class Heatmap:
             "quantity": self.quantity,
             "unit": self.unit,
             "bandwidth_mm": 1e3 * self.bandwidth,
-            "kernel": f"Gaussian of the distance along the surface, cut off at {REACH:g} bandwidths",
+            "kernel": message(
+                f"Gaussian of the distance along the surface, cut off at {arg(REACH):g} bandwidths"
+            ),
             "normalisation": self.normalisation if self.quantity == "density" else None,
             "contacts": self.contacts,
             "counted": self.counted,
@@ -201,7 +203,7 @@ def heatmap(
     check_bandwidth(probe, bandwidth)
     if quantity not in get_args(Quantity) or normalisation not in get_args(Normalisation):
         raise HeatmapError(
-            f"there is no heatmap of quantity {quantity!r} with normalisation {normalisation!r}."
+            f"there is no heatmap of quantity {arg(quantity)!r} with normalisation {arg(normalisation)!r}."
         )
     bells, scale = Bells(probe, at, bandwidth), scale_of(quantity)
     if quantity == "density":
@@ -219,7 +221,7 @@ def heatmap(
 def _checked(points: ArrayLike, weights: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     at = np.asarray(points, dtype=np.float64)
     if at.ndim != 2 or at.shape[1:] != (3,) or not np.isfinite(at).all():
-        raise HeatmapError(f"points: give finite numbers (n, 3), m, not shape {at.shape}.")
+        raise HeatmapError(f"points: give finite numbers (n, 3), m, not shape {arg(at.shape)}.")
     if not len(at):
         raise HeatmapError(
             "there is no contact to draw: touch the probe while recording, or lower --min-force."
@@ -233,13 +235,13 @@ def _checked(points: ArrayLike, weights: ArrayLike | None) -> tuple[NDArray[np.f
 def _numbers(values: ArrayLike | None, count: int, name: str) -> NDArray[np.float64]:
     array = np.asarray(np.nan if values is None else values, dtype=np.float64)
     if array.shape != (count,) or not np.isfinite(array).all():
-        raise HeatmapError(f"{name}: give {count} finite numbers, one for each contact.")
+        raise HeatmapError(f"{arg(name)}: give {arg(count)} finite numbers, one for each contact.")
     return array
 
 
 def _positive(value: float | None, name: str, unit: str) -> float:
     if value is None or not 0 < value < np.inf:
-        raise HeatmapError(f"{name} is {value}: give a positive number, {unit}.")
+        raise HeatmapError(f"{arg(name)} is {arg(value)}: give a positive number, {arg(unit)}.")
     return value
 
 
@@ -248,8 +250,8 @@ def check_bandwidth(probe: Probe, bandwidth: float) -> None:
     largest = _LARGEST_SHARE * probe.size
     if not 1e-5 <= bandwidth <= largest:
         raise HeatmapError(
-            f"a bandwidth of {1e3 * bandwidth:g} mm does not suit a probe of {1e3 * probe.size:.0f} mm: choose 0.01 to"
-            f" {1e3 * largest:.0f} mm."
+            f"a bandwidth of {arg(1e3 * bandwidth):g} mm does not suit a probe of"
+            f" {arg(1e3 * probe.size):.0f} mm: choose 0.01 to {arg(1e3 * largest):.0f} mm."
         )
 
 
@@ -261,9 +263,9 @@ def _notes(probe: Probe, values: NDArray[np.float64], bandwidth: float) -> tuple
     if edge <= 1.5 * bandwidth:
         return ()
     return (
-        (
-            f"The mesh's edges there are {1e3 * edge:.1f} mm long, longer than the bandwidth of"
-            f" {1e3 * bandwidth:.1f} mm, so the map is no finer than the mesh. Use a mesh with"
+        message(
+            f"The mesh's edges there are {arg(1e3 * edge):.1f} mm long, longer than the bandwidth of"
+            f" {arg(1e3 * bandwidth):.1f} mm, so the map is no finer than the mesh. Use a mesh with"
             " more facets."
         ),
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.heatmap.heatmap import (
     HeatmapError,
     default_bandwidth,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.settings import Normalisation, Quantity
 
-OUTSIDE_TIME, OUTSIDE_FORCE = "outside the time window", "outside the force range"
+OUTSIDE_TIME, OUTSIDE_FORCE = message("outside the time window"), message("outside the force range")
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,9 @@ def windowed(contacts: Contacts, selection: Selection) -> Contacts:
     start = 0.0 if selection.start is None else selection.start
     end = np.inf if selection.end is None else selection.end
     if not start <= end:
-        raise HeatmapError(f"the time window ends at {end:g} s, before it starts at {start:g} s: swap them.")
+        raise HeatmapError(
+            f"the time window ends at {arg(end):g} s, before it starts at {arg(start):g} s: swap them."
+        )
     inside = np.ones(len(contacts.points), dtype=bool)
     if selection.timed:
         if contacts.times is None:
@@ -127,7 +130,7 @@ def force_mask(contacts: Contacts, selection: Selection) -> NDArray[np.bool_]:
     least = 0.0 if selection.least_force is None else selection.least_force
     most = np.inf if selection.most_force is None else selection.most_force
     if not least <= most:
-        raise HeatmapError(f"the force range goes from {least:g} N down to {most:g} N: swap them.")
+        raise HeatmapError(f"the force range goes from {arg(least):g} N down to {arg(most):g} N: swap them.")
     mask: NDArray[np.bool_] = (contacts.forces >= least) & (contacts.forces <= most)
     return mask
 
@@ -138,18 +141,18 @@ def empty_words(contacts: Contacts, selection: Selection) -> str:
     if selection.timed:
         start, end = selection.start, selection.end
         parts.append(
-            f"from {start:.4g} s on"
+            message(f"from {arg(start):.4g} s on")
             if end is None
-            else f"from {0.0 if start is None else start:.4g} to {end:.4g} s"
+            else message(f"from {arg(0.0 if start is None else start):.4g} to {arg(end):.4g} s")
         )
     if selection.forced:
         least = 0.0 if selection.least_force is None else selection.least_force
         upto = "" if selection.most_force is None else f" to {selection.most_force:.4g}"
-        parts.append(f"with {least:.4g}{upto} N" if upto else f"with {least:.4g} N or more")
-    place = f" {' '.join(parts)}" if parts else ""
-    return (
-        f"there is no contact{place}: widen the time window or the force range (the recording"
-        f" lasts {contacts.duration:.4g} s)."
+        parts.append(f"with {least:.4g}{upto} N" if upto else message(f"with {arg(least):.4g} N or more"))
+    place = message(f" {arg(join(' ', parts))}") if parts else ""
+    return message(
+        f"there is no contact{arg(place)}: widen the time window or the force range (the recording"
+        f" lasts {arg(contacts.duration):.4g} s)."
     )
 
 
@@ -250,5 +253,7 @@ def selected_heatmap(probe: Probe, contacts: Contacts, selection: Selection) -> 
     part = windowed(contacts, selection)
     values, use = shown(part, selection)
     if not use.any():
-        raise HeatmapError(f"there is no contact with a known {selection.quantity}: choose another quantity.")
+        raise HeatmapError(
+            f"there is no contact with a known {arg(selection.quantity)}: choose another quantity."
+        )
     return drawn(probe, part, selection, values, use)

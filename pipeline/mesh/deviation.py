@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -66,10 +67,10 @@ class Deviation:
     def sentence(self) -> str:
         """The distances in words."""
         if self.hausdorff < _NOTHING:
-            return "identical to the original"
-        return (
-            f"at most {1e3 * self.hausdorff:.3g} mm, {1e3 * self.rms:.2g} mm RMS, normals"
-            f" {self.normal_mean_deg:.2g}° off on average"
+            return message("identical to the original")
+        return message(
+            f"at most {arg(1e3 * self.hausdorff):.3g} mm, {arg(1e3 * self.rms):.2g} mm RMS, normals"
+            f" {arg(self.normal_mean_deg):.2g}° off on average"
         )
 
     def to_json(self) -> dict[str, Any]:

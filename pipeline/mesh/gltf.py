@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many
 from contactbench.pipeline.mesh.polygons import strip_triangles
@@ -44,7 +45,7 @@ _COMPRESSED = {
 }
 # Extensions that change neither where a vertex is nor which facets there are, or whose change is read.
 _HARMLESS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp")
-_PLAIN = "export it again as GLB without compression, or as STL or 3MF"
+_PLAIN = message("export it again as GLB without compression, or as STL or 3MF")
 
 
 @dataclass
@@ -78,7 +79,7 @@ def read_gltf(data: bytes) -> RawMesh:
     for name in _list(file.text, "extensionsRequired"):
         if not str(name).startswith("KHR_materials_") and name not in _HARMLESS:
             raise MeshError(
-                f"the glTF scene needs the extension {str(name)[:60]}, which is not supported:"
+                f"the glTF scene needs the extension {arg(str(name)[:60])}, which is not supported:"
                 " export it again without it, or as STL or 3MF."
             )
     # A number that is none, or overflows here, is refused, with its row, like every other.
@@ -90,7 +91,7 @@ def read_gltf(data: bytes) -> RawMesh:
     if not file.facets:
         raise MeshError("the glTF scene holds no triangles: export the part again, as a surface.")
     notes = (
-        ("Parts of the glTF scene are attached to a skeleton; they were read in their rest pose.",)
+        (message("Parts of the glTF scene are attached to a skeleton; they were read in their rest pose."),)
         if file.posed
         else ()
     )
@@ -108,13 +109,13 @@ def _open(data: bytes) -> _File:
     version, length = struct.unpack_from("<II", data, 4)
     if version != 2:
         raise MeshError(
-            f"the GLB file has version {version}, but only version 2 is supported: export it again"
+            f"the GLB file has version {arg(version)}, but only version 2 is supported: export it again"
             " as GLB 2.0."
         )
     if length > len(data):
         raise MeshError(
-            f"the GLB header announces {length} bytes, but the file has {len(data)}: it is cut short, copy or export"
-            " it again."
+            f"the GLB header announces {arg(length)} bytes, but the file has {arg(len(data))}: it is cut"
+            " short, copy or export it again."
         )
     chunks: dict[bytes, bytes] = {}
     at = 12
@@ -148,7 +149,7 @@ def _content(buffer: dict[str, Any], binary: bytes) -> bytes | str:
         return base64.b64decode(body, validate=True)
     except (binascii.Error, ValueError) as error:
         raise MeshError(
-            f"the data within the glTF file is damaged ({str(error)[:100]}): export it again as GLB."
+            f"the data within the glTF file is damaged ({arg(str(error)[:100])}): export it again as GLB."
         ) from error
 
 
@@ -160,7 +161,7 @@ def _parse(text: bytes) -> dict[str, Any]:
         parsed = json.loads(text.rstrip(b"\0 "))
     except (ValueError, RecursionError) as error:  # also numbers of thousands of digits
         raise MeshError(
-            f"the description of the glTF scene is not valid JSON ({str(error)[:100]}): export it"
+            f"the description of the glTF scene is not valid JSON ({arg(str(error)[:100])}): export it"
             " again as GLB."
         ) from error
     if not isinstance(parsed, dict) or not isinstance(parsed.get("asset"), dict):
@@ -174,7 +175,7 @@ def _refuse_compressed(holder: dict[str, Any], names: str) -> None:
     for name in _list(holder, names):
         if isinstance(name, str) and name in _COMPRESSED:
             raise MeshError(
-                f"the glTF meshes are compressed with {_COMPRESSED[name]}, which is not supported: {_PLAIN}."
+                f"the glTF meshes are compressed with {arg(_COMPRESSED[name])}, which is not supported: {arg(_PLAIN)}."
             )
 
 
@@ -374,7 +375,8 @@ def _buffer(file: _File, number: int | None) -> bytes:
     content = file.buffers[number]
     if isinstance(content, str):
         raise MeshError(
-            f"the glTF file keeps its data in another file ({content[:60]!r}): export it as GLB, which is one file."
+            f"the glTF file keeps its data in another file ({arg(content[:60])!r}): export it as GLB, which"
+            " is one file."
         )
     return content
 
@@ -383,7 +385,7 @@ def _entry(holder: dict[str, Any], name: str, number: Any) -> dict[str, Any]:
     entries = _list(holder, name)
     if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(entries):
         raise MeshError(
-            f"the glTF scene refers to an entry of '{name}' that does not exist: export it again."
+            f"the glTF scene refers to an entry of '{arg(name)}' that does not exist: export it again."
         )
     entry = entries[number]
     if not isinstance(entry, dict):
@@ -421,8 +423,12 @@ def _floats(
 
 
 def _too_many() -> MeshError:
-    return MeshError(f"the glTF scene has more than {_MOST_PIECES} nodes or pieces: export the probe alone.")
+    return MeshError(
+        f"the glTF scene has more than {arg(_MOST_PIECES)} nodes or pieces: export the probe alone."
+    )
 
 
 def _wrong(name: str) -> MeshError:
-    return MeshError(f"the glTF scene contains '{name}' that violate the format: export it again as GLB.")
+    return MeshError(
+        f"the glTF scene contains '{arg(name)}' that violate the format: export it again as GLB."
+    )

@@ -10,6 +10,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -58,40 +60,54 @@ class MeshHealth:
         found: list[str] = []
         if self.boundary_edges > 0:
             found.append(
-                f"The surface is open (edges at a hole or gap: {self.boundary_edges}). A line of force can"
-                " pass through and end on an inner wall. Close the outer shell before use."
+                message(
+                    f"The surface is open (edges at a hole or gap: {arg(self.boundary_edges)}). A line of force can"
+                    " pass through and end on an inner wall. Close the outer shell before use."
+                )
             )
         if self.nonmanifold_edges > 0:
             found.append(
-                f"More than two facets meet at an edge (edges: {self.nonmanifold_edges}), so"
-                " inside and outside cannot be told apart there. Keep only the outer shell."
+                message(
+                    f"More than two facets meet at an edge (edges: {arg(self.nonmanifold_edges)}), so"
+                    " inside and outside cannot be told apart there. Keep only the outer shell."
+                )
             )
         if not self.winding_consistent:
             found.append(
-                "Neighbouring facets disagree about which side is outside. Contacts on flipped"
-                " facets are missed, or found on the far side. Make the normals consistent in the"
-                " CAD program."
+                message(
+                    "Neighbouring facets disagree about which side is outside. Contacts on flipped"
+                    " facets are missed, or found on the far side. Make the normals consistent in the"
+                    " CAD program."
+                )
             )
         if self.outward is False:
             found.append(
-                "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
-                " probe. Flip all normals in the CAD program."
+                message(
+                    "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
+                    " probe. Flip all normals in the CAD program."
+                )
             )
         if self.components > 1:
             found.append(
-                f"The mesh has {self.components} separate parts. A part inside the housing can be"
-                " mistaken for the surface. Keep only the outer shell."
+                message(
+                    f"The mesh has {arg(self.components)} separate parts. A part inside the housing can be"
+                    " mistaken for the surface. Keep only the outer shell."
+                )
             )
         if self.duplicate_facets > 0:
             found.append(
-                f"Facets occur more than once (surplus: {self.duplicate_facets}). They slow the"
-                " search and give double answers. Remove duplicate facets in the CAD program."
+                message(
+                    f"Facets occur more than once (surplus: {arg(self.duplicate_facets)}). They slow the"
+                    " search and give double answers. Remove duplicate facets in the CAD program."
+                )
             )
         if self.dropped_facets > 0:
             found.append(
-                f"Facets without area were left out (facets: {self.dropped_facets}). They cannot"
-                " be touched, but may have closed a seam. If the surface is open, export again"
-                " with cleaner triangles."
+                message(
+                    f"Facets without area were left out (facets: {arg(self.dropped_facets)}). They cannot"
+                    " be touched, but may have closed a seam. If the surface is open, export again"
+                    " with cleaner triangles."
+                )
             )
         return tuple(found)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.clean import flip_flat_facets, merge_vertices
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
@@ -147,7 +148,7 @@ def load_probe(
     probe = probe_of(file, read, T_SP, name)
     sentences = (*read.notes, *probe.health.sentences)
     if sentences:
-        warnings.warn(f"{file}: " + " ".join(sentences), MeshWarning, stacklevel=2)
+        warnings.warn(f"{file}: " + join(" ", sentences), MeshWarning, stacklevel=2)
     return probe
 
 
@@ -173,7 +174,7 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
         file.
     """
     if units not in (*get_args(Units), "auto"):
-        raise MeshError(f"units={units!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
+        raise MeshError(f"units={arg(units)!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
     file = as_file(path)
     try:
         raw, notes = _read(file)
@@ -183,7 +184,7 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
         check_vertices(raw.vertices)
         return _with_units(raw, notes, units, "m" if file.suffix.lower() in _IN_METRES else None)
     except MeshError as error:
-        raise MeshError(f"{file}: {error}") from error
+        raise MeshError(f"{arg(file)}: {arg(error)}") from error
 
 
 def _with_units(
@@ -191,7 +192,9 @@ def _with_units(
 ) -> MeshFile:
     if units != "auto" and not raw.settled:
         if raw.stated not in (None, units):
-            told = f"The file states {NAMES[raw.stated]}, but you asked for {NAMES[units]}, which are used."
+            told = message(
+                f"The file states {arg(NAMES[raw.stated])}, but you asked for {arg(NAMES[units])}, which are used."
+            )
             raw = replace(raw, notes=(*raw.notes, told))
         return MeshFile(raw, None, units)
     used = raw.vertices[raw.faces.ravel()]
@@ -210,9 +213,13 @@ def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
     if bad.any():
         row, count = int(np.argmax(bad)), np.count_nonzero(bad)
         place = ", ".join(f"{value:g}" for value in vertices[row])
-        all_ = f"1 of {len(bad)} vertices is" if count == 1 else f"{count} of {len(bad)} vertices are"
+        all_ = (
+            message(f"1 of {arg(len(bad))} vertices is")
+            if count == 1
+            else message(f"{arg(count)} of {arg(len(bad))} vertices are")
+        )
         raise MeshError(
-            f"vertex {row + 1} is ({place}); {all_} not finite. Repair the file or export it again."
+            f"vertex {arg(row + 1)} is ({arg(place)}); {arg(all_)} not finite. Repair the file or export it again."
         )
 
 
@@ -227,7 +234,7 @@ def _without_stray(raw: RawMesh) -> RawMesh:
     vertices = raw.vertices.copy()
     vertices[stray] = vertices[raw.faces[0, 0]]
     count = np.count_nonzero(stray)
-    note = f"Unused points that are not numbers were left out (points: {count})."
+    note = message(f"Unused points that are not numbers were left out (points: {arg(count)}).")
     return replace(raw, vertices=vertices, notes=(*raw.notes, note))
 
 
@@ -237,22 +244,22 @@ def _read(file: File) -> tuple[RawMesh, bytes]:
     except FileNotFoundError:
         raise MeshError("there is no such file: check the path.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-        raise MeshError(f"the file cannot be reached ({error}): check the path.") from error
+        raise MeshError(f"the file cannot be reached ({arg(error)}): check the path.") from error
     _check_file(status.st_mode, status.st_size)
     suffix = file.suffix.lower()
     reader = _READERS.get(suffix)
     if reader is None and suffix not in _CAD:
         raise MeshError(
-            f"the suffix {file.suffix!r} is not one of {', '.join(_READERS)}: export the part as one of them."
+            f"the suffix {arg(file.suffix)!r} is not one of {arg(', '.join(_READERS))}: export the part as one of them."
         )
     try:
         data = file.read_bytes()
     except OSError as error:
-        raise MeshError(f"the file cannot be read ({error}): check its permissions.") from error
+        raise MeshError(f"the file cannot be read ({arg(error)}): check its permissions.") from error
     cad = _cad_format(data) or _CAD.get(suffix)
     if cad or reader is None:
         raise MeshError(
-            f"this is a {cad} file: it contains the curved surfaces of a CAD program but no"
+            f"this is a {arg(cad)} file: it contains the curved surfaces of a CAD program but no"
             " triangles. Open it in a CAD program and export the part as 3MF, or as STL in"
             " millimetres, with a tolerance of 0.01 mm."
         )
@@ -277,7 +284,9 @@ def _check_file(mode: int, size: int) -> None:
     if size == 0:
         raise MeshError("the file is empty: copy or export it again.")
     if size > _LARGEST_FILE:
-        raise MeshError(f"the file has {size} bytes, more than 512 MiB: export the part with fewer facets.")
+        raise MeshError(
+            f"the file has {arg(size)} bytes, more than 512 MiB: export the part with fewer facets."
+        )
 
 
 def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -286,14 +295,16 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
         T_SP = np.array(mount, dtype=np.float64)
     except (ValueError, TypeError) as error:
         raise MeshError(
-            f"mount is not a matrix of numbers ({error}): give a 4 x 4 transform T_SP."
+            f"mount is not a matrix of numbers ({arg(error)}): give a 4 x 4 transform T_SP."
         ) from error
     if T_SP.shape != (4, 4):
-        raise MeshError(f"mount has shape {T_SP.shape}: give a 4 x 4 transform T_SP.")
+        raise MeshError(f"mount has shape {arg(T_SP.shape)}: give a 4 x 4 transform T_SP.")
     if not np.isfinite(T_SP).all():
         raise MeshError("mount holds NaN or infinity: give a finite 4 x 4 transform T_SP.")
     if np.abs(T_SP[3] - (0, 0, 0, 1)).max() > _RIGID:
-        raise MeshError(f"mount has the last row {T_SP[3].tolist()}, not [0, 0, 0, 1]: is it transposed?")
+        raise MeshError(
+            f"mount has the last row {arg(T_SP[3].tolist())}, not [0, 0, 0, 1]: is it transposed?"
+        )
     R_SP, p_SP_S = T_SP[:3, :3], T_SP[:3, 3]
     if np.abs(R_SP).max() > 1e3 or np.abs(R_SP.T @ R_SP - np.eye(3)).max() > _RIGID:
         raise MeshError(
@@ -303,7 +314,7 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if np.linalg.det(R_SP) < 0:
         raise MeshError("mount mirrors the mesh (determinant -1): one axis has the wrong sign.")
     if np.abs(p_SP_S).max() > _FARTHEST_MOUNT_M:
-        raise MeshError(f"mount moves the mesh by {p_SP_S.tolist()} m: give the translation in metres.")
+        raise MeshError(f"mount moves the mesh by {arg(p_SP_S.tolist())} m: give the translation in metres.")
     return T_SP
 
 
@@ -314,7 +325,7 @@ def probe_of(
     try:
         return settle(read, T_SP, file.stem if name is None else name)
     except MeshError as error:
-        raise MeshError(f"{file}: {error}") from error
+        raise MeshError(f"{arg(file)}: {arg(error)}") from error
 
 
 def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:
@@ -360,7 +371,9 @@ def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> P
         flat |= degenerate_facets(moved, faces)
     dropped = max(dropped, int(np.count_nonzero(flat)))
     if flat.all():
-        raise MeshError(f"none of the {len(faces)} facets has an area: export the part again, as a surface.")
+        raise MeshError(
+            f"none of the {arg(len(faces))} facets has an area: export the part again, as a surface."
+        )
     if flat.any():
         faces, region, invented = faces[~flat], region[~flat], invented[~flat]
     return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped, invented, raw.untouchable)
@@ -371,7 +384,11 @@ def _check_units(size: float, units: Units) -> None:
         low, high = LIKELY_M
         likely = [unit for unit in NAMES if unit != units and low <= in_metres(size, unit) <= high]
         if not likely:
-            return f"no probe has that size in {NAMES[units]}. Check that the right part was exported."
-        return f"are the numbers {NAMES[likely[0]]}? Give --units {likely[0]} instead of {units}."
+            return message(
+                f"no probe has that size in {arg(NAMES[units])}. Check that the right part was exported."
+            )
+        return message(
+            f"are the numbers {arg(NAMES[likely[0]])}? Give --units {arg(likely[0])} instead of {arg(units)}."
+        )
 
     refuse_size(in_metres(size, units), remedy)

@@ -6,6 +6,7 @@ import io
 import re
 from array import array
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, broken, decimal_points, plain_text, points
 from contactbench.pipeline.mesh.polygons import Polygons
@@ -47,9 +48,11 @@ def _position(line: bytes, number: int) -> tuple[bytes, ...]:
     match = _POSITION.match(line)
     if match is None:
         raise broken(
-            f"line {number} of the OBJ text",
+            message(f"line {arg(number)} of the OBJ text"),
             line,
-            f"line {number} of the OBJ text is a vertex without three numbers: export the file again.",
+            message(
+                f"line {arg(number)} of the OBJ text is a vertex without three numbers: export the file again."
+            ),
         )
     return match.groups()
 
@@ -59,7 +62,7 @@ def _polygon(line: bytes, number: int, vertices_so_far: int) -> list[int]:
     polygon = [int(match.group(1)) for match in matches if match]
     if len(polygon) != len(matches) or not polygon or 0 in polygon:
         raise MeshError(
-            f"line {number} of the OBJ text is a facet without valid vertex numbers (counted from"
+            f"line {arg(number)} of the OBJ text is a facet without valid vertex numbers (counted from"
             " 1): repair that line or export the file again."
         )
     # A negative index counts back from the vertex read last, not from the end of the file.

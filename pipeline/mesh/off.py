@@ -9,6 +9,7 @@ from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
@@ -68,22 +69,24 @@ def _read(text: bytes, notes: tuple[str, ...]) -> RawMesh:
         number, row = next(rows, (0, b""))
         match = _THREE.match(row)
         if match is None:
-            raise _bad_row(number, row, "a vertex of three numbers", vertex_count, facet_count)
+            raise _bad_row(number, row, message("a vertex of three numbers"), vertex_count, facet_count)
         coordinates.extend(map(float, match.groups()))
     for _ in range(facet_count):
         number, row = next(rows, (0, b""))
         polygon = _polygon(row)
         if polygon is None:
-            raise _bad_row(number, row, "a facet that lists its vertices", vertex_count, facet_count)
+            raise _bad_row(number, row, message("a facet that lists its vertices"), vertex_count, facet_count)
         polygons.add(polygon, number)
     number, row = next(rows, (0, b""))
     if _polygon(row):
         raise MeshError(
-            f"line {number} of the OFF text is one facet more than its header announces: the file"
+            f"line {arg(number)} of the OFF text is one facet more than its header announces: the file"
             " is damaged, export it again."
         )
     if number:
-        notes += (f"Text after the last facet of the OFF file, from line {number}, was left out.",)
+        notes += (
+            message(f"Text after the last facet of the OFF file, from line {arg(number)}, was left out."),
+        )
     vertices = points(coordinates)
     done = polygons.finish(vertices)
     return RawMesh(vertices, done.faces, notes=notes + done.notes)
@@ -158,14 +161,14 @@ def _bad_row(number: int, row: bytes, what: str, vertex_count: int, facet_count:
     if not number:
         return _too_short(vertex_count, facet_count)
     return broken(
-        f"line {number} of the OFF text",
+        message(f"line {arg(number)} of the OFF text"),
         row,
-        f"line {number} of the OFF text is not {what}: it is damaged, export it again.",
+        message(f"line {arg(number)} of the OFF text is not {arg(what)}: it is damaged, export it again."),
     )
 
 
 def _too_short(vertex_count: int, facet_count: int) -> MeshError:
     return MeshError(
-        f"the OFF header announces {vertex_count} vertices and {facet_count} facets, but the file ends before"
+        f"the OFF header announces {arg(vertex_count)} vertices and {arg(facet_count)} facets, but the file ends before"
         " them: it is cut short, copy or export it again."
     )

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def decimal_points(text: bytes, row: re.Pattern[bytes]) -> tuple[bytes, tuple[st
                 return text, ()
     if not certain:
         return text, ()
-    note = "The file's numbers have decimal commas, which were read as decimal points."
+    note = message("The file's numbers have decimal commas, which were read as decimal points.")
     return row.sub(lambda found: found.group().replace(b",", b"."), text), (note,)
 
 
@@ -119,7 +120,7 @@ def broken(where: str, row: bytes, why: str) -> MeshError:
     if comma is None:
         return MeshError(why)
     return MeshError(
-        f"{where} has the number {comma!r}, whose comma may be a decimal point or a thousands"
+        f"{arg(where)} has the number {arg(comma)!r}, whose comma may be a decimal point or a thousands"
         " separator: export the file again with decimal points."
     )
 
@@ -140,6 +141,6 @@ def refuse_too_many(facet_count: int) -> None:
     """
     if facet_count > LARGEST_FACETS:
         raise MeshError(
-            f"the file has more than {LARGEST_FACETS} facets: export the part with fewer. A"
+            f"the file has more than {arg(LARGEST_FACETS)} facets: export the part with fewer. A"
             " tolerance of 0.01 mm is finer than any probe needs."
         )

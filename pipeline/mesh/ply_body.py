@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
@@ -119,7 +120,11 @@ def read_binary(header: PlyHeader, data: bytes) -> PlyBody:
     facets = blocks[STRIPS if strips else "face"]
     labels = {name: facets[name].astype(np.int64) for name in LABELS if name in facets}
     left = len(data) - at
-    notes = () if not left else (f"Bytes after the last row of the PLY file were left out (bytes: {left}).",)
+    notes = (
+        ()
+        if not left
+        else (message(f"Bytes after the last row of the PLY file were left out (bytes: {arg(left)})."),)
+    )
     return _body(vertices, facets[INDICES], labels, strips, notes)
 
 
@@ -239,14 +244,14 @@ def _refuse_short(header: PlyHeader, size: int) -> None:
 
 def _short(header: PlyHeader, needed: int, size: int) -> MeshError:
     return MeshError(
-        f"the PLY header announces {header.contents}, at least {needed} bytes, but {size - header.length}"
-        " follow: the file is cut short, copy or export it again."
+        f"the PLY header announces {arg(header.contents)}, at least {arg(needed)} bytes, but"
+        f" {arg(size - header.length)} follow: the file is cut short, copy or export it again."
     )
 
 
 def _absurd(element: Element, length: int) -> MeshError:
     return MeshError(
-        f"a list of the PLY element '{element.name}' announces {length} numbers that the file does"
+        f"a list of the PLY element '{arg(element.name)}' announces {arg(length)} numbers that the file does"
         " not contain: it is damaged or cut short, copy or export it again."
     )
 
@@ -299,12 +304,14 @@ def read_text(header: PlyHeader, data: bytes) -> PlyBody:
         body, rows = laid_out, announced
     if rows < announced:
         raise MeshError(
-            f"the PLY header announces {header.contents}, but {rows} rows follow it: the file is cut short or"
+            f"the PLY header announces {arg(header.contents)}, but {arg(rows)} rows follow it: the file is cut short or"
             " damaged, copy or export it again."
         )
     if rows > announced:
         notes += (
-            f"Rows after the last that the PLY header announces were left out (rows: {rows - announced}).",
+            message(
+                f"Rows after the last that the PLY header announces were left out (rows: {arg(rows - announced)})."
+            ),
         )
     strips = all(element.name != "face" for element in header.elements)
     coordinates, corners, sizes = array("d"), array("q"), array("q")
@@ -405,9 +412,9 @@ class _RowReader:
             return ()
         name, count = self._element.name, self._surplus
         return (
-            (
-                f"Rows of the PLY element '{name}' end in numbers that the header does not list; these"
-                f" were left out (per row: {count})."
+            message(
+                f"Rows of the PLY element '{arg(name)}' end in numbers that the header does not list; these"
+                f" were left out (per row: {arg(count)})."
             ),
         )
 
@@ -435,8 +442,10 @@ def _fields(element: Element, row: list[bytes], number: int) -> tuple[dict[str, 
 
 def _bad_row(element: Element, row: list[bytes], number: int) -> MeshError:
     return broken(
-        f"row {number} of the PLY element '{element.name}'",
+        message(f"row {arg(number)} of the PLY element '{arg(element.name)}'"),
         b" ".join(row),
-        f"row {number} of the PLY element '{element.name}' does not contain the numbers that the"
-        " header announces: the file is damaged, export it again.",
+        message(
+            f"row {arg(number)} of the PLY element '{arg(element.name)}' does not contain the numbers that the"
+            " header announces: the file is damaged, export it again."
+        ),
     )

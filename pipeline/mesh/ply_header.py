@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.errors import MeshError
 
 # `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
@@ -98,7 +99,10 @@ class PlyHeader:
     @property
     def contents(self) -> str:
         """What is announced, in words."""
-        return ", ".join(f"{element.count} rows of '{element.name}'" for element in self.elements)
+        return join(
+            ", ",
+            (message(f"{arg(element.count)} rows of '{arg(element.name)}'") for element in self.elements),
+        )
 
 
 def read_header(data: bytes) -> PlyHeader:
@@ -147,7 +151,7 @@ def read_header(data: bytes) -> PlyHeader:
                 pass
             case _:
                 raise MeshError(
-                    f"line {number} of the PLY header, {line[:60]!r}, cannot be used: export the file again."
+                    f"line {arg(number)} of the PLY header, {arg(line[:60])!r}, cannot be used: export the file again."
                 )
     if order is None:
         raise MeshError("the PLY header has no 'format' line: the file is damaged, export it again.")
@@ -162,7 +166,7 @@ def read_header(data: bytes) -> PlyHeader:
 
 def ignored(label: str) -> str:
     """Say that a property of somebody else's file, which has the name of one of ours, is left alone."""
-    return f"The PLY face property '{label}' was not written by contactbench and was ignored."
+    return message(f"The PLY face property '{arg(label)}' was not written by contactbench and was ignored.")
 
 
 def _told_apart(columns: list[Property]) -> tuple[Property, ...]:
@@ -211,7 +215,7 @@ def _check(elements: tuple[Element, ...]) -> None:
         names = {prop.name for prop in element.properties}
         if not names or len(names) != len(element.properties):
             raise MeshError(
-                f"the PLY element '{element.name}' has no property, or the same one twice: export"
+                f"the PLY element '{arg(element.name)}' has no property, or the same one twice: export"
                 " the file again."
             )
     found = {element.name: {p.name: p for p in element.properties} for element in elements}
@@ -221,7 +225,7 @@ def _check(elements: tuple[Element, ...]) -> None:
         prop = found.get("vertex", {}).get(axis)
         if prop is None or prop.count_kind:
             raise MeshError(
-                f"the PLY file has no vertices with a number '{axis}': export it again as a mesh."
+                f"the PLY file has no vertices with a number '{arg(axis)}': export it again as a mesh."
             )
     facets = found.get("face") or found.get(STRIPS, {})
     corners = facets.get(INDICES) or facets.get("vertex_index")
@@ -235,8 +239,8 @@ def _check(elements: tuple[Element, ...]) -> None:
 
 def _check_label(prop: Property | None) -> None:
     if prop is not None and not _is_label(prop):
-        use = "0 for no region, 1 for the first priority" if prop.name == "region" else "0 or 1"
+        use = message("0 for no region, 1 for the first priority") if prop.name == "region" else "0 or 1"
         raise MeshError(
-            f"the PLY face property '{prop.name}' is {'a list' if prop.count_kind else prop.kind}: save it as"
-            f" int, {use}."
+            f"the PLY face property '{arg(prop.name)}' is {arg('a list' if prop.count_kind else prop.kind)}: save it as"
+            f" int, {arg(use)}."
         )

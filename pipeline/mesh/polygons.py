@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import refuse_too_many
 
@@ -95,15 +96,15 @@ class Polygons:
         """
         if not self._facets:
             raise MeshError(
-                f"the {self._kind} text holds no facets: export the part again, as a surface of triangles."
+                f"the {arg(self._kind)} text holds no facets: export the part again, as a surface of triangles."
             )
         corners, sizes = (np.frombuffer(values, np.int64) for values in (self._corners, self._sizes))
         missing = (corners < 0) | (corners >= len(vertices))
         if missing.any():
             polygon = int(np.searchsorted(np.cumsum(sizes), np.argmax(missing), side="right"))
             raise MeshError(
-                f"line {self._lines[polygon]} of the {self._kind} text is a facet that refers to a"
-                f" vertex that does not exist (the file has {len(vertices)}): it is damaged or cut"
+                f"line {arg(self._lines[polygon])} of the {arg(self._kind)} text is a facet that refers to a"
+                f" vertex that does not exist (the file has {arg(len(vertices))}): it is damaged or cut"
                 " short, export it again."
             )
         return triangulate(vertices, corners, sizes)
@@ -144,7 +145,11 @@ def triangulate(
     few = sizes < 3
     notes: tuple[str, ...] = ()
     if few.any():
-        notes = (f"Polygons of fewer than three corners were left out (polygons: {np.count_nonzero(few)}).",)
+        notes = (
+            message(
+                f"Polygons of fewer than three corners were left out (polygons: {arg(np.count_nonzero(few))})."
+            ),
+        )
         corners, sizes, number = corners[~np.repeat(few, sizes)], sizes[~few], number[~few]
     refuse_too_many(int(sizes.sum()) - 2 * len(sizes))
     if not np.any(sizes > 3):
@@ -245,7 +250,7 @@ def _mend(
     crossing += _cut(vertices, corners, starts[chosen], sizes[chosen], newell, faces, firsts[chosen])
     if not crossing:
         return ()
-    return (f"Polygons cross themselves, so their triangles overlap (polygons: {crossing}).",)
+    return (message(f"Polygons cross themselves, so their triangles overlap (polygons: {arg(crossing)})."),)
 
 
 def _judge(
@@ -297,7 +302,7 @@ def _cut(
         return 0
     if float(np.sum(sizes.astype(float) ** 2)) > _MOST_WORK:
         raise MeshError(
-            f"the non-convex polygons have {int(sizes.sum())} corners, too many to triangulate"
+            f"the non-convex polygons have {arg(int(sizes.sum()))} corners, too many to triangulate"
             " here: export the part again with triangles only."
         )
     # Imported for the few files that need it: most hold triangles.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import MeshHealth, measure_health
 
@@ -218,11 +219,11 @@ def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array = _as_array(values, "vertices", "numbers")
     if array.dtype.kind not in "fiu":
         raise MeshError(
-            f"vertices must be real numbers in metres, not {array.dtype}: convert them to float64."
+            f"vertices must be real numbers in metres, not {arg(array.dtype)}: convert them to float64."
         )
     if array.ndim != 2 or array.shape[1] != 3:
         raise MeshError(
-            f"vertices must have shape (n, 3), not {array.shape}: give one x, y, z row per vertex."
+            f"vertices must have shape (n, 3), not {arg(array.shape)}: give one x, y, z row per vertex."
         )
     # A longdouble beyond the range of float64 becomes infinite here, and is named below.
     with np.errstate(over="ignore"):
@@ -231,10 +232,14 @@ def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if bad.any():
         row = int(np.argmax(bad))
         place = ", ".join(f"{value:g}" for value in vertices[row])
-        what = "is not a finite point" if not np.isfinite(vertices[row]).all() else "is impossibly far away"
+        what = (
+            message("is not a finite point")
+            if not np.isfinite(vertices[row]).all()
+            else message("is impossibly far away")
+        )
         raise MeshError(
-            f"vertices: row {row} ({place}) {what}; {np.count_nonzero(bad)} of {len(vertices)} rows are."
-            " Repair or export the mesh again."
+            f"vertices: row {arg(row)} ({arg(place)}) {arg(what)}; {arg(np.count_nonzero(bad))} of"
+            f" {arg(len(vertices))} rows are. Repair or export the mesh again."
         )
     return vertices
 
@@ -252,16 +257,21 @@ def check_faces(values: npt.ArrayLike, vertex_count: int) -> npt.NDArray[np.int3
     if array.size == 0:
         raise MeshError("faces: there are no facets: give at least one.")
     if array.dtype.kind not in "iu":
-        raise MeshError(f"faces must be integers, not {array.dtype}: convert the vertex indices to int32.")
+        raise MeshError(
+            f"faces must be integers, not {arg(array.dtype)}: convert the vertex indices to int32."
+        )
     if array.ndim != 2 or array.shape[1] != 3:
-        raise MeshError(f"faces must have shape (m, 3), not {array.shape}: split polygons into triangles.")
+        raise MeshError(
+            f"faces must have shape (m, 3), not {arg(array.shape)}: split polygons into triangles."
+        )
     bad = ((array < 0) | (array >= vertex_count)).any(axis=1)
     if bad.any():
         row = int(np.argmax(bad))
         value = next(int(v) for v in array[row] if v < 0 or v >= vertex_count)
         raise MeshError(
-            f"faces: row {row} refers to vertex {value}, but the indices run from 0 to {vertex_count - 1}."
-            " Count vertices from 0, and export the mesh again if it was cut short."
+            f"faces: row {arg(row)} refers to vertex {arg(value)}, but the indices run from 0 to"
+            f" {arg(vertex_count - 1)}. Count vertices from 0, and export the mesh again if it was cut"
+            " short."
         )
     return np.array(array, dtype=np.int32, order="C")
 
@@ -280,17 +290,17 @@ def check_region(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[
     array = _as_array(values, "region", "integers")
     if array.shape != (facet_count,):
         raise MeshError(
-            f"region has shape {array.shape}, but there are {facet_count} facets: give one integer per facet."
+            f"region has shape {arg(array.shape)}, but there are {arg(facet_count)} facets: give one integer per facet."
         )
     if array.dtype.kind not in "iu":
         raise MeshError(
-            f"region must be integers, not {array.dtype}: 0 for no region, 1 for the first priority."
+            f"region must be integers, not {arg(array.dtype)}: 0 for no region, 1 for the first priority."
         )
     bad = (array < 0) | (array > np.iinfo(np.int32).max)
     if bad.any():
         row = int(np.argmax(bad))
         raise MeshError(
-            f"region: row {row} is {array[row]}: use 0 for no region, 1 for the first priority, and so on."
+            f"region: row {arg(row)} is {arg(array[row])}: use 0 for no region, 1 for the first priority, and so on."
         )
     return np.array(array, dtype=np.int32, order="C")
 
@@ -309,13 +319,13 @@ def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArra
     array = _as_array(values, "invented", "marks")
     if array.shape != (facet_count,) or array.dtype.kind not in "biu":
         raise MeshError(
-            f"invented must be one 0 or 1 for each of the {facet_count} facets, not {array.dtype} of shape"
-            f" {array.shape}."
+            f"invented must be one 0 or 1 for each of the {arg(facet_count)} facets, not {arg(array.dtype)} of shape"
+            f" {arg(array.shape)}."
         )
     if array.dtype.kind != "b" and not np.isin(array, (0, 1)).all():
         row = int(np.argmax(~np.isin(array, (0, 1))))
         raise MeshError(
-            f"invented: row {row} is {array[row]}: use 1 for a facet that closes an opening, else 0."
+            f"invented: row {arg(row)} is {arg(array[row])}: use 1 for a facet that closes an opening, else 0."
         )
     return np.array(array, dtype=bool, order="C")
 
@@ -361,16 +371,25 @@ def refuse_size(size_m: float, remedy: Callable[[bool], str]) -> None:
     if SMALLEST_M <= size_m <= LARGEST_M:
         return
     too_large = size_m > LARGEST_M
-    limit = f"more than {LARGEST_M * 1e3:g} mm" if too_large else f"less than {SMALLEST_M * 1e3:g} mm"
-    raise MeshError(f"the probe is {size_m * 1e3:.6g} mm long, {limit}: {remedy(too_large)}")
+    limit = (
+        message(f"more than {arg(LARGEST_M * 1e3):g} mm")
+        if too_large
+        else message(f"less than {arg(SMALLEST_M * 1e3):g} mm")
+    )
+    raise MeshError(f"the probe is {arg(size_m * 1e3):.6g} mm long, {arg(limit)}: {arg(remedy(too_large))}")
 
 
 def _array_remedy(too_large: bool) -> str:
     unit, factor = (
-        ("millimetres", "0.001") if too_large else ("another unit than metres", "its length in metres")
+        ("millimetres", "0.001")
+        if too_large
+        else (message("another unit than metres"), message("its length in metres"))
     )
-    advice = " (from a file: load_probe with units='mm')" if too_large else ""
-    return f"is the file in {unit}? Multiply by {factor}{advice}, or pass check_size=False if it is correct."
+    advice = message(" (from a file: load_probe with units='mm')") if too_large else ""
+    return message(
+        f"is the file in {arg(unit)}? Multiply by {arg(factor)}{arg(advice)}, or pass check_size=False if it"
+        " is correct."
+    )
 
 
 def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> None:
@@ -378,10 +397,11 @@ def _refuse_degenerate(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.
     if not bad.any():
         return
     row, count = int(np.argmax(bad)), int(np.count_nonzero(bad))
-    why = "uses a vertex twice" if _repeated(faces[row : row + 1])[0] else "has zero area"
+    why = message("uses a vertex twice") if _repeated(faces[row : row + 1])[0] else message("has zero area")
     raise MeshError(
-        f"faces: row {row} {faces[row].tolist()} {why}; {count} of {len(faces)} facets have no area. Remove"
-        " them, or read the mesh with load_probe, which leaves a few of them out."
+        f"faces: row {arg(row)} {arg(faces[row].tolist())} {arg(why)}; {arg(count)} of {arg(len(faces))}"
+        " facets have no area. Remove them, or read the mesh with load_probe, which leaves a few of them"
+        " out."
     )
 
 
@@ -413,7 +433,7 @@ def _as_array(values: npt.ArrayLike, field: str, content: str) -> npt.NDArray[An
     try:
         return np.asarray(values)
     except (ValueError, TypeError) as error:
-        raise MeshError(f"{field} cannot be read as an array of {content}: {error}") from error
+        raise MeshError(f"{arg(field)} cannot be read as an array of {arg(content)}: {arg(error)}") from error
 
 
 def _frozen(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.ply import encode_ply
@@ -38,12 +39,14 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
     """
     file = Path(path)
     if file.suffix.lower() != ".ply":
-        raise MeshError(f"{file}: a probe is saved as PLY, which keeps its regions: end the name in .ply.")
+        raise MeshError(
+            f"{arg(file)}: a probe is saved as PLY, which keeps its regions: end the name in .ply."
+        )
     try:
         write_durably(file, encode_probe(probe))
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise MeshError(
-            f"{file}: the probe cannot be written ({error}): choose a folder that exists, is writable and has"
+            f"{arg(file)}: the probe cannot be written ({arg(error)}): choose a folder that exists, is writable and has"
             " space."
         ) from error
 

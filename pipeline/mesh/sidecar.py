@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from contactbench import __version__
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import AnyFile, File, as_file
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.load import load_probe
@@ -140,7 +141,7 @@ def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
     mesh = as_file(path)
     if mesh.suffix.lower() != ".ply":
         raise RegionError(
-            f"{mesh}: regions are stored in a probe's PLY file: load the mesh and save it as .ply."
+            f"{arg(mesh)}: regions are stored in a probe's PLY file: load the mesh and save it as .ply."
         )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
@@ -151,7 +152,7 @@ def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
         regions = RegionSet.from_labels(probe.region, read_list(document), probe.untouchable)
         return ProbeFile(probe, regions, _frame(document), _history(document), _notes(document, mesh))
     except RegionError as error:
-        raise RegionError(f"{file}: {error}") from error
+        raise RegionError(f"{arg(file)}: {arg(error)}") from error
 
 
 def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
@@ -173,8 +174,8 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
             write_durably(target, bytes_)
         except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
             raise MeshError(
-                f"{target}: the probe cannot be written ({error}): choose a folder that exists, is writable and"
-                " has space."
+                f"{arg(target)}: the probe cannot be written ({arg(error)}): choose a folder that exists, is"
+                " writable and has space."
             ) from error
 
 
@@ -201,7 +202,9 @@ def encode_probe_file(
     }
     data = (json.dumps(whole, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode()
     if len(data) > SIZE_LIMIT:
-        raise RegionError(f"{file}: the file is larger than {SIZE_LIMIT // 2**20} MiB: move it away.")
+        raise RegionError(
+            f"{arg(file)}: the file is larger than {arg(SIZE_LIMIT // 2**20)} MiB: move it away."
+        )
     return {name: surface, file: data}
 
 
@@ -216,16 +219,18 @@ def check_target(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     mesh = Path(path)
     if mesh.suffix.lower() != ".ply":
-        raise MeshError(f"{mesh}: a probe is saved as PLY, which keeps its regions: end the name in .ply.")
+        raise MeshError(
+            f"{arg(mesh)}: a probe is saved as PLY, which keeps its regions: end the name in .ply."
+        )
     if not mesh.parent.is_dir():
         raise MeshError(
-            f"{mesh}: the probe cannot be written, there is no folder {mesh.parent}: make it first."
+            f"{arg(mesh)}: the probe cannot be written, there is no folder {arg(mesh.parent)}: make it first."
         )
     file = sidecar_of(mesh)
     try:
         return read_document(file)
     except RegionError as error:
-        raise RegionError(f"{file}: {error}") from error
+        raise RegionError(f"{arg(file)}: {arg(error)}") from error
 
 
 def read_list(document: Mapping[str, Any]) -> tuple[Region, ...]:
@@ -254,7 +259,7 @@ def read_document(file: File) -> dict[str, Any]:
         )
     if version > VERSION:
         raise RegionError(
-            f"the file has the version {version}, newer than {VERSION}: use a newer contactbench."
+            f"the file has the version {arg(version)}, newer than {arg(VERSION)}: use a newer contactbench."
         )
     return document
 
@@ -271,12 +276,12 @@ def _history(document: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
     history = document.get("history", [])
     if not isinstance(history, list) or len(history) > _MOST_STEPS:
         raise RegionError(
-            f"'history' is not a list of at most {_MOST_STEPS} steps: correct it, or remove the key."
+            f"'history' is not a list of at most {arg(_MOST_STEPS)} steps: correct it, or remove the key."
         )
     for number, step in enumerate(history, 1):
         if not isinstance(step, dict) or not isinstance(step.get("step"), str):
             raise RegionError(
-                f"step {number} of 'history' is not an object with a name: correct it, or remove it."
+                f"step {arg(number)} of 'history' is not an object with a name: correct it, or remove it."
             )
     return tuple(history)
 
@@ -285,8 +290,8 @@ def _notes(document: Mapping[str, Any], mesh: File) -> tuple[str, ...]:
     known = document.get("mesh", {}).get("sha256")
     if known is None or known == hashlib.sha256(mesh.read_bytes()).hexdigest():
         return ()
-    changed = (
-        f"{mesh} was changed after contactbench wrote it, so the history beside it describes"
+    changed = message(
+        f"{arg(mesh)} was changed after contactbench wrote it, so the history beside it describes"
         " another surface. Prepare the mesh again unless you know who changed it."
     )
     return (changed,)

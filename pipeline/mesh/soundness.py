@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.health import MeshHealth, label_parts, measure_health
 from contactbench.pipeline.mesh.probe import degenerate_facets
@@ -48,7 +49,7 @@ _DIRECTIONS = np.array(
     [[0.573, 0.681, 0.456], [-0.816, -0.153, 0.557], [0.476, -0.827, -0.300], [-0.233, 0.299, -0.925]]
 )
 
-_SHELL = "Make the outer shell before use."
+_SHELL = message("Make the outer shell before use.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,37 +135,50 @@ class Soundness:
         found = list(replace(self.health, components=1, dropped_facets=0).sentences)
         if self.crossing:
             found.append(
-                f"Facets cut through each other (pairs: {self.crossing:,}). Inside and outside are"
-                f" mixed up there, so a contact can land on an inner wall. {_SHELL}"
+                message(
+                    f"Facets cut through each other (pairs: {arg(self.crossing):,}). Inside and outside are"
+                    f" mixed up there, so a contact can land on an inner wall. {arg(_SHELL)}"
+                )
             )
         if self.overlapping > self.health.duplicate_facets:
             found.append(
-                f"Facets lie on top of each other (pairs: {self.overlapping:,}), so a force meets two surfaces at"
-                f" once. {_SHELL}"
+                message(
+                    f"Facets lie on top of each other (pairs: {arg(self.overlapping):,}), so a force meets"
+                    f" two surfaces at once. {arg(_SHELL)}"
+                )
             )
         if not self.every_pair_checked:
-            found.append(f"The facets are too entangled to check every pair. {_SHELL}")
+            found.append(message(f"The facets are too entangled to check every pair. {arg(_SHELL)}"))
         if len(self.pinched_vertices):
             found.append(
-                f"The surface meets itself in single points (vertices: {len(self.pinched_vertices):,}). Separate the"
-                f" bodies that touch there in the CAD program, or join them. {_SHELL}"
+                message(
+                    "The surface meets itself in single points (vertices:"
+                    f" {arg(len(self.pinched_vertices)):,}). Separate the bodies that touch there in the CAD"
+                    f" program, or join them. {arg(_SHELL)}"
+                )
             )
         if self.nested_parts:
             found.append(
-                f"Closed parts lie inside the body (parts: {self.nested_parts:,}). They cannot be"
-                f" touched, but a line of force can hit them. {_SHELL}"
+                message(
+                    f"Closed parts lie inside the body (parts: {arg(self.nested_parts):,}). They cannot be"
+                    f" touched, but a line of force can hit them. {arg(_SHELL)}"
+                )
             )
         if self.inward_parts and self.health.outward is not False:
             found.append(
-                f"Separate parts are inside out (parts: {self.inward_parts:,}). Contacts on them are found on the far"
-                " side. Flip their normals in the CAD program."
+                message(
+                    f"Separate parts are inside out (parts: {arg(self.inward_parts):,}). Contacts on them"
+                    " are found on the far side. Flip their normals in the CAD program."
+                )
             )
         if len(self.folded_facets):
             found.append(self._folds())
         if len(self.flat_facets):
             found.append(
-                f"Facets have no area (facets: {len(self.flat_facets):,}) and so no normal. Remove"
-                " them in the CAD program and close the seams they leave."
+                message(
+                    f"Facets have no area (facets: {arg(len(self.flat_facets)):,}) and so no normal. Remove"
+                    " them in the CAD program and close the seams they leave."
+                )
             )
         return tuple(found)
 
@@ -174,23 +188,25 @@ class Soundness:
         notes = []
         if self.touching:
             notes.append(
-                f"Facets touch without sharing a vertex or edge (pairs: {self.touching:,}): two"
-                " walls meet there. No action needed if the bodies are meant to touch."
+                message(
+                    f"Facets touch without sharing a vertex or edge (pairs: {arg(self.touching):,}): two"
+                    " walls meet there. No action needed if the bodies are meant to touch."
+                )
             )
         return (*self.faults, *notes)
 
     def _folds(self) -> str:
         count = f"{len(self.folded_facets):,}"
-        remedy = (
+        remedy = message(
             "Contacts there are missed or found on the far side. Keep more facets, or repair the mesh there."
         )
         largest = self.normal_deviation_deg[self.folded_facets]
         if np.isfinite(largest).any():
-            return (
-                f"Facets are turned against the original surface (facets: {count}, by up to {np.nanmax(largest):.0f}°)."
-                f" {remedy}"
+            return message(
+                f"Facets are turned against the original surface (facets: {arg(count)}, by up to"
+                f" {arg(np.nanmax(largest)):.0f}°). {arg(remedy)}"
             )
-        return f"Thin facets fold back onto their neighbours (facets: {count}). {remedy}"
+        return message(f"Thin facets fold back onto their neighbours (facets: {arg(count)}). {arg(remedy)}")
 
     def to_json(self) -> dict[str, Any]:
         """Give the figures as plain values, without the lists of facets."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
@@ -69,17 +70,21 @@ def read_stl(data: bytes) -> RawMesh:
         return _read_text(text)
     whole, extra = divmod(len(data) - _HEADER, _RECORD)
     if announced == 0 and whole > 0 and extra == 0:
-        note = f"The STL header announces no facets, but the file has room for {whole}; these were read."
+        note = message(
+            f"The STL header announces no facets, but the file has room for {arg(whole)}; these were read."
+        )
         return _read_binary(data, whole, (note,))
     if announced > 0 and end < len(data):
         more = _whole_facets(data, announced)
         if more:
-            note = (
-                f"The STL header announces {announced} facets, but {more} more complete facets"
+            note = message(
+                f"The STL header announces {arg(announced)} facets, but {arg(more)} more complete facets"
                 " follow and were also read. Check that no part is missing."
             )
             return _read_binary(data, announced + more, (note,))
-        note = f"Bytes after the last facet of the STL file were left out (bytes: {len(data) - end})."
+        note = message(
+            f"Bytes after the last facet of the STL file were left out (bytes: {arg(len(data) - end)})."
+        )
         return _read_binary(data, announced, (note,))
     raise _broken_binary(data)
 
@@ -114,14 +119,15 @@ def _own_corners(facet_count: int) -> npt.NDArray[np.int64]:
 def _broken_binary(data: bytes) -> MeshError:
     if len(data) < _HEADER:
         return MeshError(
-            f"{len(data)} bytes are too few for an STL file: it is cut short or is something else."
+            f"{arg(len(data))} bytes are too few for an STL file: it is cut short or is something else."
         )
     announced = int.from_bytes(data[80:_HEADER], "little")
     if announced == 0:
         return MeshError("the STL file holds no facets: export the part again.")
     return MeshError(
-        f"the STL header announces {announced} facets, which take {_HEADER + _RECORD * announced} bytes, but the"
-        f" file has {len(data)}: it is cut short or is not an STL file. Copy or export it again."
+        f"the STL header announces {arg(announced)} facets, which take {arg(_HEADER + _RECORD * announced)}"
+        f" bytes, but the file has {arg(len(data))}: it is cut short or is not an STL file. Copy or export"
+        " it again."
     )
 
 
@@ -142,7 +148,7 @@ def _read_text(text: bytes) -> RawMesh:
         raise _broken_facet(bare, ended)
     if not ended:
         notes += (
-            (
+            message(
                 "The STL text ends before 'endsolid'. All its facets are complete, but if the file"
                 " was cut short, some are missing."
             ),
@@ -160,8 +166,10 @@ def _broken_facet(text: bytes, ended: bool) -> MeshError:
     line = text.count(b"\n", 0, wrong.start()) + 1
     end = text.lower().find(b"endfacet", wrong.end())
     return broken(
-        f"the facet on line {line} of the STL text",
+        message(f"the facet on line {arg(line)} of the STL text"),
         text[wrong.start() : end if end >= 0 else None],
-        f"the facet on line {line} of the STL text must be three 'vertex x y z' between 'outer"
-        " loop' and 'endloop': repair that facet or export the file again.",
+        message(
+            f"the facet on line {arg(line)} of the STL text must be three 'vertex x y z' between 'outer"
+            " loop' and 'endloop': repair that facet or export the file again."
+        ),
     )

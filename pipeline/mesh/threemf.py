@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import RawMesh, points, refuse_too_many
 
@@ -132,7 +133,7 @@ def read_threemf(data: bytes) -> RawMesh:
         LookupError,
     ) as error:
         raise MeshError(
-            f"this is not a readable 3MF archive ({str(error)[:_QUOTED]}): copy or export it again."
+            f"this is not a readable 3MF archive ({arg(str(error)[:_QUOTED])}): copy or export it again."
         ) from error
 
 
@@ -140,7 +141,7 @@ def _build(package: _Package) -> RawMesh:
     root = _root(package)
     model = package.model(root)
     if model.unit not in _UNITS:
-        raise MeshError(f"the 3MF model states the unknown unit {model.unit[:40]!r}: export it again.")
+        raise MeshError(f"the 3MF model states the unknown unit {arg(model.unit[:40])!r}: export it again.")
     copies: list[tuple[_Object, _Transform]] = []
     for item in model.items:
         _collect(package, root, item, (np.eye(3), np.zeros(3)), copies, depth=0)
@@ -150,14 +151,16 @@ def _build(package: _Package) -> RawMesh:
 
 def _notes(package: _Package, model: _Model) -> Iterator[str]:
     if package.supports:
-        yield f"Supports of the 3MF file were left out (objects: {package.supports})."
+        yield message(f"Supports of the 3MF file were left out (objects: {arg(package.supports)}).")
     if model.unprinted:
-        yield f"Items that the 3MF file marks as not printed were left out (items: {model.unprinted})."
+        yield message(
+            f"Items that the 3MF file marks as not printed were left out (items: {arg(model.unprinted)})."
+        )
     others = sorted({other.unit for other in package.models.values()} - {model.unit})
     if others:
-        yield (
-            f"Parts of the 3MF file state another unit ({', '.join(others)[:_QUOTED]}) than its build ({model.unit}),"
-            " whose unit was used for all: check their size."
+        yield message(
+            f"Parts of the 3MF file state another unit ({arg(', '.join(others)[:_QUOTED])}) than its build"
+            f" ({arg(model.unit)}), whose unit was used for all: check their size."
         )
 
 
@@ -183,7 +186,7 @@ def _parse(package: _Package, path: str) -> _Model:
                 parser.Parse(piece, False)
             parser.Parse(b"", True)
         except expat.ExpatError as error:
-            raise MeshError(f"the 3MF model is not valid XML ({error}): export it again.") from error
+            raise MeshError(f"the 3MF model is not valid XML ({arg(error)}): export it again.") from error
     return model
 
 
@@ -206,7 +209,7 @@ def _entry(package: _Package, path: str) -> zipfile.ZipInfo:
                 " printers only. Export the part again."
             )
         raise MeshError(
-            f"the 3MF archive lacks the model {path[:60]!r} that it takes parts from: export it again."
+            f"the 3MF archive lacks the model {arg(path[:60])!r} that it takes parts from: export it again."
         )
     # Others can be made to unpack to any amount in one read.
     if entry.flag_bits & 1 or entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
@@ -227,12 +230,12 @@ def _start(model: _Model, name: str, attributes: dict[str, str]) -> None:
     try:
         _element(model, tag, attributes)
     except KeyError as error:
-        raise MeshError(f"a <{tag}> of the 3MF model has no {error}: export it again.") from error
+        raise MeshError(f"a <{arg(tag)}> of the 3MF model has no {arg(error)}: export it again.") from error
     except (ValueError, OverflowError) as error:
         if isinstance(error, MeshError):
             raise
         raise MeshError(
-            f"a <{tag}> of the 3MF model has no number ({str(error)[:_QUOTED]}): export it again."
+            f"a <{arg(tag)}> of the 3MF model has no number ({arg(str(error)[:_QUOTED])}): export it again."
         ) from error
 
 
@@ -264,7 +267,7 @@ def _refuse_required(model: _Model, prefixes: str) -> None:
         space = model.spaces.get(prefix, prefix)
         if not any(known in space for known in _READ):
             raise MeshError(
-                f"the 3MF file needs the extension {space[:_QUOTED]!r}, which is not supported:"
+                f"the 3MF file needs the extension {arg(space[:_QUOTED])!r}, which is not supported:"
                 " export the part as plain triangles, as 3MF or STL."
             )
 
@@ -294,7 +297,7 @@ def _collect(
     part = package.model(model).objects.get(placed.name)
     if part is None:
         raise MeshError(
-            f"the 3MF model places the object {placed.name[:40]!r}, which it does not contain: export"
+            f"the 3MF model places the object {arg(placed.name[:40])!r}, which it does not contain: export"
             " it again."
         )
     if part.kind in _SUPPORTS:

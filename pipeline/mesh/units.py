@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
+from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import LARGEST_M, SMALLEST_M
 
@@ -70,7 +71,11 @@ class UnitGuess:
     @property
     def doubt(self) -> str:
         """What to say to whoever goes on with the guess; empty where it is certain."""
-        return "" if self.certain else f"{self.reason} {NAMES[self.units].capitalize()} are assumed."
+        return (
+            ""
+            if self.certain
+            else message(f"{arg(self.reason)} {arg(capitalised(NAMES[self.units]))} are assumed.")
+        )
 
     @property
     def must_be_given(self) -> bool:
@@ -141,11 +146,13 @@ def guess_units(
         With no unit is the size that of a probe, 5 mm to 2 m.
     """
     if stated is not None:
-        return UnitGuess(stated, True, f"The file states that its numbers are {NAMES[stated]}.", ())
+        return UnitGuess(
+            stated, True, message(f"The file states that its numbers are {arg(NAMES[stated])}."), ()
+        )
     possible = [unit for unit in _USUAL if SMALLEST_M <= in_metres(span, unit) <= LARGEST_M]
     if not possible:
         raise MeshError(
-            f"the numbers span {span:.4g}, which cannot be a probe in millimetres, metres,"
+            f"the numbers span {arg(span):.4g}, which cannot be a probe in millimetres, metres,"
             " centimetres or inches (5 mm to 2 m). Check that the right part was exported."
         )
     likely = [unit for unit in possible if LIKELY_M[0] <= in_metres(span, unit) <= LIKELY_M[1]]
@@ -160,12 +167,18 @@ def guess_units(
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)
         if unit in likely or (unit in possible and not likely):
-            return UnitGuess(unit, True, f"{_declares(unit, defined)}, and {_says(span, unit)}.", others)
-        said = f" {_declares(unit, defined)}, but {_unlikely(span, unit, unit in possible)}."
+            return UnitGuess(
+                unit, True, message(f"{arg(_declares(unit, defined))}, and {arg(_says(span, unit))}."), others
+            )
+        said = message(
+            f" {arg(_declares(unit, defined))}, but {arg(_unlikely(span, unit, unit in possible))}."
+        )
         return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
     said = ""
     if declared:
-        said = f" The file declares several units: {', '.join(NAMES[unit] for unit in NAMES if unit in declared)}."
+        said = message(
+            f" The file declares several units: {arg(', '.join(NAMES[unit] for unit in NAMES if unit in declared))}."
+        )
     # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
     # that where another unit makes a small probe, or the hub of a needle.
     smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
@@ -191,39 +204,51 @@ def _declared(notes: bytes) -> set[Units]:
 
 
 def _declares(unit: Units, defined: Units | None) -> str:
-    return f"glTF is defined in {NAMES[unit]}" if defined else f"The file declares {NAMES[unit]}"
+    return (
+        message(f"glTF is defined in {arg(NAMES[unit])}")
+        if defined
+        else message(f"The file declares {arg(NAMES[unit])}")
+    )
 
 
 def _unlikely(span: float, unit: Units, possible: bool) -> str:
     size = _size(span, unit)
     if not possible:
-        return f"{size} is impossible"
+        return message(f"{arg(size)} is impossible")
     return (
-        f"{size} is small for a probe"
+        message(f"{arg(size)} is small for a probe")
         if in_metres(span, unit) < LIKELY_M[0]
-        else f"{size} is large for a probe"
+        else message(f"{arg(size)} is large for a probe")
     )
 
 
 def _says(span: float, unit: Units) -> str:
-    return f"{_size(span, unit)} is a probe"
+    return message(f"{arg(_size(span, unit))} is a probe")
 
 
 def _contrast(span: float, ranked: list[Units]) -> str:
-    others = "".join(
-        f"; it is {_millimetres(span, unit)} long if they are {NAMES[unit]}" for unit in ranked[1:]
+    others = join(
+        "",
+        (
+            message(f"; it is {arg(_millimetres(span, unit))} long if they are {arg(NAMES[unit])}")
+            for unit in ranked[1:]
+        ),
     )
-    return f"The numbers span {_number(span)}: {_says(span, ranked[0])}{others}."
+    return message(f"The numbers span {arg(_number(span))}: {arg(_says(span, ranked[0]))}{arg(others)}.")
 
 
 def _question(span: float, ranked: list[Units]) -> str:
-    first, *others = (f"{_millimetres(span, unit)} if they are {NAMES[unit]}" for unit in ranked[:3])
-    choices = "".join(f", {other}" for other in others) if others else ", an unusual size"
+    first, *others = (
+        message(f"{arg(_millimetres(span, unit))} if they are {arg(NAMES[unit])}") for unit in ranked[:3]
+    )
+    choices = (
+        join("", (message(f", {arg(other)}") for other in others)) if others else message(", an unusual size")
+    )
     options = ", ".join(ranked[:3])
     options = " or ".join(options.rsplit(", ", 1))
-    return (
-        f"The numbers span {_number(span)}: the longest side is {first}{choices}."
-        f" Measure the probe and give --units {options}."
+    return message(
+        f"The numbers span {arg(_number(span))}: the longest side is {arg(first)}{arg(choices)}."
+        f" Measure the probe and give --units {arg(options)}."
     )
 
 

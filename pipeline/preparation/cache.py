@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 import contactbench
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.preparation.cache_entry import EntryError, decode, encode
 
@@ -109,9 +110,10 @@ def _folder() -> Path | None:
     if _own(state) and (os.name != "posix" or not state.st_mode & (stat.S_IWGRP | stat.S_IWOTH)):
         return folder
     mine = os.name == "posix" and state.st_uid == os.getuid()
-    remedy = f"chmod go-w '{folder}'" if mine else f"name a folder of your own in {VARIABLE}"
+    remedy = f"chmod go-w '{folder}'" if mine else message(f"name a folder of your own in {arg(VARIABLE)}")
     warnings.warn(
-        f"{folder}: what is kept there is not used, for others can write it: {remedy}.", stacklevel=3
+        message(f"{arg(folder)}: what is kept there is not used, for others can write it: {arg(remedy)}."),
+        stacklevel=3,
     )
     return None
 

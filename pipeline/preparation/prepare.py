@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionReport
 from contactbench.pipeline.mesh.shell import Closing, Shell
@@ -80,9 +80,9 @@ class Preparation:
         frame = (
             ()
             if self.content.frame == "S"
-            else ("The mesh is in its own frame: align it with the sensor before use.",)
+            else (message("The mesh is in its own frame: align it with the sensor before use."),)
         )
-        wrong = () if self.ready else ("NOT READY: " + " ".join(self.faults),)
+        wrong = () if self.ready else (message("NOT READY: ") + " ".join(self.faults),)
         short = self.simplified.sentences[:1] if self.simplified.short else ()
         said = (
             *wrong,
@@ -149,7 +149,7 @@ def prepared(
     painted = inputs.get("regions")
     placed = place(dense, alignment, None if painted is None else partial(put_on, file=painted))
     if cancelled is not None and cancelled():
-        raise Cancelled("the preparation was cancelled: nothing was written.")
+        raise Cancelled(message("the preparation was cancelled: nothing was written."))
     wanted, stated = target(placed.probe)
 
     def fewer() -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
@@ -182,7 +182,9 @@ def alignment_of(given: PlaceSettings, file: File | None) -> Alignment | None:
         try:
             return from_json(file.read_bytes(), file.name)
         except OSError as error:
-            raise AlignmentError(f"{file}: the file cannot be read ({error}): check the path.") from error
+            raise AlignmentError(
+                f"{arg(file)}: the file cannot be read ({arg(error)}): check the path."
+            ) from error
     return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.files import File, files_beside
 from contactbench.pipeline.mesh import MeshWarning
 from contactbench.pipeline.mesh.regions import RegionError, RegionSet, transfer
@@ -80,7 +81,7 @@ def painted_regions(content: ProbeFile, file: File) -> tuple[RegionSet, tuple[Re
         surface = _surface_beside(file)
         if surface is None:
             raise RegionError(
-                f"{file}: {error} Or give the mesh that they were painted on as a companion of the file."
+                f"{arg(file)}: {arg(error)} Or give the mesh that they were painted on as a companion of the file."
             ) from error
     return _carried(decode_json(read_limited(file), surface.probe), surface, content, file)
 
@@ -112,7 +113,7 @@ def _carried(
         moved = transfer(regions, before, after)
     if regions.labels.any() and not moved.regions.labels.any():
         raise RegionError(
-            f"{file}: none of the regions lies on this surface: they were painted on another mesh,"
+            f"{arg(file)}: none of the regions lies on this surface: they were painted on another mesh,"
             " or in another place. Paint them again, or leave them out."
         )
     return moved.regions, moved.report

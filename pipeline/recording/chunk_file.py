@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import zstandard
 
 from contactbench.pipeline.durable import sync_folder
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, Opcode, mapping, record, text
 
@@ -94,7 +95,7 @@ class ChunkFile:
     def add_message(self, channel: int, log_time: int, data: bytes) -> None:
         """Put a message into the chunk that is being filled; `log_time` in ns."""
         if self._file is None:
-            raise RecordingError(f"{self._path}: the recording is closed: start a new one.")
+            raise RecordingError(f"{arg(self._path)}: the recording is closed: start a new one.")
         count = self._counts[channel]
         place = struct.pack("<QQ", log_time, len(self._chunk))
         self._index.setdefault(channel, bytearray()).extend(place)
@@ -159,7 +160,7 @@ class ChunkFile:
 
     def _append(self, data: bytes | bytearray) -> None:
         if self._file is None:
-            raise RecordingError(f"{self._path}: the recording is closed: start a new one.")
+            raise RecordingError(f"{arg(self._path)}: the recording is closed: start a new one.")
         rest = memoryview(data)
         try:
             while rest:
@@ -174,7 +175,7 @@ class ChunkFile:
     def _fail(self, error: OSError) -> None:
         self.abandon()
         raise RecordingError(
-            f"{self._path}: the recording stopped, but its content stays readable ({error}): free"
+            f"{arg(self._path)}: the recording stopped, but its content stays readable ({arg(error)}): free"
             " disk space or choose another disk, and start a new one."
         ) from error
 
@@ -216,10 +217,10 @@ def _create(path: Path) -> int:
     try:
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
     except FileExistsError:
-        raise RecordingError(f"{path}: this file already exists: choose another name.") from None
+        raise RecordingError(f"{arg(path)}: this file already exists: choose another name.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise RecordingError(
-            f"{path}: the recording cannot be started ({error}): choose a folder that exists and is writable."
+            f"{arg(path)}: the recording cannot be started ({arg(error)}): choose a folder that exists and is writable."
         ) from error
     try:
         sync_folder(path.parent)
@@ -227,6 +228,6 @@ def _create(path: Path) -> int:
         os.close(file)
         path.unlink(missing_ok=True)
         raise RecordingError(
-            f"{path}: the recording cannot be started ({error}): choose another disk."
+            f"{arg(path)}: the recording cannot be started ({arg(error)}): choose another disk."
         ) from error
     return file

@@ -15,6 +15,7 @@ import numpy as np
 
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import MOST_EVENT_BYTES, RecordingReader
@@ -93,8 +94,10 @@ def write_csv(
                     some = True
                     stream.write(csv_rows(*map(_cells, columns)))
             if not some:
-                reasons = " ".join(table.said()) or "There is none."
-                raise RecordingError(f"{file}: no reading of {topic} is usable for the table. {reasons}")
+                reasons = join(" ", table.said()) or message("There is none.")
+                raise RecordingError(
+                    f"{arg(file)}: no reading of {arg(topic)} is usable for the table. {arg(reasons)}"
+                )
     return Converted(found.complete, found.warnings, table.said())
 
 
@@ -185,7 +188,7 @@ def _chosen(found: _Found, topic: str | None) -> str:
             return next(iter(tables))
         if tables:
             raise RecordingError(
-                f"the recording has several topics of that kind: {', '.join(tables)}. Choose one:"
+                f"the recording has several topics of that kind: {arg(', '.join(tables))}. Choose one:"
                 " --topic NAME."
             )
     raise RecordingError("the recording contains no samples, so there is nothing to convert.")
@@ -195,7 +198,7 @@ def _check_topic(found: _Found, topic: str) -> None:
     known = (*found.wrenches, *found.flanges)
     if topic not in known:
         raise RecordingError(
-            f"the recording has no samples on {topic}; it has: {', '.join(known) or 'none'}."
+            f"the recording has no samples on {arg(topic)}; it has: {arg(', '.join(known) or 'none')}."
         )
 
 
@@ -236,10 +239,18 @@ class _WrenchTable:
 
     def said(self) -> tuple[str, ...]:
         """Return what was left out so far: sentences."""
-        several = "The recording has several flanges, so the table has no poses."
+        several = message("The recording has several flanges, so the table has no poses.")
         return (
-            *([f"{self._bad:,} readings left out: flagged as bad by the device."] if self._bad else []),
-            *([f"{self._lost:,} readings left out: no pose within {LONGEST_GAP} s."] if self._lost else []),
+            *(
+                [message(f"{arg(self._bad):,} readings left out: flagged as bad by the device.")]
+                if self._bad
+                else []
+            ),
+            *(
+                [message(f"{arg(self._lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s.")]
+                if self._lost
+                else []
+            ),
             *([several] if self._several else []),
         )
 
@@ -355,5 +366,6 @@ def _whole_file(file: Path) -> Iterator[BinaryIO]:
         if isinstance(error, RecordingError):
             raise
         raise RecordingError(
-            f"{file}: the file cannot be written ({error}): choose a folder that exists, is writable and has space."
+            f"{arg(file)}: the file cannot be written ({arg(error)}): choose a folder that exists, is"
+            " writable and has space."
         ) from error

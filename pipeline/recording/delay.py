@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
 from contactbench.pipeline.recording.errors import RecordingError
 
@@ -60,12 +61,14 @@ class Delay:
         """
         seconds = self.seconds or 0.0
         if _unlikely(self):
-            return 0.0, (
-                f"{self.sentence} The delay is not applied. To apply it anyway, give it: --delay"
-                f" {seconds:.4f}."
+            return 0.0, message(
+                f"{arg(self.sentence)} The delay is not applied. To apply it anyway, give it: --delay"
+                f" {arg(seconds):.4f}."
             )
         if self.sigma is None or abs(seconds) < _SURE * self.sigma:
-            return 0.0, f"{self.sentence} Within 3 sigma this may be zero, so no delay is applied."
+            return 0.0, message(
+                f"{arg(self.sentence)} Within 3 sigma this may be zero, so no delay is applied."
+            )
         return seconds, self.sentence
 
 
@@ -98,14 +101,16 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
     times, forces = times[known], forces[known]
     if len(times) < _FEWEST:
         raise RecordingError(
-            f"only {len(times)} wrenches have poses before and after them: record both for longer"
+            f"only {arg(len(times))} wrenches have poses before and after them: record both for longer"
             " while the robot turns."
         )
     if _turn(poses, times) < _LEAST_TURN:
         return Delay(
             None,
             None,
-            "The flange hardly turned, so no delay can be seen: turn it by 30° and back while recording.",
+            message(
+                "The flange hardly turned, so no delay can be seen: turn it by 30° and back while recording."
+            ),
         )
     shifts = np.arange(-longest, longest + _STEP_S / 2, _STEP_S)
     left = np.array([_unexplained(poses, times, forces, shift) for shift in shifts])
@@ -114,11 +119,13 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
         return Delay(
             None,
             None,
-            f"No shift within {longest:g} s explains the forces: check that this robot holds the sensor.",
+            message(
+                f"No shift within {arg(longest):g} s explains the forces: check that this robot holds the sensor."
+            ),
         )
     estimate = _refined(poses, times, forces, float(shifts[best]))
     doubt = _doubt(wrenches, forces, poses, times, estimate)
-    return replace(estimate, sentence=f"{estimate.sentence} {doubt}".rstrip(), doubt=doubt)
+    return replace(estimate, sentence=message(f"{arg(estimate.sentence)} {arg(doubt)}").strip(), doubt=doubt)
 
 
 def _refined(
@@ -137,7 +144,11 @@ def _refined(
     spread = "" if sigma is None else f" ± {1e3 * sigma:.1f}"
     later = "later" if seconds >= 0 else "earlier"
     return Delay(
-        seconds, sigma, f"The sensor is heard {1e3 * abs(seconds):.1f}{spread} ms {later} than the robot."
+        seconds,
+        sigma,
+        message(
+            f"The sensor is heard {arg(1e3 * abs(seconds)):.1f}{arg(spread)} ms {arg(later)} than the robot."
+        ),
     )
 
 
@@ -162,7 +173,9 @@ def _doubt(
     estimate: Delay,
 ) -> str:
     """Say whether the delay is an unlikely one, or leaves more unexplained than the sensor's noise does."""
-    return " ".join(filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate))))
+    return join(
+        " ", filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate)))
+    )
 
 
 def _unlikely(estimate: Delay) -> str:
@@ -170,12 +183,14 @@ def _unlikely(estimate: Delay) -> str:
     if estimate.sigma is None or abs(seconds) < _SURE * estimate.sigma:
         return ""
     if abs(seconds) > _LONGEST_LIKELY:
-        return (
-            f"A delay above {1e3 * _LONGEST_LIKELY:.0f} ms is unlikely: check that both use one"
+        return message(
+            f"A delay above {arg(1e3 * _LONGEST_LIKELY):.0f} ms is unlikely: check that both use one"
             " clock, and that this robot holds the sensor."
         )
     if seconds < 0:
-        return "A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late."
+        return message(
+            "A sensor ahead of the robot is unlikely: check whether the robot publishes its poses late."
+        )
     return ""
 
 
@@ -190,9 +205,9 @@ def _left_over(
     left = np.sqrt(_unexplained(poses, times, forces, estimate.seconds or 0.0) / forces.size)
     if left <= max(_FAR_ABOVE * noise, _SHARE * swing):
         return ""
-    return (
-        f"The turned load leaves {left:.2g} N of the forces unexplained, but the sensor's noise is"
-        f" only {noise:.2g} N: something was touched, or the flange moved fast. The delay may be"
+    return message(
+        f"The turned load leaves {arg(left):.2g} N of the forces unexplained, but the sensor's noise is"
+        f" only {arg(noise):.2g} N: something was touched, or the flange moved fast. The delay may be"
         " off by more than its ±. Record again: turn slowly, touch nothing."
     )
 

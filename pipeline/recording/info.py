@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
 from contactbench import __version__
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -71,7 +72,9 @@ class RecordingInfo:
         near = abs(since) < _CENTURIES and abs(moment) <= LATEST
         nanoseconds = self.started_ns + round(since * 1e9) if near else -1
         if not 0 <= nanoseconds < 2**63:
-            raise ValueError(f"{moment} s on the samples' clock is no time near the start of the recording")
+            raise ValueError(
+                message(f"{arg(moment)} s on the samples' clock is no time near the start of the recording")
+            )
         return nanoseconds
 
 
@@ -109,7 +112,7 @@ def read_about(values: Mapping[str, str]) -> RecordingInfo:
     """
     started, clock = int(values["started_ns"]), float(values["clock"])
     if not 0 <= started < 2**63 or not abs(clock) <= LATEST:
-        raise ValueError("the start is no time")
+        raise ValueError(message("the start is no time"))
     return RecordingInfo(started, clock, (), values["tool"], values["note"])
 
 
@@ -124,10 +127,10 @@ def read_device(values: Mapping[str, str]) -> DeviceInfo:
     """
     kinds: dict[str, DeviceKind] = {known: known for known in get_args(DeviceKind)}
     if values["kind"] not in kinds:
-        raise ValueError(f"no kind of device: {values['kind']!r}")
+        raise ValueError(message(f"no kind of device: {arg(values['kind'])!r}"))
     rate = float(values["rate"]) if values["rate"] else None
     if rate is not None and not 0 < rate < math.inf:
-        raise ValueError(f"no rate: {rate}")
+        raise ValueError(message(f"no rate: {arg(rate)}"))
     return DeviceInfo(
         kinds[values["kind"]], values["topic"], values["address"], values["model"], values["serial"], rate
     )

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.info import LATEST
 
 if TYPE_CHECKING:
@@ -93,9 +94,9 @@ def flange_message(sample: FlangeSample, stamp_ns: int) -> bytes:
     """
     R_BE, p = np.asarray(sample.R_BE, dtype=np.float64), np.asarray(sample.p_BE_B, dtype=np.float64)
     if p.shape != (3,):
-        raise MessageError("the position of the flange needs three numbers")
+        raise MessageError(message("the position of the flange needs three numbers"))
     if R_BE.shape != (3, 3):
-        raise MessageError("the orientation of the flange is no rotation")
+        raise MessageError(message("the orientation of the flange is no rotation"))
     _check_rotation(R := R_BE.ravel().tolist())
     body: dict[str, Any] = {
         "timestamp": _stamp(stamp_ns),
@@ -109,7 +110,7 @@ def flange_message(sample: FlangeSample, stamp_ns: int) -> bytes:
     if sample.joints is not None:
         joints = np.asarray(sample.joints, dtype=np.float64)
         if joints.ndim != 1 or len(joints) > MOST_JOINTS:
-            raise MessageError(f"joints need a list of at most {MOST_JOINTS} angles")
+            raise MessageError(message(f"joints need a list of at most {arg(MOST_JOINTS)} angles"))
         body["joints"] = [_or_null(angle) for angle in joints.tolist()]
     _optional(body, device_time=sample.device_time, arrival=sample.arrival)
     return _encode(body).encode()
@@ -139,7 +140,9 @@ def event_message(event: Event, stamp_ns: int) -> bytes:
         }
         return _encode(body).encode()
     except (TypeError, ValueError, RecursionError) as error:
-        raise MessageError(f"the fields of the event {event.name!r} cannot be stored ({error})") from error
+        raise MessageError(
+            message(f"the fields of the event {arg(event.name)!r} cannot be stored ({arg(error)})")
+        ) from error
 
 
 def _stamp(nanoseconds: int) -> dict[str, int]:
@@ -165,7 +168,7 @@ def _optional(body: dict[str, Any], **values: float | None) -> None:
 
 def _whole(value: int) -> int:
     if not 0 <= value <= _LARGEST:
-        raise MessageError(f"{value} is no count")
+        raise MessageError(message(f"{arg(value)} is no count"))
     return value
 
 
@@ -176,9 +179,9 @@ def _check_rotation(R: list[float]) -> None:
     lengths = (a * a + d * d + g * g - 1, b * b + e * e + h * h - 1, c * c + f * f + i * i - 1)
     angles = (a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i)
     if not all(abs(off) < _ORTHOGONAL for off in (*lengths, *angles)):
-        raise MessageError("the orientation of the flange is no rotation")
+        raise MessageError(message("the orientation of the flange is no rotation"))
     if a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g) < 0:  # all but 1 or -1
-        raise MessageError("the orientation of the flange is a reflection")
+        raise MessageError(message("the orientation of the flange is a reflection"))
 
 
 def _quaternion(R: list[float]) -> list[float]:
@@ -263,7 +266,7 @@ def read_flange(data: bytes) -> FlangeSample:
     if "joints" in body:
         listed = body["joints"]
         if not isinstance(listed, list) or len(listed) > MOST_JOINTS:
-            raise MessageError("joints are no list of angles")
+            raise MessageError(message("joints are no list of angles"))
         joints = np.array(_numbers(listed, len(listed)))
     return FlangeSample(
         _time(body),
@@ -287,7 +290,7 @@ def read_event(data: bytes) -> Event:
     body = _body(data, LONGEST_MESSAGE)
     name, fields = body.get("event"), body.get("fields")
     if not isinstance(name, str) or not isinstance(fields, dict):
-        raise MessageError("no event")
+        raise MessageError(message("no event"))
     # JSON can spell half a character, which no file or terminal takes.
     return Event(_time(body), name.encode("utf-8", "replace").decode(), fields)
 
@@ -307,9 +310,9 @@ def _body(data: bytes, longest: int = _LONGEST_SAMPLE) -> dict[str, Any]:
     try:
         body = _decode(data.decode())
     except (ValueError, RecursionError) as error:
-        raise MessageError(f"no JSON ({error})") from error
+        raise MessageError(message(f"no JSON ({arg(error)})")) from error
     if not isinstance(body, dict):
-        raise MessageError("no JSON object")
+        raise MessageError(message("no JSON object"))
     return body
 
 
@@ -319,11 +322,11 @@ def _number(value: Any) -> float:
     if value is None:
         return math.nan
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise MessageError("text where a number belongs")
+        raise MessageError(message("text where a number belongs"))
     try:
         return float(value)
     except OverflowError:
-        raise MessageError("a number that is too large") from None
+        raise MessageError(message("a number that is too large")) from None
 
 
 def _time(body: dict[str, Any], name: str = "time") -> float:
@@ -345,11 +348,11 @@ def _triple(value: Any) -> tuple[float, float, float]:
 
 def _numbers(value: Any, count: int) -> list[float]:
     if not isinstance(value, list) or len(value) != count:
-        raise MessageError(f"no list of {count} numbers")
+        raise MessageError(message(f"no list of {arg(count)} numbers"))
     return [_number(item) for item in value]
 
 
 def _count(value: Any, largest: int = _LARGEST) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= largest:
-        raise MessageError("no count")
+        raise MessageError(message("no count"))
     return value

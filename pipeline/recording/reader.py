@@ -13,6 +13,7 @@ from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.protocols.registry import driver_of
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
@@ -141,9 +142,9 @@ class RecordingReader:
         return _timed(self._recorded(), clocks)
 
     def _recorded(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
-        message = self._first
-        if message is not None:
-            yield from self._decoded(message)
+        raw = self._first
+        if raw is not None:
+            yield from self._decoded(raw)
         for record in self._records:
             if isinstance(record, McapMessage):
                 yield from self._decoded(record)
@@ -226,24 +227,32 @@ class RecordingReader:
             except (KeyError, ValueError) as error:
                 if isinstance(error, RecordingError):
                     raise
-                self._stream.warn(f"The description in the file is damaged ({error}).")
+                self._stream.warn(message(f"The description in the file is damaged ({arg(error)})."))
         if about is None:
-            reason = " ".join(self.warnings[:1]) or "For a ROS 2 bag use: contactbench record import-ros2."
-            raise RecordingError(f"{path}: not a recording of contactbench. {reason}")
+            reason = join(" ", self.warnings[:1]) or message(
+                "For a ROS 2 bag use: contactbench record import-ros2."
+            )
+            raise RecordingError(f"{arg(path)}: not a recording of contactbench. {arg(reason)}")
         return RecordingInfo(about.started_ns, about.clock, tuple(devices), about.tool, about.note)
 
-    def _decoded(self, message: McapMessage) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
-        channel = message.channel
+    def _decoded(self, raw: McapMessage) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
+        channel = raw.channel
         decode = _DECODERS.get(channel.schema_name) if channel.encoding == "json" else None
         if decode is None:
-            self._stream.warn(f"There are messages of an unknown kind on {channel.topic[:80]!r}.")
+            self._stream.warn(
+                message(f"There are messages of an unknown kind on {arg(channel.topic[:80])!r}.")
+            )
             return
-        if decode is read_event and not self._fits(message.data):
+        if decode is read_event and not self._fits(raw.data):
             return
         try:
-            sample = decode(message.data)
+            sample = decode(raw.data)
         except MessageError as error:
-            self._stream.warn(f"A message on {channel.topic[:80]!r} is damaged and was left out ({error}).")
+            self._stream.warn(
+                message(
+                    f"A message on {arg(channel.topic[:80])!r} is damaged and was left out ({arg(error)})."
+                )
+            )
             return
         yield channel.topic, sample
 
@@ -251,7 +260,9 @@ class RecordingReader:
         if self._event_room == math.inf:
             return True
         if (room := event_room(data)) > self._event_room:
-            self._stream.warn("The recording has more events than fit into memory: some were left out.")
+            self._stream.warn(
+                message("The recording has more events than fit into memory: some were left out.")
+            )
             return False
         self._event_room -= room
         return True
@@ -288,7 +299,7 @@ def read_recording(path: File, progress: Callable[[int, int], None] | None = Non
                 flanges[topic].add(block)
             room -= len(block.times)
             if room < 0:
-                raise RecordingError(f"{path}: the recording is too long to read at once: split it.")
+                raise RecordingError(f"{arg(path)}: the recording is too long to read at once: split it.")
         return Recording(
             reader.info,
             {topic: rows.track() for topic, rows in wrenches.items()},
@@ -328,7 +339,7 @@ def _format(path: File, record: Metadata) -> int:
     number = int(record.values["format"])
     if number > FORMAT:
         raise RecordingError(
-            f"{path}: the recording was written by a newer program ({record.values.get('tool', '')[:80]}): update"
-            " contactbench."
+            f"{arg(path)}: the recording was written by a newer program"
+            f" ({arg(record.values.get('tool', '')[:80])}): update contactbench."
         )
     return number

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.recording.errors import SampleError
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ class Recorder:
         self._lost[device] = self._lost.get(device, 0) + count
         health = self._health.get(device)
         if begins and self._on_change is not None and health is not None:
-            words = "The disk is too slow, so samples are dropped. Record to another disk."
+            words = message("The disk is too slow, so samples are dropped. Record to another disk.")
             self._on_change(device, replace(health, findings=(*health.findings, words)))
 
     def _say_dropped(self, device: str) -> None:

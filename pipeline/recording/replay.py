@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.devices.stream import Sample, SourceStream
 from contactbench.pipeline.devices.url import STEPWISE
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import RecordingReader
@@ -89,7 +90,7 @@ class Replay:
         on_end: Callable[[], None] = lambda: None,
     ) -> None:
         if not speed > 0:
-            raise ValueError(f"the speed is {speed:g}: give a number above 0.")
+            raise ValueError(message(f"the speed is {arg(speed):g}: give a number above 0."))
         self._path, self._reader = path, RecordingReader(path)
         self.info: RecordingInfo = self._reader.info
         self._wanted: dict[type, str | None] = {}
@@ -172,7 +173,7 @@ class Replay:
                 waiting = next(poses, None)
             if abs(sample.time - before) > _LONGEST_GAP_S:
                 self.error = RecordingError(
-                    f"{self._path}: its times go from {before:g} s to {sample.time:g} s, so no"
+                    f"{arg(self._path)}: its times go from {arg(before):g} s to {arg(sample.time):g} s, so no"
                     " poses can be matched. Record again, or cut it there."
                 )
                 return
@@ -337,7 +338,8 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
         topics = reader.info.topics(kind)
     if topic is None and len(topics) > 1:
         raise RecordingError(
-            f"{path}: it contains {what} of several devices: add ?topic= with one of {', '.join(topics)}."
+            f"{arg(path)}: it contains {arg(what)} of several devices: add ?topic= with one of"
+            f" {arg(', '.join(topics))}."
         )
     chosen = topics[0] if topic is None else topic
     stream = McapStream(path)
@@ -352,6 +354,6 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
     finally:
         stream.close()
     raise RecordingError(
-        f"{path}: it has no {what} on {chosen}: choose another recording or topic; contactbench"
+        f"{arg(path)}: it has no {arg(what)} on {arg(chosen)}: choose another recording or topic; contactbench"
         " record info lists its content."
     )

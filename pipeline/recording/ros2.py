@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from contactbench.pipeline.recording.ros2_poses import TransformTree, joint_pose, pose
@@ -113,14 +113,16 @@ def _about(bag: Path, begin: int, wrench: Topic, where: Topic | None, frame: str
     devices = [DeviceInfo("wrench", WRENCH_TOPIC, f"ros2:{wrench.name}")]
     if where is not None:
         devices.append(DeviceInfo("flange", FLANGE_TOPIC, f"ros2:{where.name}"))
-    said = f"; wrenches in frame {frame[:_LONGEST_NAME]}" if frame else ""
-    return RecordingInfo(begin, 0.0, tuple(devices), note=f"imported from {bag.name}{said}")
+    said = message(f"; wrenches in frame {arg(frame[:_LONGEST_NAME])}") if frame else ""
+    return RecordingInfo(
+        begin, 0.0, tuple(devices), note=message(f"imported from {arg(bag.name)}{arg(said)}")
+    )
 
 
 def _run(task: _Import, stream: McapStream) -> None:
-    for message in stream:
-        if isinstance(message, McapMessage):
-            task.take(message, stream.warn)
+    for raw in stream:
+        if isinstance(raw, McapMessage):
+            task.take(raw, stream.warn)
 
 
 class _Import:
@@ -142,49 +144,56 @@ class _Import:
         self._frame, self._other_frame = found.wrench_frames.get(wrench.name, ""), ""
         self.wrenches = self.poses = 0
 
-    def take(self, message: McapMessage, warn: Callable[[str], None]) -> None:
-        name = message.channel.topic
+    def take(self, raw: McapMessage, warn: Callable[[str], None]) -> None:
+        name = raw.channel.topic
         if name not in self._taken:
             return
         topic, decode = self._taken[name]
-        if ros2_type(message) != topic.type or message.channel.encoding != topic.encoding:
+        if ros2_type(raw) != topic.type or raw.channel.encoding != topic.encoding:
             return
         try:
-            body = decode(message.data)
+            body = decode(raw.data)
             if topic is self._wrench:
-                self._take_wrench(message, body)
+                self._take_wrench(raw, body)
             elif self._frames is not None:
-                self._take_transforms(message, body, self._frames, static=topic.static)
+                self._take_transforms(raw, body, self._frames, static=topic.static)
             else:
-                self._take_pose(message, body)
+                self._take_pose(raw, body)
         except ValueError as error:
             if isinstance(error, InputError) and not isinstance(error, SampleError):
                 raise
-            warn(f"A message on {name[:_LONGEST_NAME]!r} was left out ({error}).")
+            warn(message(f"A message on {arg(name[:_LONGEST_NAME])!r} was left out ({arg(error)})."))
 
     def doubts(self) -> tuple[str, ...]:
         """Say what the whole of it should make one doubt."""
         said = []
         if self._other_frame:
             said.append(
-                f"The wrenches on {self._wrench.name} are in several frames, {self._frame!r} and"
-                f" {self._other_frame!r}: check that they come from one sensor."
+                message(
+                    f"The wrenches on {arg(self._wrench.name)} are in several frames, {arg(self._frame)!r} and"
+                    f" {arg(self._other_frame)!r}: check that they come from one sensor."
+                )
             )
         if self._where is not None and not self.poses:
             why = "" if self._frames is None else f" {self._frames.obstacle()}"
             said.append(
-                f"No message on {self._where.name} gives a pose of the flange{':' if why else '.'}{why}"
+                message(
+                    f"No message on {arg(self._where.name)} gives a pose of the"
+                    f" flange{arg(':' if why else '.')}{arg(why)}"
+                )
             )
         elif self._frames is not None and self._frames.missed > _FEW + self.poses / 100:
             said.append(
-                f"{self._frames.missed:,} samples have no pose: not all transforms between the"
-                " frames have their time stamp."
+                message(
+                    f"{arg(self._frames.missed):,} samples have no pose: not all transforms between the"
+                    " frames have their time stamp."
+                )
             )
         return tuple(said)
 
-    def _take_wrench(self, message: McapMessage, body: Any) -> None:
+    def _take_wrench(self, raw: McapMessage, body: Any) -> None:
         force, torque = body.wrench.force, body.wrench.torque
-        time, other = self._times(message, _stamp(body.header))
+        time, other = self._times(raw, _stamp(body.header))
         if (frame := body.header.frame_id.lstrip("/")) != self._frame:
             self._other_frame = self._other_frame or frame[:_LONGEST_NAME] or "none"
         sample = WrenchSample(
@@ -193,21 +202,19 @@ class _Import:
         self._writer.wrench(sample)
         self.wrenches += 1
 
-    def _take_transforms(
-        self, message: McapMessage, body: Any, frames: TransformTree, *, static: bool
-    ) -> None:
-        bad = frames.update(body, message.log_time, static=static)
+    def _take_transforms(self, raw: McapMessage, body: Any, frames: TransformTree, *, static: bool) -> None:
+        bad = frames.update(body, raw.log_time, static=static)
         stamp = None if static else frames.due()
         found = None if stamp is None else frames.pose()
         if stamp is not None and found is not None:
-            time, other = self._times(message, stamp)
+            time, other = self._times(raw, stamp)
             self._writer.flange(FlangeSample(time, *found, None, other))
             self.poses += 1
         if bad:
-            raise ValueError(f"the transform to {bad[0][:_LONGEST_NAME]} is no pose")
+            raise ValueError(message(f"the transform to {arg(bad[0][:_LONGEST_NAME])} is no pose"))
 
-    def _take_pose(self, message: McapMessage, body: Any) -> None:
-        time, other = self._times(message, _stamp(body.header))
+    def _take_pose(self, raw: McapMessage, body: Any) -> None:
+        time, other = self._times(raw, _stamp(body.header))
         joints = None
         if self._where is not None and self._where.type == JOINT_STATE and self._wanted.robot is not None:
             found, joints = joint_pose(body, self._wanted.robot)
@@ -216,11 +223,11 @@ class _Import:
         self._writer.flange(FlangeSample(time, *found, joints, other))
         self.poses += 1
 
-    def _times(self, message: McapMessage, stamp_ns: int) -> tuple[float, float | None]:
-        received = (message.log_time - self._begin) / 1e9
+    def _times(self, raw: McapMessage, stamp_ns: int) -> tuple[float, float | None]:
+        received = (raw.log_time - self._begin) / 1e9
         if self._wanted.header_stamps:
             if stamp_ns == 0:
-                raise ValueError("its header has no time: import without --header-stamps")
+                raise ValueError(message("its header has no time: import without --header-stamps"))
             return (stamp_ns - self._begin) / 1e9, received
         return received, stamp_ns / 1e9 if stamp_ns else None
 
@@ -233,15 +240,15 @@ def _stamp(header: Any) -> int:
 def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: ImportChoice) -> Topic:
     if any(topic.encoding == "ros1" and topic.type == WRENCH_STAMPED for topic in topics):
         raise RecordingError(
-            f"{bag}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for"
+            f"{arg(bag)}: this is a ROS 1 bag, which has another format: convert it to ROS 2 first, for"
             " instance with rosbags-convert."
         )
     wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
     if wrench is not None:
         return wrench
-    listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics)
+    listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics) or message("no messages")
     raise RecordingError(
-        f"{bag}: there is no topic of WrenchStamped messages; there are: {listed or 'no messages'}."
+        f"{arg(bag)}: there is no topic of WrenchStamped messages; there are: {arg(listed)}."
     )
 
 
@@ -254,11 +261,12 @@ def _choose(
         for topic in there:
             if topic.name == name:
                 return topic
-        raise RecordingError(
-            f"{bag}: {option}: {name} is not one of: {listed or 'no such topics are there'}."
-        )
+        listed = listed or message("no such topics are there")
+        raise RecordingError(f"{arg(bag)}: {arg(option)}: {arg(name)} is not one of: {arg(listed)}.")
     if len(there) > 1:
-        raise RecordingError(f"{bag}: there are several topics: {listed}. Choose one: {option} NAME.")
+        raise RecordingError(
+            f"{arg(bag)}: there are several topics: {arg(listed)}. Choose one: {arg(option)} NAME."
+        )
     return there[0] if there else None
 
 
@@ -270,11 +278,13 @@ def _choose_pose(
         types = (TF, POSE_STAMPED)
     chosen = _choose(bag, topics, types, wanted.pose_topic, "--pose-topic")
     if chosen is not None and chosen.type == JOINT_STATE and wanted.robot is None:
-        raise RecordingError(f"{bag}: {chosen.name} has joints: name their robot with --robot NAME.")
+        raise RecordingError(
+            f"{arg(bag)}: {arg(chosen.name)} has joints: name their robot with --robot NAME."
+        )
     if chosen is None:
         joints = any(topic.type == JOINT_STATE for topic in topics)
-        remedy = " It has joints: name their robot with --robot NAME." if joints else ""
-        warnings.append(f"The bag contains no poses of the flange.{remedy}")
+        remedy = message(" It has joints: name their robot with --robot NAME.") if joints else ""
+        warnings.append(message(f"The bag contains no poses of the flange.{arg(remedy)}"))
     return chosen
 
 
@@ -282,22 +292,24 @@ def _frames(bag: Path, found: Survey, where: Topic, wanted: ImportChoice) -> Tra
     pairs = found.pairs
     moving = frozenset(child for topic, child in found.moving if topic == where.name)
     if (wanted.base is None) != (wanted.flange is None):
-        raise RecordingError(f"{bag}: give both --base and --flange, the two frames of the pose.")
+        raise RecordingError(f"{arg(bag)}: give both --base and --flange, the two frames of the pose.")
     if wanted.base is not None and wanted.flange is not None:
         base, flange = wanted.base.lstrip("/"), wanted.flange.lstrip("/")
         known = {name for pair in pairs for name in pair}
         for name in (base, flange):
             if name not in known:
-                raise RecordingError(f"{bag}: there is no frame {name}; there are: {_some(known)}.")
+                raise RecordingError(
+                    f"{arg(bag)}: there is no frame {arg(name)}; there are: {arg(_some(known))}."
+                )
         return TransformTree(base, flange, moving)
     if len(pairs) != 1:
         names = _some({f"{parent} -> {child}" for parent, child in pairs})
         raise RecordingError(
-            f"{bag}: name the two frames of the flange's pose: --base NAME --flange NAME. There are: {names}."
+            f"{arg(bag)}: name the two frames of the flange's pose: --base NAME --flange NAME. There are: {arg(names)}."
         )
     return TransformTree(*next(iter(pairs)), moving)
 
 
 def _some(names: set[str]) -> str:
     shown = sorted(names)[:40]
-    return ", ".join(shown) + (", ..." if len(names) > len(shown) else "")
+    return join(", ", shown) + (", ..." if len(names) > len(shown) else "")

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Collection
 
@@ -54,7 +56,7 @@ class TransformTree:
         self._given: _Moment | None = None
         self.missed = 0
 
-    def update(self, message: Any, received: int, *, static: bool = False) -> list[str]:
+    def update(self, body: Any, received: int, *, static: bool = False) -> list[str]:
         """
         Take in a TFMessage that was received at a time in ns.
 
@@ -64,7 +66,7 @@ class TransformTree:
             The frames between base and flange whose transforms are none: they keep their last one.
         """
         bad = []
-        for item in message.transforms:
+        for item in body.transforms:
             parent, child = item.header.frame_id.lstrip("/"), item.child_frame_id.lstrip("/")
             if child not in self._parents and len(self._parents) >= _MOST_FRAMES:
                 continue
@@ -112,16 +114,20 @@ class TransformTree:
         """Say why no pose was due so far."""
         chain, upside_down = self._chain(), self._chain(self._flange, self._base)
         if upside_down and self._parents[upside_down[-1]][0] == self._flange:
-            return f"{self._base} hangs on {self._flange}: give --base and --flange the other way round."
+            return message(
+                f"{arg(self._base)} hangs on {arg(self._flange)}: give --base and --flange the other way round."
+            )
         if not chain:
-            return f"no transform gives the position of {self._flange}."
+            return message(f"no transform gives the position of {arg(self._flange)}.")
         top = self._parents[chain[-1]][0]
         if top != self._base:
-            return f"{self._flange} hangs on {top}, and no transform leads from {self._base} to {top}."
+            return message(
+                f"{arg(self._flange)} hangs on {arg(top)}, and no transform leads from {arg(self._base)} to {arg(top)}."
+            )
         if not self._clocks(chain):
-            return f"everything between {self._base} and {self._flange} is static."
+            return message(f"everything between {arg(self._base)} and {arg(self._flange)} is static.")
         listed = ", ".join(frame for frame in reversed(chain) if frame in self._moving)
-        return f"the transforms to {listed} never have the same time stamp."
+        return message(f"the transforms to {arg(listed)} never have the same time stamp.")
 
     def _moves(self, chain: list[str]) -> bool:
         return any(frame in self._moving for frame in chain)
@@ -158,7 +164,7 @@ def numbers(position: Any, orientation: Any) -> tuple[float, ...]:
     quaternion = orientation.x, orientation.y, orientation.z, orientation.w
     length = math.hypot(*(min(max(value, -2.0), 2.0) for value in quaternion))
     if not all(map(math.isfinite, (*p, *quaternion))) or not abs(length - 1) < _UNIT:
-        raise ValueError("it is no pose")
+        raise ValueError(message("it is no pose"))
     return *p, *quaternion
 
 
@@ -175,7 +181,7 @@ def pose(position: Any, orientation: Any) -> Pose:
     return Rotation.from_quat(values[3:]).as_matrix(), values[:3]
 
 
-def joint_pose(message: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:
+def joint_pose(body: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:
     """
     Return the flange's pose by the joints of a JointState, and these joints in the robot's order.
 
@@ -187,16 +193,16 @@ def joint_pose(message: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:
         They are not those of the robot, or not finite.
     """
     wanted = [joint.name for joint in robot.description.joints]
-    angles = dict(zip(message.name, message.position, strict=False))
+    angles = dict(zip(body.name, body.position, strict=False))
     if not set(wanted) <= set(angles):
         numbered = {_last_number(name): angle for name, angle in angles.items()}
         numbers = list(range(1, len(wanted) + 1))
         if len(angles) != len(wanted) or sorted(numbered) != numbers:
-            raise ValueError(f"its joints are not the {len(wanted)} of the robot")
+            raise ValueError(message(f"its joints are not the {arg(len(wanted))} of the robot"))
         angles = {name: numbered[number] for name, number in zip(wanted, numbers, strict=True)}
     q = np.array([angles[name] for name in wanted])
     if not np.isfinite(q).all():
-        raise ValueError("a joint angle is not finite")
+        raise ValueError(message("a joint angle is not finite"))
     return robot.flange_pose(q), q
 
 

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 from mcap.records import Schema
 from mcap_ros2.decoder import DecoderFactory
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -74,13 +76,13 @@ def decoder(name: str) -> Callable[[bytes], Any]:
     """
     decode = DecoderFactory().decoder_for("cdr", Schema(1, DEFINITIONS[name].encode(), "ros2msg", name))
     if decode is None:
-        raise ValueError(f"{name} has no definition")
+        raise ValueError(message(f"{arg(name)} has no definition"))
     plain = decode
 
     def careful(data: bytes) -> Any:
         try:
             return plain(data)
         except (struct.error, IndexError, UnicodeDecodeError, OverflowError) as error:
-            raise ValueError(f"no {name}: {error}") from error
+            raise ValueError(message(f"no {arg(name)}: {arg(error)}")) from error
 
     return careful

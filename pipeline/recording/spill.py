@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -70,8 +71,8 @@ class Spill:
             yield
         except OSError as error:
             raise RecordingError(
-                f"{self._folder or 'the temporary folder'}: readings cannot be put aside there ({error}): free disk"
-                " space, or choose a folder on another disk."
+                f"{arg(self._folder or message('the temporary folder'))}: readings cannot be put aside there"
+                f" ({arg(error)}): free disk space, or choose a folder on another disk."
             ) from error
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 import zstandard
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
 
@@ -112,7 +113,7 @@ class McapStream:
         if self._faults <= _MOST_WARNINGS:
             self.warnings.append(sentence)
         elif self._faults == _MOST_WARNINGS + 1:
-            self.warnings.append("More of it is damaged in the same way.")
+            self.warnings.append(message("More of it is damaged in the same way."))
 
     def __iter__(self) -> Iterator[McapMessage | Metadata]:
         """Yield messages and metadata until the end of the data, or of what is left of it."""
@@ -127,11 +128,13 @@ class McapStream:
             try:
                 yield from self._meaning(opcode, payload)
             except ValueError as error:
-                self.warn(f"The data at byte {begin:,} are damaged and were left out ({error}).")
+                self.warn(
+                    message(f"The data at byte {arg(begin):,} are damaged and were left out ({arg(error)}).")
+                )
 
     def _check_magic(self) -> None:
         if self._read(len(MAGIC)) != MAGIC:
-            raise RecordingError(f"{self._path}: not an MCAP file: choose a recording or a ROS 2 bag.")
+            raise RecordingError(f"{arg(self._path)}: not an MCAP file: choose a recording or a ROS 2 bag.")
 
     def _next_record(self) -> tuple[int, int, bytes] | None:
         """Return where the next record that matters is, its opcode and payload; None at the end of what can be read."""
@@ -149,7 +152,11 @@ class McapStream:
             if length <= limit:
                 return begin, opcode, self._read(length)
             if limit >= 0:
-                self.warn(f"The data at byte {begin:,} are too long ({length:,} bytes) and were left out.")
+                self.warn(
+                    message(
+                        f"The data at byte {arg(begin):,} are too long ({arg(length):,} bytes) and were left out."
+                    )
+                )
             self._skip(length)
 
     def _meaning(self, opcode: int, payload: bytes) -> Iterator[McapMessage | Metadata]:
@@ -168,11 +175,11 @@ class McapStream:
         at = 0
         while at < len(data):
             if len(data) - at < PREFIX.size:
-                raise ValueError("half a record")
+                raise ValueError(message("half a record"))
             opcode, length = PREFIX.unpack_from(data, at)
             at += PREFIX.size
             if length > len(data) - at:
-                raise ValueError("half a record")
+                raise ValueError(message("half a record"))
             if opcode == Opcode.MESSAGE:
                 yield self._message(data, at, at + length)
             else:
@@ -181,10 +188,10 @@ class McapStream:
 
     def _message(self, data: bytes, begin: int, end: int) -> McapMessage:
         if end - begin < MESSAGE_HEAD.size:
-            raise ValueError("half a message")
+            raise ValueError(message("half a message"))
         number, _, log_time, _ = MESSAGE_HEAD.unpack_from(data, begin)
         if number not in self._channels:
-            raise ValueError(f"a message on channel {number}, which is not described")
+            raise ValueError(message(f"a message on channel {arg(number)}, which is not described"))
         return McapMessage(self._channels[number], log_time, data[begin + MESSAGE_HEAD.size : end])
 
     def _describe(self, opcode: int, payload: bytes) -> None:
@@ -200,19 +207,23 @@ class McapStream:
     def _end(self, payload: bytes) -> None:
         expected = int.from_bytes(payload[:4], "little")
         if expected and expected != self._crc_before:
-            self.warn("The file was changed after it was written: its checksum does not match.")
+            self.warn(message("The file was changed after it was written: its checksum does not match."))
         try:
             self._file.seek(-len(MAGIC), os.SEEK_END)
             self.complete = self._file.read(len(MAGIC)) == MAGIC
         except OSError as error:
             raise self._unreadable(error) from error
         if not self.complete:
-            self.warn("The file is cut off after its last sample: only the table of contents is missing.")
+            self.warn(
+                message("The file is cut off after its last sample: only the table of contents is missing.")
+            )
 
     def _cut_off(self, begin: int) -> None:
         self.warn(
-            f"The file is cut off or damaged at byte {begin:,} of {self._size:,}: everything up to"
-            " there was read."
+            message(
+                f"The file is cut off or damaged at byte {arg(begin):,} of {arg(self._size):,}: everything up to"
+                " there was read."
+            )
         )
 
     def _read(self, length: int) -> bytes:
@@ -234,7 +245,9 @@ class McapStream:
             length -= len(block)
 
     def _unreadable(self, error: OSError) -> RecordingError:
-        return RecordingError(f"{self._path}: the file cannot be read ({error}): copy it to another disk.")
+        return RecordingError(
+            f"{arg(self._path)}: the file cannot be read ({arg(error)}): copy it to another disk."
+        )
 
 
 def _unpacked(cursor: Cursor) -> bytes:
@@ -243,10 +256,10 @@ def _unpacked(cursor: Cursor) -> bytes:
     compression = cursor.text()
     packed = cursor.take(cursor.number(8))
     if size > LARGEST_CHUNK:
-        raise ValueError(f"a chunk of {size:,} bytes")
+        raise ValueError(message(f"a chunk of {arg(size):,} bytes"))
     data = _decompressed(compression, packed, size)
     if len(data) != size or (checksum and zlib.crc32(data) != checksum):
-        raise ValueError("its checksum does not match")
+        raise ValueError(message("its checksum does not match"))
     return data
 
 
@@ -257,19 +270,19 @@ def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
         try:
             # A frame says itself how large it will be, and is believed: so ask before.
             if zstandard.frame_content_size(packed) > size:
-                raise ValueError("a chunk that is larger than it says")
+                raise ValueError(message("a chunk that is larger than it says"))
             return zstandard.ZstdDecompressor().decompress(packed, max_output_size=size)
         except zstandard.ZstdError as error:
-            raise ValueError(f"it cannot be unpacked: {error}") from error
+            raise ValueError(message(f"it cannot be unpacked: {arg(error)}")) from error
     if compression == "lz4":
         from lz4 import frame  # type: ignore[import-untyped]
 
         try:
             data: bytes = frame.LZ4FrameDecompressor().decompress(packed, max_length=size)
         except (RuntimeError, EOFError) as error:
-            raise ValueError(f"it cannot be unpacked: {error}") from error
+            raise ValueError(message(f"it cannot be unpacked: {arg(error)}")) from error
         return data
-    raise ValueError(f"it is packed as {compression[:20]!r}, which is unknown")
+    raise ValueError(message(f"it is packed as {arg(compression[:20])!r}, which is unknown"))
 
 
 def _open(path: File) -> BinaryIO:
@@ -279,11 +292,11 @@ def _open(path: File) -> BinaryIO:
         if stat.S_ISREG(mode):
             return path.open("rb")
     except FileNotFoundError:
-        raise RecordingError(f"{path}: there is no such file: check the path.") from None
+        raise RecordingError(f"{arg(path)}: there is no such file: check the path.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise RecordingError(
-            f"{path}: the file cannot be opened ({error}): check its permissions."
+            f"{arg(path)}: the file cannot be opened ({arg(error)}): check its permissions."
         ) from error
     if stat.S_ISDIR(mode):
-        raise RecordingError(f"{path}: this is a folder: choose an MCAP file inside it.")
-    raise RecordingError(f"{path}: this is a pipe or a device, not a file: copy it to a file first.")
+        raise RecordingError(f"{arg(path)}: this is a folder: choose an MCAP file inside it.")
+    raise RecordingError(f"{arg(path)}: this is a pipe or a device, not a file: copy it to a file first.")

@@ -6,6 +6,8 @@ import struct
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -76,7 +78,7 @@ class Cursor:
     def take(self, length: int) -> bytes:
         """Return the next `length` bytes."""
         if length > self.left:
-            raise ValueError(f"a field of {length:,} bytes in {self.left:,} that are left")
+            raise ValueError(message(f"a field of {arg(length):,} bytes in {arg(self.left):,} that are left"))
         begin, self._at = self._at, self._at + length
         return bytes(self._data[begin : self._at])
 

@@ -7,6 +7,7 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.info import (
@@ -174,23 +175,23 @@ class RecordingWriter:
         self._file.sync()
         return channels
 
-    def _add(self, kind: _Kind, topic: str | None, moment: float, message: Callable[[int], bytes]) -> None:
+    def _add(self, kind: _Kind, topic: str | None, moment: float, encode: Callable[[int], bytes]) -> None:
         topic = self._defaults[kind] if topic is None else topic
         if self._kinds.get(topic) != kind:
             known = ", ".join(name for name, other in self._kinds.items() if other == kind)
             raise SampleError(
-                f"{self._path}: {topic} is not a topic for {kind} samples; there are: {known}."
+                f"{arg(self._path)}: {arg(topic)} is not a topic for {arg(kind)} samples; there are: {arg(known)}."
                 " Name its device in the description of the recording."
             )
         try:
             stamp = self._about.log_time(moment)
-            data = message(stamp)
+            data = encode(stamp)
         except ValueError as error:
             raise SampleError(
-                f"{self._path}: a sample on {topic} cannot be recorded: {error}. Check its device."
+                f"{arg(self._path)}: a sample on {arg(topic)} cannot be recorded: {arg(error)}. Check its device."
             ) from error
         if len(data) > LONGEST_MESSAGE:
-            raise SampleError(f"{self._path}: an event is longer than 1 MiB: keep such data in a file.")
+            raise SampleError(f"{arg(self._path)}: an event is longer than 1 MiB: keep such data in a file.")
         with self._lock:
             if not self._file.pending:
                 self._chunk_begin = self._clock()
@@ -218,5 +219,5 @@ def _topics(path: Path, about: RecordingInfo) -> dict[str, _Kind]:
     )
     for topic, kind in others:
         if topics.setdefault(topic, kind) != kind:
-            raise RecordingError(f"{path}: {topic} would contain two kinds of samples: rename one.")
+            raise RecordingError(f"{arg(path)}: {arg(topic)} would contain two kinds of samples: rename one.")
     return topics

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot.clearance import ClearanceCheck
 from contactbench.pipeline.robot.description import RobotDescription
 
@@ -83,7 +83,9 @@ def _box(
             continue
         floor, ceiling = joint.lower + margin, joint.upper - margin
         if floor > ceiling:
-            raise InputError(f"candidate_joints: a margin of {margin} rad leaves joint {joint.name} no range")
+            raise InputError(
+                f"candidate_joints: a margin of {arg(margin)} rad leaves joint {arg(joint.name)} no range"
+            )
         # A start inside the margin pulls the box back in rather than emptying it.
         centre = min(max(q_start[i], floor), ceiling)
         low[i], high[i] = max(floor, centre - reach[i]), min(ceiling, centre + reach[i])
@@ -116,9 +118,12 @@ def _spread(
 
 def _complaint(conflicts: Counter[str]) -> str:
     tried = conflicts.total()
-    worst = ", ".join(f"{what} ({times} of {tried})" for what, times in conflicts.most_common(3))
-    return (
-        f"candidate_joints: none of {tried} configurations near the start is clear; too close:"
-        f" {worst}. Move the arm away from there, allow the arm joints to move too, or correct the"
+    worst = join(
+        ", ",
+        (message(f"{arg(what)} ({arg(times)} of {arg(tried)})") for what, times in conflicts.most_common(3)),
+    )
+    return message(
+        f"candidate_joints: none of {arg(tried)} configurations near the start is clear; too close:"
+        f" {arg(worst)}. Move the arm away from there, allow the arm joints to move too, or correct the"
         " Clearance."
     )

@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot.description import TOOL, Capsule, RobotDescription, Triple, joint_angles
 from contactbench.pipeline.robot.model import Kinematics, fixed_axes
 
@@ -42,13 +42,17 @@ class Clearance:
 
     def __post_init__(self) -> None:
         if np.shape(self.p_ET_E) != (3,) or not np.isfinite(self.p_ET_E).all():
-            raise InputError(f"Clearance.p_ET_E: give three finite numbers (m), not {self.p_ET_E!r}")
+            raise InputError(f"Clearance.p_ET_E: give three finite numbers (m), not {arg(self.p_ET_E)!r}")
         if not (np.isfinite(self.tool_radius) and self.tool_radius > 0):
-            raise InputError(f"Clearance.tool_radius: give a length above 0 (m), not {self.tool_radius!r}")
+            raise InputError(
+                f"Clearance.tool_radius: give a length above 0 (m), not {arg(self.tool_radius)!r}"
+            )
         if not self.z_min < np.inf:
-            raise InputError(f"Clearance.z_min: give a height in B (m) or -inf, not {self.z_min!r}")
+            raise InputError(f"Clearance.z_min: give a height in B (m) or -inf, not {arg(self.z_min)!r}")
         if not (np.isfinite(self.distance) and self.distance >= 0):
-            raise InputError(f"Clearance.distance: give a length of at least 0 (m), not {self.distance!r}")
+            raise InputError(
+                f"Clearance.distance: give a length of at least 0 (m), not {arg(self.distance)!r}"
+            )
 
 
 class ClearanceCheck:
@@ -69,7 +73,9 @@ class ClearanceCheck:
 
     def __init__(self, description: RobotDescription, clearance: Clearance) -> None:
         if not description.capsules:
-            raise InputError(f"robot {description.name} has no capsules: its clearance cannot be checked")
+            raise InputError(
+                f"robot {arg(description.name)} has no capsules: its clearance cannot be checked"
+            )
         self._description = description
         self._clearance = clearance
         self._capsules = description.capsules + _tool(description, clearance)
@@ -107,7 +113,7 @@ class ClearanceCheck:
         angles = joint_angles(self._description, q)
         joints = np.ones(len(angles), dtype=bool) if moving is None else np.asarray(moving, dtype=bool)
         if joints.shape != angles.shape:
-            raise InputError(f"conflict: moving needs the shape {angles.shape}, not {joints.shape}")
+            raise InputError(f"conflict: moving needs the shape {arg(angles.shape)}, not {arg(joints.shape)}")
         return self._conflict(angles, joints.tolist())
 
     def path_conflict(self, q_a: ArrayLike, q_b: ArrayLike, *, step: float = 0.02) -> str | None:
@@ -135,7 +141,7 @@ class ClearanceCheck:
             A shape is wrong, a number is not finite, or `step` is not positive.
         """
         if not step > 0:
-            raise InputError(f"path_conflict: step must be above 0 rad, not {step!r}")
+            raise InputError(f"path_conflict: step must be above 0 rad, not {arg(step)!r}")
         start, end = joint_angles(self._description, q_a), joint_angles(self._description, q_b)
         moving = (start != end).tolist()
         samples = int(np.ceil(np.abs(end - start).sum() / step)) + 1
@@ -159,7 +165,7 @@ class ClearanceCheck:
         gap = data.geom_xpos[self._geoms, 2] - rise - self._radius - self._clearance.z_min
         for i, capsule in enumerate(self._capsules):
             if any(moving[: capsule.body]) and gap[i] < self._clearance.distance:
-                return f"{capsule.name} to floor"
+                return message(f"{arg(capsule.name)} to floor")
         return None
 
     def _pair_conflict(self, moving: list[bool]) -> str | None:
@@ -174,7 +180,7 @@ class ClearanceCheck:
                 kinematics.model, kinematics.data, geoms[i], geoms[j], distmax, None
             )
             if not gap >= distance:  # so that NaN is a conflict
-                return f"{b.name} to {a.name}"
+                return message(f"{arg(b.name)} to {arg(a.name)}")
         return None
 
 

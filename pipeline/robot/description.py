@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 Triple = tuple[float, float, float]
 
@@ -49,11 +49,11 @@ class Joint:
         )
         if not (np.isfinite([self.lower, self.upper]).all() and self.lower < self.upper):
             raise InputError(
-                f"{where}: limits must be finite with lower < upper, not {self.lower} .. {self.upper}"
+                f"{arg(where)}: limits must be finite with lower < upper, not {arg(self.lower)} .. {arg(self.upper)}"
             )
         _refuse_not_positive(where, velocity=self.velocity, effort=self.effort, child_mass=self.child_mass)
         if not self.acceleration > 0:  # so that NaN is refused; inf says that none is known
-            raise InputError(f"{where}: acceleration must be above 0, not {self.acceleration!r}")
+            raise InputError(f"{arg(where)}: acceleration must be above 0, not {arg(self.acceleration)!r}")
         if self.inertia is not None:
             _refuse_inertia(where, self.inertia)
 
@@ -88,7 +88,9 @@ class Capsule:
         _refuse_triples(where, start_xyz=self.start_xyz, end_xyz=self.end_xyz)
         _refuse_not_positive(where, radius=self.radius)
         if self.start_xyz == self.end_xyz:
-            raise InputError(f"{where}: start_xyz and end_xyz must differ, both are {self.start_xyz}")
+            raise InputError(
+                f"{arg(where)}: start_xyz and end_xyz must differ, both are {arg(self.start_xyz)}"
+            )
 
 
 @dataclass(frozen=True)
@@ -115,21 +117,21 @@ class RobotDescription:
     def __post_init__(self) -> None:
         where = f"robot {self.name}"
         if not self.joints:
-            raise InputError(f"{where}: at least one joint is needed")
+            raise InputError(f"{arg(where)}: at least one joint is needed")
         _refuse_triples(where, flange_xyz=self.flange_xyz, flange_rpy=self.flange_rpy)
         _refuse_twice(where, [joint.name for joint in self.joints])
         _refuse_twice(where, [capsule.name for capsule in self.capsules] + [TOOL])
         for capsule in self.capsules:
             if not 0 <= capsule.body <= len(self.joints):
                 raise InputError(
-                    f"{where}: capsule {capsule.name} sits on body {capsule.body}, "
-                    f"but bodies run from 0 to {len(self.joints)}"
+                    f"{arg(where)}: capsule {arg(capsule.name)} sits on body {arg(capsule.body)}, "
+                    f"but bodies run from 0 to {arg(len(self.joints))}"
                 )
         unknown = {name for pair in self.never_touch for name in pair} - {c.name for c in self.capsules}
         unknown.discard(TOOL)
         if unknown:
             raise InputError(
-                f"{where}: never_touch names no capsule of this arm: {', '.join(sorted(unknown))}"
+                f"{arg(where)}: never_touch names no capsule of this arm: {arg(', '.join(sorted(unknown)))}"
             )
 
 
@@ -165,39 +167,39 @@ def joint_angles(
     if angles.shape[-1:] != (n,) or ndim not in {None, angles.ndim}:
         wanted = {1: f"({n},)", 2: f"(m, {n})"}.get(ndim or 0, f"(..., {n})")
         raise InputError(
-            f"{where}joint angles of {description.name} have the shape {wanted}, not {angles.shape}"
+            f"{arg(where)}joint angles of {arg(description.name)} have the shape {arg(wanted)}, not {arg(angles.shape)}"
         )
     if not np.isfinite(angles).all():
-        raise InputError(f"{where}joint angles must be finite (rad), not {angles}")
+        raise InputError(f"{arg(where)}joint angles must be finite (rad), not {arg(angles)}")
     return angles
 
 
 def _refuse_triples(where: str, **fields: Triple) -> None:
     for field, value in fields.items():
         if np.shape(value) != (3,) or not np.isfinite(value).all():
-            raise InputError(f"{where}: {field} must be three finite numbers, not {value!r}")
+            raise InputError(f"{arg(where)}: {arg(field)} must be three finite numbers, not {arg(value)!r}")
 
 
 def _refuse_inertia(where: str, inertia: tuple[float, ...]) -> None:
     """Refuse what no body has: the principal moments are positive, and no one exceeds the sum of the others."""
     if np.shape(inertia) != (6,) or not np.isfinite(inertia).all():
-        raise InputError(f"{where}: inertia must be six finite numbers, not {inertia!r}")
+        raise InputError(f"{arg(where)}: inertia must be six finite numbers, not {arg(inertia)!r}")
     xx, yy, zz, xy, xz, yz = inertia
     least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if least <= 0 or most > (least + middle) * (1 + 1e-9):
         raise InputError(
-            f"{where}: the inertia {inertia!r} is physically impossible: principal moments"
-            f" {least:.3g}, {middle:.3g}, {most:.3g}"
+            f"{arg(where)}: the inertia {arg(inertia)!r} is physically impossible: principal moments"
+            f" {arg(least):.3g}, {arg(middle):.3g}, {arg(most):.3g}"
         )
 
 
 def _refuse_not_positive(where: str, **fields: float) -> None:
     for field, value in fields.items():
         if not (np.isfinite(value) and value > 0):
-            raise InputError(f"{where}: {field} must be finite and above 0, not {value!r}")
+            raise InputError(f"{arg(where)}: {arg(field)} must be finite and above 0, not {arg(value)!r}")
 
 
 def _refuse_twice(where: str, names: list[str]) -> None:
     for name, following in pairwise(sorted(names)):
         if name == following:
-            raise InputError(f"{where}: the name {name} is given twice")
+            raise InputError(f"{arg(where)}: the name {arg(name)} is given twice")

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
 from contactbench.pipeline.robot.description import RobotDescription, joint_angles
@@ -60,7 +60,9 @@ class Robot:
             return cls(read_robot(name))
         if name not in ROBOTS:
             known = ", ".join(sorted(ROBOTS))
-            raise InputError(f"there is no robot named {name!r}; known: {known}, or a URDF or MJCF file")
+            raise InputError(
+                f"there is no robot named {arg(name)!r}; known: {arg(known)}, or a URDF or MJCF file"
+            )
         return cls(ROBOTS[name])
 
     @property
@@ -196,11 +198,12 @@ class Robot:
             if joint.lower <= value <= joint.upper:
                 continue
             prefix = f"{where}: " if where else ""
-            hint = "; check whether these are degrees" if np.abs(angles).max() > 2 * pi else ""
+            hint = message("; check whether these are degrees") if np.abs(angles).max() > 2 * pi else ""
             raise InputError(
-                f"{prefix}joint {joint.name} is at {value:.4f} rad ({np.degrees(value):.2f}°), outside "
-                f"its limits {joint.lower:.4f} .. {joint.upper:.4f} rad "
-                f"({np.degrees(joint.lower):.2f}° .. {np.degrees(joint.upper):.2f}°){hint}"
+                f"{arg(prefix)}joint {arg(joint.name)} is at {arg(value):.4f} rad"
+                f" ({arg(np.degrees(value)):.2f}°), outside its limits {arg(joint.lower):.4f} .."
+                f" {arg(joint.upper):.4f} rad ({arg(np.degrees(joint.lower)):.2f}° .."
+                f" {arg(np.degrees(joint.upper)):.2f}°){arg(hint)}"
             )
         return angles
 
@@ -228,7 +231,9 @@ class Robot:
         try:
             moved = np.abs(end - start)
         except ValueError as error:
-            raise InputError(f"travel: shapes {start.shape} and {end.shape} do not broadcast") from error
+            raise InputError(
+                f"travel: shapes {arg(start.shape)} and {arg(end.shape)} do not broadcast"
+            ) from error
         return np.asarray((moved / self._velocity_limits).max(axis=-1))
 
     def candidate_joints(
@@ -279,12 +284,16 @@ class Robot:
         """
         start = self.check_joints(q_start, "candidate_joints: q_start")
         if count < 1:
-            raise InputError(f"candidate_joints: count must be at least 1, not {count}")
+            raise InputError(f"candidate_joints: count must be at least 1, not {arg(count)}")
         for name, value in {"wrist_reach": wrist_reach, "arm_reach": arm_reach}.items():
             if not (np.isfinite(value) and value > 0):
-                raise InputError(f"candidate_joints: {name} must be finite and above 0 rad, not {value!r}")
+                raise InputError(
+                    f"candidate_joints: {arg(name)} must be finite and above 0 rad, not {arg(value)!r}"
+                )
         if not (np.isfinite(margin) and margin >= 0):
-            raise InputError(f"candidate_joints: margin must be finite and at least 0 rad, not {margin!r}")
+            raise InputError(
+                f"candidate_joints: margin must be finite and at least 0 rad, not {arg(margin)!r}"
+            )
         reach = np.full(len(start), 0.0 if wrist_only else arm_reach)
         reach[-WRIST_JOINTS:] = wrist_reach
         check = ClearanceCheck(self.description, clearance or Clearance())

@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.robot.description import TOOL, Capsule, Joint, RobotDescription, Triple
 from contactbench.pipeline.robot.model import import_mujoco
 
@@ -72,9 +72,9 @@ def read_robot(name: str) -> RobotDescription:
     try:
         about = path.stat()
     except OSError as error:
-        raise InputError(f"{path}: {error.strerror}: give a URDF or MJCF file.") from error
+        raise InputError(f"{arg(path)}: {arg(error.strerror)}: give a URDF or MJCF file.") from error
     if not path.is_file():  # a pipe would wait for its writer
-        raise InputError(f"{path}: it is no file: give a URDF or MJCF file.")
+        raise InputError(f"{arg(path)}: it is no file: give a URDF or MJCF file.")
     return _read(path, flange, about.st_mtime_ns, about.st_size)
 
 
@@ -87,22 +87,26 @@ def _split(name: str) -> tuple[Path, str]:
 def _read(path: Path, flange: str, changed: int, size: int) -> RobotDescription:
     del changed  # it says only that the file is another one
     if path.suffix.lower() == ".xacro":
-        raise InputError(f"{path}: run xacro first, and give the URDF that it makes.")
+        raise InputError(f"{arg(path)}: run xacro first, and give the URDF that it makes.")
     if size > _LARGEST_FILE:
-        raise InputError(f"{path}: the file has more than {_LARGEST_FILE} bytes: give a robot's description.")
+        raise InputError(
+            f"{arg(path)}: the file has more than {arg(_LARGEST_FILE)} bytes: give a robot's description."
+        )
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise InputError(f"{path}: {error.strerror}: check the file.") from error
+        raise InputError(f"{arg(path)}: {arg(error.strerror)}: check the file.") from error
     root = _parsed(path, data)
     told = _Told.of(root)
     mujoco = import_mujoco()
     try:
         model: Any = mujoco.MjModel.from_xml_string(_bare(path, root))
     except (ValueError, RecursionError, mujoco.FatalError) as error:
-        raise InputError(f"{path}: it is no robot that MuJoCo can read ({str(error).strip()}).") from error
+        raise InputError(
+            f"{arg(path)}: it is no robot that MuJoCo can read ({arg(str(error).strip())})."
+        ) from error
     if model.nbody > _MOST_BODIES:
-        raise InputError(f"{path}: it has {model.nbody} bodies: give the file of one arm alone.")
+        raise InputError(f"{arg(path)}: it has {arg(model.nbody)} bodies: give the file of one arm alone.")
     return _Arm(mujoco, model, path, told).description(flange)
 
 
@@ -110,23 +114,25 @@ def _parsed(path: Path, data: bytes) -> ET.Element:
     text = data.decode("utf-8-sig", errors="replace")
     # Zeros: UTF-16 without a mark, which a parser of XML reads all the same.
     if "\ufffd" in text or "\0" in text:
-        raise InputError(f"{path}: it is not UTF-8 text: save it as UTF-8.")
+        raise InputError(f"{arg(path)}: it is not UTF-8 text: save it as UTF-8.")
     # Without a document type there are no entities, so nothing is expanded and nothing fetched.
     if "<!DOCTYPE" in text.upper() or "<!ENTITY" in text.upper():
-        raise InputError(f"{path}: it has a document type, which no robot's description needs: remove it.")
+        raise InputError(
+            f"{arg(path)}: it has a document type, which no robot's description needs: remove it."
+        )
     try:
         root = ET.fromstring(text)  # noqa: S314 - without a document type there is nothing to expand
     except (ET.ParseError, LookupError, ValueError) as error:
-        raise InputError(f"{path}: it is not XML ({error}): give a URDF or MJCF file.") from error
+        raise InputError(f"{arg(path)}: it is not XML ({arg(error)}): give a URDF or MJCF file.") from error
     if root.tag not in ("robot", "mujoco"):
         raise InputError(
-            f"{path}: it begins with <{root.tag[:40]}>: give a URDF (<robot>) or MJCF (<mujoco>) file."
+            f"{arg(path)}: it begins with <{arg(root.tag[:40])}>: give a URDF (<robot>) or MJCF (<mujoco>) file."
         )
     if root.tag == "mujoco" and root.find(".//include") is not None:
-        raise InputError(f"{path}: it includes other files: give the file that has the arm itself.")
+        raise InputError(f"{arg(path)}: it includes other files: give the file that has the arm itself.")
     if root.tag == "mujoco" and any(root.find(f".//{each}") is not None for each in _MULTIPLIED):
         raise InputError(
-            f"{path}: it multiplies bodies (<{'>, <'.join(_MULTIPLIED)}>): give the file of one arm alone."
+            f"{arg(path)}: it multiplies bodies (<{arg('>, <'.join(_MULTIPLIED))}>): give the file of one arm alone."
         )
     return root
 
@@ -136,7 +142,8 @@ def _refuse_infinite(path: Path, root: ET.Element) -> None:
         for key, value in element.attrib.items():
             if key not in _NAMES and not all(map(_finite, value.split())):
                 raise InputError(
-                    f"{path}: <{element.tag}> has {key}={value[:40]!r}: every number must be finite. Correct it."
+                    f"{arg(path)}: <{arg(element.tag)}> has {arg(key)}={arg(value[:40])!r}: every number"
+                    " must be finite. Correct it."
                 )
 
 
@@ -160,7 +167,7 @@ def _bare(path: Path, root: ET.Element) -> str:
         ET.SubElement(extension, "compiler", {"fusestatic": "false", **limits})
         for link in root.iter("link"):
             if not link.get("name"):
-                raise InputError(f"{path}: a link has no name: give it one.")
+                raise InputError(f"{arg(path)}: a link has no name: give it one.")
     else:
         compiler = root.find("compiler")
         compiler = ET.SubElement(root, "compiler") if compiler is None else compiler
@@ -242,7 +249,8 @@ class _Arm:
         for what in (model.body_pos, model.jnt_pos, model.site_pos):
             if not (np.abs(what) <= _LONGEST_M).all():
                 raise InputError(
-                    f"{path}: a frame is more than {_LONGEST_M:g} m from the one before it: give positions in m."
+                    f"{arg(path)}: a frame is more than {arg(_LONGEST_M):g} m from the one before it: give"
+                    " positions in m."
                 )
         mujoco.mj_kinematics(model, data)
         self._data = data
@@ -308,14 +316,14 @@ class _Arm:
         }
         if wanted and wanted not in chain_of:
             raise InputError(
-                f"{self._path}: it has no frame {wanted!r}. Possible: {', '.join(sorted(arms))}."
+                f"{arg(self._path)}: it has no frame {arg(wanted)!r}. Possible: {arg(', '.join(sorted(arms)))}."
             )
         if wanted and wanted not in arms:
             raise self._no_hinges(wanted)
         if wanted:
             return wanted
         if not arms:
-            raise InputError(f"{self._path}: it has no joint that turns: give the file of an arm.")
+            raise InputError(f"{arg(self._path)}: it has no joint that turns: give the file of an arm.")
         for usual in FLANGES:
             named, usable = _named(usual, chain_of), _named(usual, arms)
             if named and (not usable or (usual in named and usual not in usable)):
@@ -328,13 +336,13 @@ class _Arm:
         if len(last) == 1 and not any(chain[:most] == end != chain for chain in chain_of.values()):
             return last[0]
         raise InputError(
-            f"{self._path}: several frames may be the flange. Name it: {self._path.name}@FRAME, with one of"
-            f" {', '.join(sorted(last))}."
+            f"{arg(self._path)}: several frames may be the flange. Name it: {arg(self._path.name)}@FRAME, with one of"
+            f" {arg(', '.join(sorted(last)))}."
         )
 
     def _no_hinges(self, flange: str) -> InputError:
         return InputError(
-            f"{self._path}: between the base and {flange} there are no joints, or joints that do not turn:"
+            f"{arg(self._path)}: between the base and {arg(flange)} there are no joints, or joints that do not turn:"
             " give an arm of hinges, or name another frame as its flange."
         )
 
@@ -347,8 +355,8 @@ class _Arm:
         ):
             if found:
                 raise InputError(
-                    f"{self._path}: {found[0]} is coupled to another joint or body (mimic or equality): give an"
-                    " arm whose joints move by themselves."
+                    f"{arg(self._path)}: {arg(found[0])} is coupled to another joint or body (mimic or"
+                    " equality): give an arm whose joints move by themselves."
                 )
 
     def _joint(
@@ -367,13 +375,13 @@ class _Arm:
             low, high = -_TURNS, _TURNS
         if not low < high:
             raise InputError(
-                f"{self._path}: joint {name}: its limits are {low:g} to {high:g}: give a lower limit below the upper"
-                ' one, or type="continuous" to a joint without an end.'
+                f"{arg(self._path)}: joint {arg(name)}: its limits are {arg(low):g} to {arg(high):g}: give a lower"
+                ' limit below the upper one, or type="continuous" to a joint without an end.'
             )
         if max(abs(low), abs(high)) > _MOST_TURNED:
             raise InputError(
-                f"{self._path}: joint {name}: its limits are {low:g} to {high:g} rad, more than two turns: if they are"
-                ' degrees, give them in radians; a joint without an end has type="continuous".'
+                f"{arg(self._path)}: joint {arg(name)}: its limits are {arg(low):g} to {arg(high):g} rad, more than"
+                ' two turns: if they are degrees, give them in radians; a joint without an end has type="continuous".'
             )
         torque = float(max(abs(model.jnt_actfrcrange[joint]))) if model.jnt_actfrclimited[joint] else 0.0
         return Joint(

@@ -11,6 +11,7 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime import dds_types as ros
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
@@ -64,8 +65,10 @@ class DdsTarget(OutletTarget):
 
     def __init__(self, domain: str, context: OutputContext) -> None:
         if not (domain.isascii() and domain.isdigit() and len(domain) <= 3 and int(domain) <= _MOST_DOMAIN):
-            raise RunError(f"--dds {domain}: give the ROS domain, a whole number from 0 to {_MOST_DOMAIN}.")
-        self.name, self._about = f"DDS domain {domain}", context.about
+            raise RunError(
+                f"--dds {arg(domain)}: give the ROS domain, a whole number from 0 to {arg(_MOST_DOMAIN)}."
+            )
+        self.name, self._about = message(f"DDS domain {arg(domain)}"), context.about
         qos = Qos(
             Policy.Reliability.Reliable(max_blocking_time=duration(milliseconds=1)),
             Policy.Durability.Volatile,
@@ -80,7 +83,9 @@ class DdsTarget(OutletTarget):
                 for name, kind in ((WRENCH, ros.WrenchStamped), (CONTACT, ros.Contact))
             ]
         except DDSException as error:
-            raise RunError(f"--dds {domain}: DDS did not start ({error.msg}): check the network.") from error
+            raise RunError(
+                f"--dds {arg(domain)}: DDS did not start ({arg(error.msg)}): check the network."
+            ) from error
 
     def write(self, answers: Sequence[Answer]) -> int:
         """As `OutletTarget`."""

@@ -31,6 +31,7 @@ from foxglove.websocket import ServerListener
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.runtime.contact_json import CONTACT_SCHEMA, contact_message, contact_schema
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names, number
@@ -108,7 +109,7 @@ class FoxgloveTarget(OutletTarget):
             )
         except (OSError, RuntimeError, ValueError) as error:
             raise RunError(
-                f"--foxglove {address}: nobody can listen there ({error}): choose another port."
+                f"--foxglove {arg(address)}: nobody can listen there ({arg(error)}): choose another port."
             ) from error
         self.port: int = self._server.port
         self.name = f"Foxglove ws://{place.host}:{self.port}"

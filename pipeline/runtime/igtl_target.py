@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.protocols import igtl
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.runtime.contact_frame import contact_frame
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
@@ -67,7 +68,7 @@ class IgtlTarget(OutletTarget):
         except OSError as error:
             self._listener.close()
             raise RunError(
-                f"--igtl {address}: nobody can listen there ({error}): choose another port."
+                f"--igtl {arg(address)}: nobody can listen there ({arg(error)}): choose another port."
             ) from error
         self._listener.setblocking(False)
         self.port: int = self._listener.getsockname()[1]
@@ -144,7 +145,7 @@ class IgtlTarget(OutletTarget):
 def _status(reason: str, accepted: bool, health: int) -> bytes:
     names = health_names(health)
     code = next((_CODES.get(name, _UNKNOWN) for name in names), _WELL)
-    text = " ".join(("accepted" if accepted else "not accepted", *names))
+    text = join(" ", ("accepted" if accepted else message("not accepted"), *names))
     return igtl.status(code, health, reason[: igtl.LONGEST_NAME], text)
 
 

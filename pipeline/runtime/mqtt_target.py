@@ -11,6 +11,7 @@ from paho.mqtt.client import Client
 from paho.mqtt.enums import CallbackAPIVersion, MQTTErrorCode
 from paho.mqtt.reasoncodes import ReasonCode
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.contact_json import contact_message
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
@@ -52,9 +53,11 @@ class MqttTarget(OutletTarget):
         where, _, topic = address.partition("/")
         place = resolve("--mqtt", where, socket.SOCK_STREAM, remote=context.remote)
         if not topic.isprintable() or not 0 < len(topic) <= _LONGEST_TOPIC or set(topic) & {"+", "#"}:
-            raise RunError(f"--mqtt {address}: give a topic after the port, such as 127.0.0.1:1883/bench.")
+            raise RunError(
+                f"--mqtt {arg(address)}: give a topic after the port, such as 127.0.0.1:1883/bench."
+            )
         self.name, self._about = f"MQTT {address}", context.about
-        self.trouble = f"{self.name}: the broker has not answered yet: check that it runs."
+        self.trouble = message(f"{arg(self.name)}: the broker has not answered yet: check that it runs.")
         self._refused = False  # the last connection
         self._contact, self._health = f"{topic}/contact", f"{topic}/health"
         self._said: int | None = None
@@ -105,8 +108,8 @@ class MqttTarget(OutletTarget):
     def _connected(self, _client: Client, _data: Any, _flags: Any, code: ReasonCode, _more: Any) -> None:
         self._refused = code.is_failure
         if code.is_failure:
-            self.trouble = (
-                f"{self.name}: the broker refused the connection ({code}): check its settings."
+            self.trouble = message(
+                f"{arg(self.name)}: the broker refused the connection ({arg(code)}): check its settings."
                 " Passwords are not supported."
             )
         else:
@@ -114,20 +117,22 @@ class MqttTarget(OutletTarget):
             self._fresh.set()
 
     def _unreachable(self, *_: Any) -> None:
-        self.trouble = (
-            f"{self.name}: nothing accepts a connection there: start the broker, or check host and port."
+        self.trouble = message(
+            f"{arg(self.name)}: nothing accepts a connection there: start the broker, or check host and port."
         )
 
     def _disconnected(self, _client: Client, _data: Any, _flags: Any, code: ReasonCode, _more: Any) -> None:
         if not code.is_failure or self._refused:  # this side ended it, or the reason is known
             return
         if self.trouble:
-            self.trouble = (
-                f"{self.name}: no MQTT broker answers there: the connection ended at once."
+            self.trouble = message(
+                f"{arg(self.name)}: no MQTT broker answers there: the connection ended at once."
                 " Check host and port."
             )
         else:
-            self.trouble = f"{self.name}: the connection to the broker broke; it is tried again."
+            self.trouble = message(
+                f"{arg(self.name)}: the connection to the broker broke; it is tried again."
+            )
 
     def _published(self, *_: Any) -> None:
         self._gone += 1

@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 
 if TYPE_CHECKING:
@@ -153,7 +154,7 @@ class Outlet:
         self._queue.put(None)  # should it wake up
         if self.error is None:
             self.error = OutputError(
-                f"{self.name}: no output was accepted for {patience:g} s, so the rest is lost:"
+                f"{arg(self.name)}: no output was accepted for {arg(patience):g} s, so the rest is lost:"
                 " read the output."
             )
         self.failed.set()
@@ -206,7 +207,9 @@ class Outlet:
         except OutputError as error:
             self._fail(error, 0)
         if self.lost and not self.published and self.error is None:
-            why = f"{self.name}: no contact was published: check its address, and who receives there."
+            why = message(
+                f"{arg(self.name)}: no contact was published: check its address, and who receives there."
+            )
             self._fail(OutputError(self._target.trouble or why), 0)
 
     def _fail(self, error: OutputError, missing: int) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import remedy
 from contactbench.pipeline.runtime.errors import RunError
 
@@ -60,7 +61,7 @@ class Output:
         except ModuleNotFoundError as error:
             package = (error.name or "").partition(".")[0]
             raise RunError(
-                f"--{self.name} needs {package}, which is not installed: {remedy(self.extra)}."
+                f"--{arg(self.name)} needs {arg(package)}, which is not installed: {arg(remedy(self.extra))}."
             ) from error
         target: OutletTarget = made(address, context)
         return target
@@ -73,15 +74,15 @@ OUTPUTS = {
             "igtl",
             "igtl_target:IgtlTarget",
             "HOST:PORT",
-            "Serve contacts there to OpenIGTLink clients, such as 3D Slicer.",
-            title="OpenIGTLink (3D Slicer)",
+            message("Serve contacts there to OpenIGTLink clients, such as 3D Slicer."),
+            title=message("OpenIGTLink (3D Slicer)"),
             usual="127.0.0.1:18944",
         ),
         Output(
             "foxglove",
             "foxglove_target:FoxgloveTarget",
             "HOST:PORT",
-            "Serve contacts and a picture there to Foxglove.",
+            message("Serve contacts and a picture there to Foxglove."),
             title="Foxglove",
             usual="127.0.0.1:8765",
             extra="live",
@@ -90,8 +91,8 @@ OUTPUTS = {
             "dds",
             "dds_target:DdsTarget",
             "DOMAIN",
-            "Publish contacts to ROS 2 in this DDS domain.",
-            title="ROS 2, DDS domain",
+            message("Publish contacts to ROS 2 in this DDS domain."),
+            title=message("ROS 2, DDS domain"),
             usual="0",
             extra="live",
         ),
@@ -99,8 +100,8 @@ OUTPUTS = {
             "mqtt",
             "mqtt_target:MqttTarget",
             "HOST:PORT/TOPIC",
-            "Publish contacts to this MQTT broker.",
-            title="MQTT broker and topic",
+            message("Publish contacts to this MQTT broker."),
+            title=message("MQTT broker and topic"),
             usual="127.0.0.1:1883/contactbench",
             extra="live",
         ),
@@ -108,13 +109,15 @@ OUTPUTS = {
             "udp",
             "targets:UdpTarget",
             "HOST:PORT",
-            "Send each contact there as a UDP datagram.",
+            message("Send each contact there as a UDP datagram."),
             title="UDP",
             usual="127.0.0.1:9000",
         ),
         # Files come last: one that is made although another output cannot be opened would be in the way.
-        Output("out", "targets:line_target", "FILE|-", "New file for the lines; - is standard output."),
-        Output("mcap", "targets:McapTarget", "PATH", "New MCAP file for the contacts."),
+        Output(
+            "out", "targets:line_target", "FILE|-", message("New file for the lines; - is standard output.")
+        ),
+        Output("mcap", "targets:McapTarget", "PATH", message("New MCAP file for the contacts.")),
     )
 }
 """By name, in the order in which they are listed and opened."""

@@ -6,6 +6,7 @@ import ipaddress
 import socket
 from typing import Any, NamedTuple
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.runtime.errors import RunError
 
 
@@ -51,22 +52,22 @@ def resolve(option: str, text: str, kind: socket.SocketKind, *, remote: bool, li
     if not host or not (
         port.isascii() and port.isdigit() and len(port) <= 5 and lowest <= int(port) < 65_536
     ):
-        raise RunError(f"{option} {text}: give a host and a port, such as 127.0.0.1:9000.")
+        raise RunError(f"{arg(option)} {arg(text)}: give a host and a port, such as 127.0.0.1:9000.")
     try:
         family, _, _, _, place = socket.getaddrinfo(host.strip("[]"), int(port), type=kind)[0]
         near = ipaddress.ip_address(str(place[0]).partition("%")[0]).is_loopback
     except (OSError, UnicodeError, ValueError) as error:
         raise RunError(
-            f"{option} {text}: there is no such host ({error}): write its IP address, such as 127.0.0.1."
+            f"{arg(option)} {arg(text)}: there is no such host ({arg(error)}): write its IP address, such as 127.0.0.1."
         ) from error
     if not near and not remote and listens:
         raise RunError(
-            f"{option} {text}: other machines could connect there, and contacts are neither encrypted nor signed:"
-            " listen on 127.0.0.1, or allow other machines (--allow-remote)."
+            f"{arg(option)} {arg(text)}: other machines could connect there, and contacts are neither"
+            " encrypted nor signed: listen on 127.0.0.1, or allow other machines (--allow-remote)."
         )
     if not near and not remote:
         raise RunError(
-            f"{option} {text}: this is another machine, and contacts are neither encrypted nor signed: send to"
-            " 127.0.0.1, or allow other machines (--allow-remote)."
+            f"{arg(option)} {arg(text)}: this is another machine, and contacts are neither encrypted nor"
+            " signed: send to 127.0.0.1, or allow other machines (--allow-remote)."
         )
     return Place(family, place)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.runtime.engine import Engine
 from contactbench.pipeline.runtime.errors import RunError
 from contactbench.pipeline.runtime.lines import health_names
@@ -176,9 +177,9 @@ def check_runnable(config: RuntimeConfig, *, unverified: bool = False) -> None:
     if config.model.verified or unverified:
         return
     stale = config.model.provenance.stale
-    why = f" ({'; '.join(stale)})" if stale else ""
+    why = message(f" ({arg('; '.join(stale))})") if stale else ""
     raise RunError(
-        f"the bundle is not verified{why}: verify and export again, or add --unverified for trials"
+        f"the bundle is not verified{arg(why)}: verify and export again, or add --unverified for trials"
         " without a person."
     )
 
@@ -208,7 +209,7 @@ def check_sensor(config: RuntimeConfig, serial: str, *, other: bool = False) -> 
     if other or not known(serial) or not known(wanted) or serial == wanted:
         return
     raise RunError(
-        f"the sensor's serial number is {serial!a:.100}, but the bundle is for {wanted!a:.100}:"
+        f"the sensor's serial number is {arg(ascii(serial)[:100])}, but the bundle is for {arg(ascii(wanted)[:100])}:"
         " connect that sensor, or calibrate, verify and export with this one. Add --other-sensor"
         " if they are the same."
     )
@@ -236,16 +237,23 @@ def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]
     """
     wanted = config.model.sensor
     said = []
-    for what, expected, given in (("model", wanted.model, model), ("serial number", wanted.serial, serial)):
+    for what, expected, given in (
+        ("model", wanted.model, model),
+        (message("serial number"), wanted.serial, serial),
+    ):
         if known(given) and known(expected) and given != expected:
             said.append(
-                f"The sensor's {what} is {given}, but the bundle is for {expected}: contacts from"
-                " another sensor are wrong."
+                message(
+                    f"The sensor's {arg(what)} is {arg(given)}, but the bundle is for {arg(expected)}: contacts from"
+                    " another sensor are wrong."
+                )
             )
     if not known(model) and not known(serial):
-        name = sensor_name(wanted.model, wanted.serial) or "an unnamed one"
+        name = sensor_name(wanted.model, wanted.serial) or message("an unnamed one")
         said.append(
-            f"The sensor does not identify itself; the bundle is for {name}: make sure it is this one."
+            message(
+                f"The sensor does not identify itself; the bundle is for {arg(name)}: make sure it is this one."
+            )
         )
     return said
 
@@ -254,8 +262,10 @@ def motion_warning(config: RuntimeConfig, positions: bool | None) -> str | None:
     """Say that the inertia of a moving tool stays in the readings; None: it is taken off, or no pose came yet."""
     if positions is None or (positions and config.model.streams.motion is not None):
         return None
-    why = "the bundle says so" if positions else "the poses have no positions"
-    return f"The inertia of a moving tool is not subtracted because {why}: 1 kg at 1 m/s² adds 1 N."
+    why = message("the bundle says so") if positions else message("the poses have no positions")
+    return message(
+        f"The inertia of a moving tool is not subtracted because {arg(why)}: 1 kg at 1 m/s² adds 1 N."
+    )
 
 
 def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
@@ -263,30 +273,32 @@ def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
     wanted = config.model.sensor.rate_Hz
     if rate is None or abs(rate / wanted - 1) <= _RATE_OFF:
         return None
-    return (
-        f"The sensor sends {rate:.0f} samples per second, but the bundle is for {wanted:.0f}, so"
+    return message(
+        f"The sensor sends {arg(rate):.0f} samples per second, but the bundle is for {arg(wanted):.0f}, so"
         " its filters act at another frequency. Set the sensor's rate, or export for this one."
     )
 
 
 def mark_warnings(on: Counter[str]) -> list[str]:
     """Say how many contacts, counted by what they lie on, rest on a guess or should not be; empty: none."""
+    total = on.total()
     sentences = {
-        "invented": (
-            "{} of {} contacts are on invented facets: the mesh file had an opening there, so surface"
-            " and contacts are guesses."
+        "invented": message(
+            f"{arg(on['invented']):,} of {arg(total):,} contacts are on invented facets: the mesh file had an"
+            " opening there, so surface and contacts are guesses."
         ),
-        "untouchable": "{} of {} contacts are on untouchable regions: check the region, then the mount.",
+        "untouchable": message(
+            f"{arg(on['untouchable']):,} of {arg(total):,} contacts are on untouchable regions: check the region,"
+            " then the mount."
+        ),
     }
-    return [
-        text.format(f"{on[mark]:,}", f"{on.total():,}") for mark, text in sentences.items() if on[mark] > 0
-    ]
+    return [text for mark, text in sentences.items() if on[mark] > 0]
 
 
 def zero_words(zero: kernel.Zero) -> str:
     """Say how far the sensor's zero is off, what that does to a contact, and what to do."""
     if (offset := zero.offset) is None or (sigma := zero.sigma) is None:
-        return (
+        return message(
             "The sensor's zero is not known yet: hold the probe still for a second without touching anything."
         )
     sizes = []
@@ -295,15 +307,19 @@ def zero_words(zero: kernel.Zero) -> str:
         spread = float(np.linalg.norm(offset[part] * sigma[part])) / size if size > 0 else 0.0
         sizes.append(f"{scale * size:.2g} ± {scale * spread:.1g} {unit}")
     off = " and ".join(sizes)
-    shift = f"a contact at 10 N moves by up to {1e3 * zero.shift:.2g} ± {1e3 * zero.shift_sigma:.1g} mm"
+    shift = message(
+        f"a contact at 10 N moves by up to {arg(1e3 * zero.shift):.2g} ± {arg(1e3 * zero.shift_sigma):.1g} mm"
+    )
     if zero.state == "off":
-        return f"The sensor's zero is off by {off}: {shift}. Recalibrate before you trust a contact."
-    if zero.state == "doubtful":
-        return (
-            f"The sensor reads {off} too much, or something touches the probe. If nothing does, {shift}. Lift the probe"
-            " clear and hold it still at three tilts, 20° apart."
+        return message(
+            f"The sensor's zero is off by {arg(off)}: {arg(shift)}. Recalibrate before you trust a contact."
         )
-    return f"The sensor's zero is confirmed: off by {off}; {shift}."
+    if zero.state == "doubtful":
+        return message(
+            f"The sensor reads {arg(off)} too much, or something touches the probe. If nothing does,"
+            f" {arg(shift)}. Lift the probe clear and hold it still at three tilts, 20° apart."
+        )
+    return message(f"The sensor's zero is confirmed: off by {arg(off)}; {arg(shift)}.")
 
 
 @contextmanager

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
@@ -64,10 +65,12 @@ class LineTarget(OutletTarget):
         try:
             file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o644)
         except FileExistsError as error:
-            raise OutputError(f"{path}: it already exists: choose another name, or delete it.") from error
+            raise OutputError(
+                f"{arg(path)}: it already exists: choose another name, or delete it."
+            ) from error
         except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
             raise OutputError(
-                f"{path}: it cannot be written ({error}): choose a writable location."
+                f"{arg(path)}: it cannot be written ({arg(error)}): choose a writable location."
             ) from error
         return cls(str(path), file, pace=_FILE_PACE_S)
 
@@ -78,10 +81,10 @@ class LineTarget(OutletTarget):
             while left:
                 left = left[os.write(self._file, left) :]
         except BrokenPipeError as error:
-            raise ReaderGoneError(f"{self.name}: its reader has closed it.") from error
+            raise ReaderGoneError(f"{arg(self.name)}: its reader has closed it.") from error
         except OSError as error:
             raise OutputError(
-                f"{self.name}: it cannot be written ({error}): free disk space, or choose another location."
+                f"{arg(self.name)}: it cannot be written ({arg(error)}): free disk space, or choose another location."
             ) from error
         return len(answers)
 
@@ -91,7 +94,7 @@ class LineTarget(OutletTarget):
             os.close(self._file)
         except OSError as error:
             raise OutputError(
-                f"{self.name}: its end cannot be written ({error}): free disk space."
+                f"{arg(self.name)}: its end cannot be written ({arg(error)}): free disk space."
             ) from error
 
 
@@ -107,7 +110,7 @@ def line_target(address: str, _context: OutputContext) -> LineTarget:
     if address != "-":
         return LineTarget.new(Path(address))
     sys.stdout.flush()
-    return LineTarget("standard output", os.dup(sys.stdout.fileno()))
+    return LineTarget(message("standard output"), os.dup(sys.stdout.fileno()))
 
 
 class UdpTarget(OutletTarget):

@@ -21,6 +21,7 @@ from pydantic import (
 )
 
 from contactbench import __version__
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.frames import JournalFrame, canonical
 
@@ -39,8 +40,10 @@ _NAME = r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$'
 Name = Annotated[str, StringConstraints(pattern=_NAME)]
 # Pattern -> what it asks for, for people.
 _RULES = {
-    _WORD: "must begin with a small letter and contain only small letters, digits, - and _, at most 64",
-    _NAME: (
+    _WORD: message(
+        "must begin with a small letter and contain only small letters, digits, - and _, at most 64"
+    ),
+    _NAME: message(
         'must have 1 to 200 characters, no control characters and none of / \\\\ : * ? " < > |, and'
         " must not begin with a dot"
     ),
@@ -97,7 +100,7 @@ class _WithCompanions(_Part):
     def _names_differ(self) -> Self:
         names = [self.name, *self.companions]
         if len({name.casefold() for name in names}) < len(names):
-            raise ValueError("two files of one input have the same name")
+            raise ValueError(message("two files of one input have the same name"))
         return self
 
 
@@ -187,7 +190,7 @@ class JournalEntry(_Part):
     def _is_utc(cls, value: str) -> str:
         time = datetime.fromisoformat(value)
         if time.utcoffset() != timedelta(0):
-            raise ValueError("is not a time in UTC")
+            raise ValueError(message("is not a time in UTC"))
         return value
 
 
@@ -223,10 +226,10 @@ def parse_payload(payload: bytes, number: int) -> dict[str, Any]:
         value = json.loads(payload)
     except (ValueError, RecursionError) as error:
         raise JournalError(
-            f"record {number} contains invalid JSON ({error}): restore the session from a backup."
+            f"record {arg(number)} contains invalid JSON ({arg(error)}): restore the session from a backup."
         ) from error
     if not isinstance(value, dict):
-        raise JournalError(f"record {number} is not a JSON object: restore the session from a backup.")
+        raise JournalError(f"record {arg(number)} is not a JSON object: restore the session from a backup.")
     return value
 
 
@@ -238,11 +241,13 @@ def read_entry(value: dict[str, Any], number: int) -> JournalEntry:
         first = error.errors(include_url=False, include_input=False)[0]
         where = ".".join(map(str, first["loc"]))
         raise JournalError(
-            f"record {number}: {where}: {first['msg']}: restore the session from a backup, or use"
+            f"record {arg(number)}: {arg(where)}: {arg(first['msg'])}: restore the session from a backup, or use"
             " the contactbench that wrote it."
         ) from error
     if isinstance(entry.action, SessionCreated) != (number == 1):
-        raise JournalError(f"record {number}: session_created must be the first record and appear only once.")
+        raise JournalError(
+            f"record {arg(number)}: session_created must be the first record and appear only once."
+        )
     return entry
 
 
@@ -290,7 +295,9 @@ def checked(action: type[_A], /, **fields: Any) -> _A:
         first = error.errors(include_url=False)[0]
         where = ".".join(str(part) for part in first["loc"] if part != "[key]")
         rule = _RULES.get(first.get("ctx", {}).get("pattern", ""), first["msg"])
-        raise SessionError(f"{where}: {first['input']!r:.100}: {rule}: correct it.") from error
+        raise SessionError(
+            f"{arg(where)}: {arg(repr(first['input'])[:100])}: {arg(rule)}: correct it."
+        ) from error
 
 
 def entry(action: Action, by: str, sensor: str | None) -> JournalEntry:

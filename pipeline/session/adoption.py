@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording import Event, RecordingError, RecordingReader, WrenchTrack
 from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
 from contactbench.pipeline.session.errors import SessionError
@@ -61,19 +61,24 @@ def adopt_unfinished(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]
         try:
             done.append(_adopt(session, session.folder / place))
         except (InputError, OSError) as error:
-            left.append(f"{place} was left in place: {error}")
+            left.append(message(f"{arg(place)} was left in place: {arg(error)}"))
     return tuple(done), tuple(left)
 
 
 def _adopt(session: Session, file: Path) -> str:
     name = file.name.removeprefix(UNFINISHED)
     if not own_file(file).stat().st_size:
-        return _remove(file, f"The recording {name} never started: its empty file has been removed.")
+        return _remove(
+            file, message(f"The recording {arg(name)} never started: its empty file has been removed.")
+        )
     digest, _ = digest_of(file)
     same = [each.file for each in session.state.inputs if each.file.sha256 == digest]
     if any(not wrong_with(session.folder, each) for each in same):
         return _remove(
-            file, f"The recording {name} is already in the session: its duplicate name has been removed."
+            file,
+            message(
+                f"The recording {arg(name)} is already in the session: its duplicate name has been removed."
+            ),
         )
     try:
         found = _look(file)
@@ -81,12 +86,14 @@ def _adopt(session: Session, file: Path) -> str:
         return _keep_unreadable(session, file, name, str(error))
     if not found.samples and not _only_begun(file, sound=found.sound):
         # A chunk that is damaged or cut may have held samples: somebody else may be able to read them.
-        return _keep_unreadable(session, file, name, " ".join(("No sample is readable.", *found.warnings)))
+        return _keep_unreadable(
+            session, file, name, join(" ", (message("No sample is readable."), *found.warnings))
+        )
     if not found.samples:
-        words = f"The recording {name} ended abruptly before its first sample and was not kept."
+        words = message(f"The recording {arg(name)} ended abruptly before its first sample and was not kept.")
         session.note(words)
         return _remove(file, words)
-    ended = "an unknown time" if found.ended is None else found.ended.isoformat()
+    ended = message("an unknown time") if found.ended is None else found.ended.isoformat()
     about: dict[str, Any] = {
         "started": found.started,
         "ended_abruptly": None if found.ended is None else ended,
@@ -94,8 +101,8 @@ def _adopt(session: Session, file: Path) -> str:
         "flanges": found.flanges,
     }
     session.adopt(file, RECORDING, name=name, sensor=found.sensor, about=about)
-    words = f"The recording {name} ended abruptly at {ended}; recovered with"
-    words += f" {found.wrenches:,} wrenches and {found.flanges:,} flange poses."
+    words = message(f"The recording {arg(name)} ended abruptly at {arg(ended)}; recovered with")
+    words += message(f" {arg(found.wrenches):,} wrenches and {arg(found.flanges):,} flange poses.")
     session.note(words, sensor=found.sensor)
     return words
 
@@ -103,7 +110,7 @@ def _adopt(session: Session, file: Path) -> str:
 def _keep_unreadable(session: Session, file: Path, name: str, why: str) -> str:
     about: dict[str, Any] = {"ended_abruptly": None, "problem": why}
     session.adopt(file, UNREADABLE, name=name, sensor=None, about=about)
-    return f"The recording {name} cannot be read and is kept unchanged: {why}"
+    return message(f"The recording {arg(name)} cannot be read and is kept unchanged: {arg(why)}")
 
 
 def _only_begun(file: Path, *, sound: bool) -> bool:
@@ -161,5 +168,7 @@ def _remove(file: Path, words: str) -> str:
     try:
         file.unlink()
     except OSError as error:
-        raise SessionError(f"{file}: the file cannot be removed ({error}): check the permissions.") from error
+        raise SessionError(
+            f"{arg(file)}: the file cannot be removed ({arg(error)}): check the permissions."
+        ) from error
     return words

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.check import check_journal
 from contactbench.pipeline.session.content import original_of
@@ -74,13 +75,15 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
     left_out = tuple(unfinished(folder))
     if left_out and not written_now(folder):
         raise SessionError(
-            f"{folder / left_out[0]}: this recording ended abruptly and would be left out: run"
+            f"{arg(folder / left_out[0])}: this recording ended abruptly and would be left out: run"
             " `contactbench session repair` to recover it, then pack again."
         )
     data = read_journal(folder)
     found, content = check_journal(folder, data)
     if content is None or not found.sound:
-        raise SessionError(f"{folder}: not packed because the session has a problem: {found.problems[0]}")
+        raise SessionError(
+            f"{arg(folder)}: not packed because the session has a problem: {arg(found.problems[0])}"
+        )
     data = data[: content.found.end]
     sizes = {ref.path: ref.size for record in content.records for ref in files_of(record.action)}
     names = sorted(sizes)
@@ -101,7 +104,7 @@ def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None)
         sync_folder(out.absolute().parent)
     except OSError as error:
         raise SessionError(
-            f"{out}: the archive cannot be written ({error}): choose another location."
+            f"{arg(out)}: the archive cannot be written ({arg(error)}): choose another location."
         ) from error
     finally:
         scratch.unlink(missing_ok=True)
@@ -116,19 +119,19 @@ def _refuse_place(folder: Path, out: Path) -> None:
         taken = (out.exists() or out.is_symlink()) and not (out.is_file() and zipfile.is_zipfile(out))
     except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
         raise SessionError(
-            f"{out}: an archive cannot be made here ({error}): choose another location."
+            f"{arg(out)}: an archive cannot be made here ({arg(error)}): choose another location."
         ) from error
     if inside:
-        raise SessionError(f"{out}: this is inside the session: save the archive elsewhere.")
+        raise SessionError(f"{arg(out)}: this is inside the session: save the archive elsewhere.")
     if taken:
-        raise SessionError(f"{out}: this file exists and is not an archive: choose another name.")
+        raise SessionError(f"{arg(out)}: this file exists and is not an archive: choose another name.")
 
 
 def _refuse_size(folder: Path, members: int, size: int, limits: ArchiveLimits) -> None:
     if members > limits.members or size > limits.size:
         raise SessionError(
-            f"{folder}: {members} files of {size >> 20} MiB: an archive holds at most"
-            f" {limits.members} files and {limits.size >> 20} MiB: copy the folder instead."
+            f"{arg(folder)}: {arg(members)} files of {arg(size >> 20)} MiB: an archive holds at most"
+            f" {arg(limits.members)} files and {arg(limits.size >> 20)} MiB: copy the folder instead."
         )
 
 
@@ -176,7 +179,7 @@ def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None
     limits = ArchiveLimits() if limits is None else limits
     regular(archive)
     if out.exists() or out.is_symlink():
-        raise SessionError(f"{out}: this already exists: choose another name.")
+        raise SessionError(f"{arg(out)}: this already exists: choose another name.")
     scratch = out.with_name(f".{out.name}.{secrets.token_hex(8)}.tmp")
     try:
         with zipfile.ZipFile(archive) as packed:
@@ -188,12 +191,14 @@ def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None
         scratch.rename(out)
         sync_folder(out.absolute().parent)
     except (zipfile.BadZipFile, zipfile.LargeZipFile, zlib.error, EOFError, NotImplementedError) as error:
-        raise ArchiveError(f"{archive}: not an intact zip file ({error}): copy it again.") from error
+        raise ArchiveError(
+            f"{arg(archive)}: not an intact zip file ({arg(error)}): copy it again."
+        ) from error
     except (OSError, ValueError) as error:
         if isinstance(error, SessionError):
             raise
         raise SessionError(
-            f"{out}: the archive cannot be unpacked ({error}): check the path and the free space."
+            f"{arg(out)}: the archive cannot be unpacked ({arg(error)}): check the path and the free space."
         ) from error
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
@@ -204,27 +209,30 @@ def _members(packed: zipfile.ZipFile, archive: Path, limits: ArchiveLimits) -> l
     everything = packed.infolist()
     if len(everything) > limits.members:
         raise ArchiveError(
-            f"{archive}: {len(everything)} files, more than {limits.members}: this is not a session."
+            f"{arg(archive)}: {arg(len(everything))} files, more than {arg(limits.members)}: this is not a session."
         )
     members = [each for each in everything if each.filename not in {f"{name}/" for name in FOLDERS}]
     seen: dict[str, zipfile.ZipInfo] = {}
     for member in members:
         if wrong := _refused(member, limits):
             raise ArchiveError(
-                f"{archive}: {member.filename!r:.200}: {wrong}: this is not a session, or not a safe one."
+                f"{arg(archive)}: {arg(repr(member.filename)[:200])}: {arg(wrong)}: this is not a session, or not"
+                " a safe one."
             )
         # A.csv and a.csv of one content are one file where names have no case, and no harm.
         other = seen.setdefault(member.filename.casefold(), member)
         if other is not member and (other.filename == member.filename or not _alike(other, member)):
-            raise ArchiveError(f"{archive}: it contains {member.filename} twice: this is not a session.")
+            raise ArchiveError(
+                f"{arg(archive)}: it contains {arg(member.filename)} twice: this is not a session."
+            )
     if sum(member.file_size for member in members) > limits.size:
         raise ArchiveError(
-            f"{archive}: unpacked it would be larger than {limits.size >> 20} MiB: this is not a session."
+            f"{arg(archive)}: unpacked it would be larger than {arg(limits.size >> 20)} MiB: this is not a session."
         )
     if sum(member.compress_size for member in members) > archive.stat().st_size:
-        raise ArchiveError(f"{archive}: its files overlap: this is not a session.")
+        raise ArchiveError(f"{arg(archive)}: its files overlap: this is not a session.")
     if JOURNAL not in seen:
-        raise ArchiveError(f"{archive}: it contains no journal: this is not a session.")
+        raise ArchiveError(f"{arg(archive)}: it contains no journal: this is not a session.")
     return members
 
 
@@ -235,13 +243,13 @@ def _alike(one: zipfile.ZipInfo, other: zipfile.ZipInfo) -> bool:
 def _refused(member: zipfile.ZipInfo, limits: ArchiveLimits) -> str:
     # orig_filename too: zipfile itself cuts names at a NUL and turns separators.
     if not (_MEMBER.fullmatch(member.filename) and member.orig_filename == member.filename):
-        return "not a name that a session uses"
+        return message("not a name that a session uses")
     if stat.S_IFMT(member.external_attr >> 16) not in {0, stat.S_IFREG}:
-        return "a link or a device, not a file"
+        return message("a link or a device, not a file")
     if member.flag_bits & _ENCRYPTED or member.compress_type not in _METHODS:
-        return "encrypted or packed in an unusual way"
+        return message("encrypted or packed in an unusual way")
     if member.file_size > max(_CHUNK, limits.ratio * member.compress_size):
-        return f"more than {limits.ratio} times its packed size"
+        return message(f"more than {arg(limits.ratio)} times its packed size")
     return ""
 
 
@@ -267,7 +275,7 @@ def _content(packed: zipfile.ZipFile, member: zipfile.ZipInfo, left: int) -> Ite
             left -= len(chunk)
             if left < 0:
                 raise ArchiveError(
-                    f"{member.filename}: larger than the archive declares: this is not a session."
+                    f"{arg(member.filename)}: larger than the archive declares: this is not a session."
                 )
             yield chunk
 
@@ -276,11 +284,11 @@ def _refuse_strangers(folder: Path, archive: Path, names: set[str]) -> None:
     found, content = check_journal(folder, read_journal(folder))
     if content is None or not found.sound:
         raise ArchiveError(
-            f"{archive}: not a complete session: {found.problems[0].replace(str(folder), 'in it')}"
+            f"{arg(archive)}: not a complete session: {arg(found.problems[0].replace(str(folder), 'in it'))}"
         )
     known = {ref.path for record in content.records for ref in files_of(record.action)}
     known |= {JOURNAL, *(original_of(folder, version).name for version in content.origins)}
     if strangers := sorted(names - known):
         raise ArchiveError(
-            f"{archive}: {strangers[0]} belongs to no record in its journal: this is not a session."
+            f"{arg(archive)}: {arg(strangers[0])} belongs to no record in its journal: this is not a session."
         )

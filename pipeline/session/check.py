@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
@@ -103,16 +104,19 @@ def other_problems(folder: Path) -> tuple[str, ...]:
 
 
 def _others(folder: Path, content: Content) -> list[str]:
-    return [*(f"{each}." for each in origin_problems(folder, content.origins)), *_no_recordings(folder)]
+    return [
+        *(message(f"{arg(each)}.") for each in origin_problems(folder, content.origins)),
+        *_no_recordings(folder),
+    ]
 
 
 def _inputs_lost(content: Content) -> list[str]:
     state = fold(content.records)
     sources = sources_of(state)
     lost = [each.title for each in state.results if any(source.lost for source in sources[each.number])]
-    words = (
-        f"{len(lost)} results were computed from inputs that no earlier record contains, such as"
-        f" {', '.join(lost[:1])}."
+    words = message(
+        f"{arg(len(lost))} results were computed from inputs that no earlier record contains, such as"
+        f" {arg(', '.join(lost[:1]))}."
     )
     return [words] if lost else []
 
@@ -130,8 +134,8 @@ def _no_recordings(folder: Path) -> list[str]:
 def _unreferenced(folder: Path, known: set[str]) -> list[str]:
     extra = [each for each in unclaimed(folder, known) if not each.startswith(f"raw/{UNFINISHED}")]
     notes = [
-        (
-            f"{place}: a recording in progress, or one that ended abruptly: `contactbench session"
+        message(
+            f"{arg(place)}: a recording in progress, or one that ended abruptly: `contactbench session"
             " repair` recovers the latter."
         )
         for place in unfinished(folder)
@@ -140,8 +144,8 @@ def _unreferenced(folder: Path, known: set[str]) -> list[str]:
         return notes
     return [
         *notes,
-        (
-            f"{len(extra)} files belong to no record, such as {extra[0]}: left by a crash before their"
+        message(
+            f"{arg(len(extra))} files belong to no record, such as {arg(extra[0])}: left by a crash before their"
             " record was written."
         ),
     ]
@@ -191,7 +195,7 @@ def _repair_journal(folder: Path, *, up_to_damage: bool) -> Repair:
         found = upright(folder, data) if up_to_damage else frames.scan(data)
         if not found.torn and not found.last and not (up_to_damage and found.damage and found.frames):
             refuse_damage(folder, found)
-            return Repair("The journal is intact: nothing to repair.")
+            return Repair(message("The journal is intact: nothing to repair."))
         if not found.frames:
             refuse_damage(folder, found)
         kept = f"{JOURNAL}.before-repair-{secrets.token_hex(4)}"
@@ -199,12 +203,16 @@ def _repair_journal(folder: Path, *, up_to_damage: bool) -> Repair:
         JournalWriter(folder, found).close()
     except OSError as error:
         raise SessionError(
-            f"{folder}: the session cannot be repaired ({error}): free disk space or check the permissions."
+            f"{arg(folder)}: the session cannot be repaired ({arg(error)}): free disk space or check the permissions."
         ) from error
     finally:
         lock.release()
     removed = len(data) - found.end
     what = found.torn or found.damage
     return Repair(
-        f"{what}: {removed} bytes were cut off; the previous journal is kept as {kept}.", removed, kept
+        message(
+            f"{arg(what)}: {arg(removed)} bytes were cut off; the previous journal is kept as {arg(kept)}."
+        ),
+        removed,
+        kept,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of
 from contactbench.pipeline.recording import RecordingReader
 from contactbench.pipeline.session.errors import SessionError
@@ -29,7 +29,7 @@ def companions_of(file: Path, more: Iterable[Path] = ()) -> dict[str, Path]:
         found.append(sidecar_of(file))
     names = [each.name.casefold() for each in (file, *found)]
     if len(set(names)) < len(names):
-        raise SessionError(f"{file}: two files of one input have the same name: rename one.")
+        raise SessionError(f"{arg(file)}: two files of one input have the same name: rename one.")
     return {each.name: each for each in found}
 
 

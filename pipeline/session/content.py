@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
     SCHEMA,
@@ -48,12 +49,12 @@ def version_of(folder: Path, found: frames.Scan) -> int:
     version = action.get("version") if isinstance(action, dict) else None
     if not isinstance(action, dict) or action.get("schema_id") != SCHEMA or type(version) is not int:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not state {SCHEMA}: choose a session folder."
+            f"{arg(folder / JOURNAL)}: its first record does not state {arg(SCHEMA)}: choose a session folder."
         )
     if version > VERSION:
         raise SchemaError(
-            f"{folder}: the session has version {version}, but this contactbench knows at most"
-            f" {VERSION}: use a newer contactbench. Nothing was changed."
+            f"{arg(folder)}: the session has version {arg(version)}, but this contactbench knows at most"
+            f" {arg(VERSION)}: use a newer contactbench. Nothing was changed."
         )
     return version
 
@@ -71,8 +72,8 @@ def migrated(folder: Path, data: bytes, found: frames.Scan, version: int) -> lis
     for step in range(version, VERSION):
         if step not in MIGRATIONS:
             raise SchemaError(
-                f"{folder}: the session has version {version}, too old for this contactbench: open"
-                f" it with a contactbench that migrates version {step}."
+                f"{arg(folder)}: the session has version {arg(version)}, too old for this contactbench: open"
+                f" it with a contactbench that migrates version {arg(step)}."
             )
         payloads = MIGRATIONS[step](payloads)
     digest = hashlib.sha256(data[: found.end]).hexdigest()
@@ -96,7 +97,7 @@ def kept_origins(folder: Path, found: frames.Scan) -> dict[int, str]:
         origin = Origin.model_validate(said)
     except ValidationError as error:
         raise SchemaError(
-            f"{folder / JOURNAL}: its first record does not state the version it was migrated"
+            f"{arg(folder / JOURNAL)}: its first record does not state the version it was migrated"
             " from: restore the session from a backup."
         ) from error
     return {origin.version: origin.sha256}
@@ -123,7 +124,7 @@ def write_migrated(
         write_durably(folder / JOURNAL, frames.encode_all(payloads))
     except OSError as error:
         raise SessionError(
-            f"{folder}: the session cannot be migrated to version {VERSION} ({error}): free disk"
+            f"{arg(folder)}: the session cannot be migrated to version {arg(VERSION)} ({arg(error)}): free disk"
             " space or check the permissions. The original is unchanged."
         ) from error
 
@@ -136,10 +137,12 @@ def origin_problems(folder: Path, origins: Mapping[int, str]) -> list[str]:
         try:
             digest = hashlib.sha256(file.read_bytes()).hexdigest()
         except OSError as error:
-            problems.append(f"{file.name}, the journal before its migration, cannot be read ({error})")
+            problems.append(
+                message(f"{arg(file.name)}, the journal before its migration, cannot be read ({arg(error)})")
+            )
             continue
         if digest != sha256:
-            problems.append(f"{file.name}, the journal before its migration, was changed")
+            problems.append(message(f"{arg(file.name)}, the journal before its migration, was changed"))
     return problems
 
 
@@ -178,7 +181,9 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     """Read the bytes of a journal; see `read_content`."""
     found = frames.scan(data)
     refuse_damage(folder, found)
-    notes = [f"{folder / JOURNAL}: {found.torn}: {_fate(settle)}"] if found.torn else []
+    notes = (
+        [message(f"{arg(folder / JOURNAL)}: {arg(found.torn)}: {arg(_fate(settle))}")] if found.torn else []
+    )
     version = version_of(folder, found)
     if version == VERSION:
         records = records_of(found.frames)
@@ -187,19 +192,23 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
     renewed = frames.scan(frames.encode_all(payloads))
     records = records_of(renewed.frames)  # what could not be read again is not written
     if not settle:
-        notes.append(f"{folder}: older version {version}; it will be migrated on the next write.")
+        notes.append(
+            message(f"{arg(folder)}: older version {arg(version)}; it will be migrated on the next write.")
+        )
         return Content(records, tuple(notes), found, kept_origins(folder, found))
     write_migrated(folder, data, found, version, payloads)
     notes.append(
-        f"{folder}: migrated from version {version} to {VERSION}; the previous journal is kept"
-        f" as {original_of(folder, version).name}."
+        message(
+            f"{arg(folder)}: migrated from version {arg(version)} to {arg(VERSION)}; the previous journal is kept"
+            f" as {arg(original_of(folder, version).name)}."
+        )
     )
     return Content(records, tuple(notes), renewed, fold(records[:1]).origins)
 
 
 def _fate(settle: bool) -> str:
     return (
-        "it was never confirmed and has been cut off."
+        message("it was never confirmed and has been cut off.")
         if settle
-        else "it was never confirmed and has been left out."
+        else message("it was never confirmed and has been left out.")
     )

@@ -9,6 +9,7 @@ import stat
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.actions import FileRef
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.journal import write_all
@@ -131,16 +132,16 @@ def regular(file: AnyFile) -> AnyFile:
     try:
         mode = file.stat().st_mode
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
-        raise SessionError(f"{file}: the file cannot be read ({error}): check the path.") from error
+        raise SessionError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.") from error
     if not stat.S_ISREG(mode):
-        raise SessionError(f"{file}: not a regular file: choose a file.")
+        raise SessionError(f"{arg(file)}: not a regular file: choose a file.")
     return file
 
 
 def own_file(file: Path) -> Path:
     """Refuse what lies in the session under a file's name and is none, or a link that leads out of it."""
     if file.is_symlink():
-        raise SessionError(f"{file}: a link; a session holds only files: put the file itself there.")
+        raise SessionError(f"{arg(file)}: a link; a session holds only files: put the file itself there.")
     return regular(file)
 
 
@@ -160,11 +161,11 @@ def refuse_links(session: Path) -> None:
             continue
         except (OSError, ValueError) as error:
             raise SessionError(
-                f"{session / name}: the folder cannot be read ({error}): check the permissions."
+                f"{arg(session / name)}: the folder cannot be read ({arg(error)}): check the permissions."
             ) from error
         if not stat.S_ISDIR(mode):
             raise SessionError(
-                f"{session / name}: a link or a file, not a folder: put the folder itself there."
+                f"{arg(session / name)}: a link or a file, not a folder: put the folder itself there."
             )
 
 
@@ -173,21 +174,23 @@ def wrong_with(session: Path, ref: FileRef) -> str:
     file = session / ref.path
     try:
         if file.is_symlink() or not stat.S_ISREG(file.stat().st_mode):
-            return f"{ref.path} is not a regular file"
+            return message(f"{arg(ref.path)} is not a regular file")
         sha256, size = digest_of(file)
     except FileNotFoundError:
-        return f"{ref.path} is missing"
+        return message(f"{arg(ref.path)} is missing")
     except OSError as error:
-        return f"{ref.path} cannot be read ({error})"
+        return message(f"{arg(ref.path)} cannot be read ({arg(error)})")
     if size != ref.size:
-        return f"{ref.path} has {size} bytes, not {ref.size}"
-    return "" if sha256 == ref.sha256 else f"the content of {ref.path} does not match the journal"
+        return message(f"{arg(ref.path)} has {arg(size)} bytes, not {arg(ref.size)}")
+    return (
+        "" if sha256 == ref.sha256 else message(f"the content of {arg(ref.path)} does not match the journal")
+    )
 
 
 def file_problem(folder: Path, ref: FileRef) -> str:
     """Say what is wrong with a file, and the remedy; empty: nothing. Reads all of it."""
     wrong = wrong_with(folder, ref)
-    return f"{wrong}: restore it from an archive, or add the original again." if wrong else ""
+    return message(f"{arg(wrong)}: restore it from an archive, or add the original again.") if wrong else ""
 
 
 def touched_mark(file: Path) -> tuple[int, int, int] | None:

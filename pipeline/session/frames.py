@@ -28,6 +28,7 @@ import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.errors import JournalError
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def canonical(value: Mapping[str, Any]) -> bytes:
         return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False).encode("ascii")
     except (ValueError, TypeError, RecursionError) as error:
         raise JournalError(
-            f"this cannot be written to a journal ({error}): give finite numbers, texts or lists."
+            f"this cannot be written to a journal ({arg(error)}): give finite numbers, texts or lists."
         ) from error
 
 
@@ -99,7 +100,7 @@ def encode(payload: bytes, before: bytes) -> bytes:
     """
     if not 0 < len(payload) <= LONGEST_PAYLOAD:
         raise JournalError(
-            f"a record of {len(payload)} bytes is too large; the limit is {LONGEST_PAYLOAD}: put"
+            f"a record of {arg(len(payload))} bytes is too large; the limit is {arg(LONGEST_PAYLOAD)}: put"
             " large data into a file."
         )
     head = _UNSIGNED_HEADER.pack(MAGIC, len(payload), zlib.crc32(payload), chained(before, payload))
@@ -129,8 +130,8 @@ def scan(data: bytes) -> Scan:
         if frame is None:
             return _stopped(data, at, frames)
         if chained(before, frame.payload) != frame.chain:
-            damage = (
-                f"record {len(frames) + 1} at byte {at} does not follow the one before: records were removed,"
+            damage = message(
+                f"record {arg(len(frames) + 1)} at byte {arg(at)} does not follow the one before: records were removed,"
                 " inserted or changed"
             )
             return Scan(tuple(frames), at, damage=damage)
@@ -162,14 +163,18 @@ def _length(data: bytes, at: int) -> int | None:
 
 
 def _stopped(data: bytes, at: int, frames: list[JournalFrame]) -> Scan:
-    where = f"record {len(frames) + 1} at byte {at}"
+    where = message(f"record {arg(len(frames) + 1)} at byte {arg(at)}")
     follows = next_whole(data, at + 1)
     if follows is None and unfinished(data, at):
         left = len(data) - at
-        return Scan(tuple(frames), at, torn=f"{where} was never finished (only {left} bytes of it exist)")
-    what = f"{where} is damaged: its checksum is wrong"
+        return Scan(
+            tuple(frames),
+            at,
+            torn=message(f"{arg(where)} was never finished (only {arg(left)} bytes of it exist)"),
+        )
+    what = message(f"{arg(where)} is damaged: its checksum is wrong")
     if follows is not None:
-        what += f"; intact records follow from byte {follows}"
+        what += message(f"; intact records follow from byte {arg(follows)}")
     return Scan(tuple(frames), at, damage=what, last=follows is None)
 
 

@@ -6,6 +6,7 @@ import os
 import stat
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.errors import JournalError, SessionError
 
@@ -30,22 +31,22 @@ def read_journal(folder: Path) -> bytes:
     try:
         # A pipe would be waited for; a link leads out of the session.
         if not stat.S_ISREG(file.lstat().st_mode):
-            raise JournalError(f"{file}: not a regular file: choose a session folder.")
+            raise JournalError(f"{arg(file)}: not a regular file: choose a session folder.")
         with file.open("rb") as stream:
             data = stream.read(LARGEST + 1)
     except FileNotFoundError:
         raise SessionError(
-            f"{folder}: this folder is not a session: check the path, or create one with"
+            f"{arg(folder)}: this folder is not a session: check the path, or create one with"
             " `contactbench session new`."
         ) from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         if isinstance(error, SessionError):
             raise
         raise SessionError(
-            f"{file}: the journal cannot be read ({error}): choose a session folder."
+            f"{arg(file)}: the journal cannot be read ({arg(error)}): choose a session folder."
         ) from error
     if len(data) > LARGEST:
-        raise SessionError(f"{file}: larger than {LARGEST >> 20} MiB: start a new session.")
+        raise SessionError(f"{arg(file)}: larger than {arg(LARGEST >> 20)} MiB: start a new session.")
     return data
 
 
@@ -53,15 +54,19 @@ def refuse_damage(folder: Path, found: frames.Scan) -> None:
     """Raise JournalError for damage that no crash explains."""
     if found.damage:
         remedy = (
-            "`contactbench session repair` sets this record aside"
+            message("`contactbench session repair` sets this record aside")
             if found.last
-            else "`contactbench session salvage` copies everything intact into a new session; or"
-            " restore the session from a backup"
+            else message(
+                "`contactbench session salvage` copies everything intact into a new session; or"
+                " restore the session from a backup"
+            )
         )
-        raise JournalError(f"{folder / JOURNAL}: {found.damage}: {remedy}; run `session verify` for details.")
+        raise JournalError(
+            f"{arg(folder / JOURNAL)}: {arg(found.damage)}: {arg(remedy)}; run `session verify` for details."
+        )
     if not found.frames:
         raise JournalError(
-            f"{folder / JOURNAL}: no intact record: restore the session from an archive or a backup."
+            f"{arg(folder / JOURNAL)}: no intact record: restore the session from an archive or a backup."
         )
 
 
@@ -93,7 +98,7 @@ class JournalWriter:
             )
         except OSError as error:
             raise SessionError(
-                f"{self._file}: the journal cannot be written ({error}): check the permissions."
+                f"{arg(self._file)}: the journal cannot be written ({arg(error)}): check the permissions."
             ) from error
         try:
             if os.fstat(self._descriptor).st_size != self._end:
@@ -101,7 +106,9 @@ class JournalWriter:
                 os.fsync(self._descriptor)
         except OSError as error:
             self.close()
-            raise SessionError(f"{self._file}: the unfinished record cannot be cut off ({error}).") from error
+            raise SessionError(
+                f"{arg(self._file)}: the unfinished record cannot be cut off ({arg(error)})."
+            ) from error
 
     @property
     def broken(self) -> bool:
@@ -138,12 +145,12 @@ class JournalWriter:
             It is not there, or nobody knows: see `mend`. What was acknowledged before is there.
         """
         if self._descriptor < 0 or self._broken:
-            raise SessionError(f"{self._file}: closed, or an earlier write failed: reload the session.")
+            raise SessionError(f"{arg(self._file)}: closed, or an earlier write failed: reload the session.")
         self._refuse_others()
         data = frames.encode(payload, self._chain)
         if self._end + len(data) > LARGEST:
             raise SessionError(
-                f"{self._file}: the journal is full ({LARGEST >> 20} MiB): start a new session."
+                f"{arg(self._file)}: the journal is full ({arg(LARGEST >> 20)} MiB): start a new session."
             )
         try:
             write_all(self._descriptor, data)
@@ -153,7 +160,7 @@ class JournalWriter:
             if not isinstance(error, OSError):
                 raise
             raise SessionError(
-                f"{self._file}: the action was not recorded ({error}): free disk space or check"
+                f"{arg(self._file)}: the action was not recorded ({arg(error)}): free disk space or check"
                 " the disk, then repeat it. Everything recorded before is safe."
             ) from error
         self._chain = frames.chained(self._chain, payload)
@@ -173,7 +180,7 @@ class JournalWriter:
 
     def _changed(self) -> SessionError:
         return SessionError(
-            f"{self._file}: another program changed the journal, so the action was not recorded:"
+            f"{arg(self._file)}: another program changed the journal, so the action was not recorded:"
             " reload the session."
         )
 

@@ -8,6 +8,7 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.recording import RecordingError, RecordingWriter
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.session.errors import SessionError
@@ -86,7 +87,7 @@ class LiveRecording:
         self.name = f"recording-{started:%Y%m%dT%H%M%S%f}Z.mcap" if name is None else name
         if not _NAME.fullmatch(self.name):
             raise SessionError(
-                f"{self.name!r:.100}: the name of a recording may have letters, digits, - and _,"
+                f"{arg(repr(self.name)[:100])}: the name of a recording may have letters, digits, - and _,"
                 " and must end in .mcap: choose another name."
             )
         self._session, self._sensor, self._started = session, sensor, started
@@ -96,7 +97,9 @@ class LiveRecording:
         self._writer = RecordingWriter(self._file, about)
         try:
             # With who and when: all that would be lost of it otherwise, should this process die.
-            session.note(f"Recording {self.name} started: {_devices(about)}.", sensor=sensor)
+            session.note(
+                message(f"Recording {arg(self.name)} started: {arg(_devices(about))}."), sensor=sensor
+            )
         except BaseException:
             with suppress(RecordingError):  # the first error is the one to show
                 self._writer.close()
@@ -107,12 +110,12 @@ class LiveRecording:
     def _refuse_known(self) -> None:
         if (RECORDING, self.name) in self._session.state.current_inputs:
             raise SessionError(
-                f"{self.name}: the session already has a recording with this name: choose another"
+                f"{arg(self.name)}: the session already has a recording with this name: choose another"
                 " name. Recordings are never overwritten."
             )
         if self._file.exists() or self._file.is_symlink():
             raise SessionError(
-                f"{self._file}: a recording with this name ended abruptly: recover it with"
+                f"{arg(self._file)}: a recording with this name ended abruptly: recover it with"
                 " `contactbench session repair`, or choose another name."
             )
 
@@ -156,9 +159,11 @@ class LiveRecording:
             about["problem"] = str(self.recorder.error)
         return self._session.adopt(self._file, RECORDING, name=self.name, sensor=self._sensor, about=about)
 
-    def discard(self, why: str = "ended without a sample") -> None:
+    def discard(self, why: str = message("ended without a sample")) -> None:
         """Delete it: nothing came, or nobody wants it. The journal says so."""
-        self._session.note(f"The recording {self.name} {why} and was not kept.", sensor=self._sensor)
+        self._session.note(
+            message(f"The recording {arg(self.name)} {arg(why)} and was not kept."), sensor=self._sensor
+        )
         self._file.unlink(missing_ok=True)
 
 

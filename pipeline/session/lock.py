@@ -8,6 +8,7 @@ import stat
 import sys
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.errors import SessionError, SessionLockedError, SessionReadOnlyError
 from contactbench.pipeline.session.files import FOLDERS
 from contactbench.pipeline.session.journal import JOURNAL
@@ -45,7 +46,7 @@ class Lock:
         for name in ("", JOURNAL, *FOLDERS):
             if not writable(folder / name):
                 raise SessionReadOnlyError(
-                    f"{folder / name}: not writable: open the session read-only, make it writable,"
+                    f"{arg(folder / name)}: not writable: open the session read-only, make it writable,"
                     " or work on a copy of its folder."
                 )
         try:
@@ -66,14 +67,14 @@ class Lock:
                 raise _not_locked(self._folder, error) from error
             holder = self._text().decode("ascii", "replace").strip()
             raise SessionLockedError(
-                f"{self._folder}: another process is writing to this session"
-                f" ({holder or 'unknown'}): close it there first. Reading is always possible."
+                f"{arg(self._folder)}: another process is writing to this session"
+                f" ({arg(holder or 'unknown')}): close it there first. Reading is always possible."
             ) from error
         text = self._text()
         # A full disk may have left a part of the text.
         if text[: len(_OURS)] != _OURS[: len(text)] or len(text) >= _LONGEST:
             raise SessionError(
-                f"{self._file}: this file belongs to another program: move it away, or choose another folder."
+                f"{arg(self._file)}: this file belongs to another program: move it away, or choose another folder."
             )
         self._say_who()
 
@@ -82,7 +83,7 @@ class Lock:
             # What is no regular file could be read without end.
             if not stat.S_ISREG(os.fstat(self._descriptor).st_mode):
                 raise SessionError(
-                    f"{self._file}: not a regular file: move it away, or choose another folder."
+                    f"{arg(self._file)}: not a regular file: move it away, or choose another folder."
                 )
             os.lseek(self._descriptor, 0, os.SEEK_SET)
             return os.read(self._descriptor, _LONGEST)
@@ -109,7 +110,7 @@ class Lock:
             same = False
         if not same:
             raise SessionError(
-                f"{self._file}: the lock was removed or replaced, so others may be writing: reload"
+                f"{arg(self._file)}: the lock was removed or replaced, so others may be writing: reload"
                 " the session."
             )
 
@@ -150,7 +151,7 @@ def written_now(folder: Path) -> bool:
 
 def _not_locked(folder: Path, error: OSError) -> SessionError:
     return SessionError(
-        f"{folder}: the session cannot be locked ({error}): make the folder writable, or open the"
+        f"{arg(folder)}: the session cannot be locked ({arg(error)}): make the folder writable, or open the"
         " session read-only."
     )
 

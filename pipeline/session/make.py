@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.settings import CalibrationSettings, CapturesSettings, ProbeSettings
 
@@ -74,14 +75,22 @@ def captures(
     poses = (*before, *_chosen(found, given.leave_out, len(before)))
     fewest = 1 if given.partial else FEWEST_POSES
     if len(poses) < fewest:
-        why = "".join(f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.rejected[:3])
-        left = f", {len(given.leave_out)} left out" if given.leave_out else ""
+        why = join(
+            "",
+            (
+                message(f" {arg(each.start):.1f} to {arg(each.stop):.1f} s: {arg(each.reason)}")
+                for each in found.rejected[:3]
+            ),
+        )
+        left = message(f", {arg(len(given.leave_out))} left out") if given.leave_out else ""
         needs = (
-            f"a calibration needs {FEWEST_POSES}" if fewest == FEWEST_POSES else "there is nothing to keep"
+            message(f"a calibration needs {arg(FEWEST_POSES)}")
+            if fewest == FEWEST_POSES
+            else message("there is nothing to keep")
         )
         raise SessionError(
-            f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more poses still for"
-            f" a few seconds.{why}"
+            f"{arg(recording.name)}: {arg(len(poses))} still poses{arg(left)}, {arg(needs)}: hold more poses still for"
+            f" a few seconds.{arg(why)}"
         )
     return {given.name: encode_poses(poses, given.name)}
 
@@ -104,7 +113,7 @@ def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple
     if not leave_out and not before:
         return tuple(kept)
     return tuple(
-        replace(pose, name=f"pose {number} at {pose.name.partition(' at ')[2]}")
+        replace(pose, name=message(f"pose {arg(number)} at {arg(pose.name.partition(' at ')[2])}"))
         for number, pose in enumerate(kept, before + 1)
     )
 
@@ -131,7 +140,7 @@ def calibration(
     poses = inputs["poses"]
     if is_recording(poses) or is_recorded_table(poses):
         raise SessionError(
-            f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
+            f"{arg(poses.name)} is a recording, not a table of still poses: add it with --kind recording, and compute"
             " captures from it first."
         )
     R_ES, said = given.R_ES, assumed(given)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.knobs import Three
 from contactbench.pipeline.report.report_file import ReportParameters, report
@@ -166,7 +166,10 @@ def _known_of(session: Session) -> dict[str, Any]:
     """Return what a report can take from its session: who, of which one, and with which sensor."""
     state = session.state
     known = {each.sensor: each.name for each in state.current_inputs.values() if each.sensor}
-    named = {f"sensor of {name}" if len(known) > 1 else "sensor": serial for serial, name in known.items()}
+    named = {
+        message(f"sensor of {arg(name)}") if len(known) > 1 else "sensor": serial
+        for serial, name in known.items()
+    }
     # What is chosen on the page of devices, or for the bundle, is of the same sensor and the same people.
     chosen = {key: state.setting(key) for key in ("devices.serial", "config.sensor", "config.operator")}
     if not named and chosen["devices.serial"]:
@@ -200,7 +203,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     """
     if kind not in RECOMPUTE and kind != "heatmap":
         raise SessionError(
-            f"{kind}: this kind of result cannot be computed: choose one of {', '.join(RECOMPUTE)}."
+            f"{arg(kind)}: this kind of result cannot be computed: choose one of {arg(', '.join(RECOMPUTE))}."
         )
     chosen = chosen or {}
     roles = RECOMPUTE[kind].roles if kind in RECOMPUTE else _HEATMAP
@@ -208,7 +211,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
     known = (*roles.needed, *roles.optional, *asked)
     if strangers := sorted(set(chosen) - {*known, *roles.on_request}):
         every = ", ".join((*roles.needed, *roles.optional, *roles.on_request))
-        raise SessionError(f"{strangers[0]}: a {kind} is computed from {every}.")
+        raise SessionError(f"{arg(strangers[0])}: a {arg(kind)} is computed from {arg(every)}.")
     found: dict[str, str] = {}
     for role in known:
         # A report is about what was verified, also when there is a newer probe or calibration by now.
@@ -219,7 +222,7 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
             found[role] = newest
         elif role in roles.needed or chosen.get(role):
             name = f" called {chosen[role]}" if chosen.get(role) else ""
-            raise SessionError(f"this session has no {role}{name}: add it with --kind {role}.")
+            raise SessionError(f"this session has no {arg(role)}{arg(name)}: add it with --kind {arg(role)}.")
     return found
 
 
@@ -254,7 +257,9 @@ def recomputed(
     another name, and names are written into results. For `progress`, `cancelled` and `tell` see `compute`.
     """
     if kind not in RECOMPUTE:
-        raise SessionError(f"{kind}: this kind of result cannot be computed. Known: {', '.join(RECOMPUTE)}.")
+        raise SessionError(
+            f"{arg(kind)}: this kind of result cannot be computed. Known: {arg(', '.join(RECOMPUTE))}."
+        )
     files = inputs_of(folder, state, inputs, before)
     marks = _marks(files)
     # Whoever looks at the past checks results, and has everything computed anew.
@@ -265,7 +270,7 @@ def recomputed(
     except InputError as error:
         raise SessionError(*error.args) from error
     if _marks(files) != marks:  # a file of a session never changes: somebody else wrote it
-        raise SessionError(f"{folder}: an input changed while it was read: run `session verify`.")
+        raise SessionError(f"{arg(folder)}: an input changed while it was read: run `session verify`.")
     return made
 
 
@@ -351,13 +356,15 @@ def _named(folder: Path, state: State, sha256: str, before: int | None) -> Named
     elif made is not None:  # with what belongs to it, such as the names of a probe's regions
         names, main = dict(made.action.files), main_file(made.action)
     else:
-        raise SessionError(f"the session contains nothing with the hash {sha256[:12]}: add it first.")
+        raise SessionError(f"the session contains nothing with the hash {arg(sha256[:12])}: add it first.")
     places = {name: folder / ref.path for name, ref in names.items()}
     try:
         for place in places.values():
             place.open("rb").close()
     except OSError as error:
-        raise SessionError(f"{folder}: an input cannot be read ({error}): run `session verify`.") from error
+        raise SessionError(
+            f"{arg(folder)}: an input cannot be read ({arg(error)}): run `session verify`."
+        ) from error
     return NamedFile(places[main], main, places)
 
 
@@ -417,7 +424,9 @@ def replay(session: Session, progress: Callable[[int, int], None] | None = None)
 def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
     action = result.action
     if action.kind not in RECOMPUTE:
-        return ReplayOutcome.UNKNOWN, "this kind of result cannot be computed here, so it was not compared."
+        return ReplayOutcome.UNKNOWN, message(
+            "this kind of result cannot be computed here, so it was not compared."
+        )
     parameters = {**action.parameters, "name": action.name}
     try:
         files = recomputed(
@@ -430,7 +439,7 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
             before=result.number,
         )
     except InputError as error:
-        return ReplayOutcome.FAILED, f"it cannot be recomputed: {error}"
+        return ReplayOutcome.FAILED, message(f"it cannot be recomputed: {arg(error)}")
     differing = sorted(
         name
         for name in files.keys() | action.files.keys()
@@ -439,6 +448,8 @@ def _again(session: Session, result: Result) -> tuple[ReplayOutcome, str]:
         or hashlib.sha256(files[name]).hexdigest() != action.files[name].sha256
     )
     if not differing:
-        return ReplayOutcome.SAME, "identical bytes."
-    older = "" if result.tool == TOOL else f" It was made by {result.tool}, this is {TOOL}."
-    return ReplayOutcome.DIFFERENT, f"different bytes in {', '.join(differing)}.{older}"
+        return ReplayOutcome.SAME, message("identical bytes.")
+    older = (
+        "" if result.tool == TOOL else message(f" It was made by {arg(result.tool)}, this is {arg(TOOL)}.")
+    )
+    return ReplayOutcome.DIFFERENT, message(f"different bytes in {arg(', '.join(differing))}.{arg(older)}")

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
     VERSION,
@@ -79,10 +80,12 @@ def remains_of(folder: Path, data: bytes) -> Remains:
         identity = hashlib.sha256(data).hexdigest()[:32]
         payloads.insert(0, payload_of(entry(SessionCreated(id=identity), user(), None)))
         losses, version = {1, *(after + 1 for after in losses)}, VERSION
-        sentences.append("The first record is lost, so the session gets a new identity.")
+        sentences.append(message("The first record is lost, so the session gets a new identity."))
     if version == VERSION:  # what an older version wrote can only be read once it is migrated
         payloads, losses = _readable(payloads, losses, sentences)
-    sentences += [f"At least one record is lost after record {after}." for after in sorted(losses)]
+    sentences += [
+        message(f"At least one record is lost after record {arg(after)}.") for after in sorted(losses)
+    ]
     return Remains(frames.encode_all(payloads), frozenset(losses), tuple(sentences))
 
 
@@ -104,11 +107,15 @@ def _found(data: bytes) -> tuple[list[JournalFrame], list[str], bool]:
         following = None if follows is None else frames.whole(data, follows)
         if mended := _mended(data, at, end, before, following) if gaps <= _MENDED_GAPS else None:
             found.append(mended)
-            sentences.append(f"The damaged record at byte {at} is restored; its hash proves it.")
+            sentences.append(
+                message(f"The damaged record at byte {arg(at)} is restored; its hash proves it.")
+            )
         elif follows is None and frames.unfinished(data, at):
-            sentences.append(f"The record at byte {at} was never finished, so nothing relied on it.")
+            sentences.append(
+                message(f"The record at byte {arg(at)} was never finished, so nothing relied on it.")
+            )
         else:
-            sentences.append(f"Bytes {at} to {end - 1} of the journal are damaged.")
+            sentences.append(message(f"Bytes {arg(at)} to {arg(end - 1)} of the journal are damaged."))
             if follows is None:
                 return found, sentences, True
         at = end
@@ -145,7 +152,9 @@ def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[Journal
     seen: set[bytes] = set()
     for frame in found:
         if frame.chain in seen:
-            sentences.append(f"The record at byte {frame.offset} appears twice; one copy is kept.")
+            sentences.append(
+                message(f"The record at byte {arg(frame.offset)} appears twice; one copy is kept.")
+            )
         elif runs and _follows(runs[-1][-1].chain, [frame]):
             runs[-1].append(frame)
         else:
@@ -165,7 +174,7 @@ def _lines(found: list[JournalFrame], sentences: list[str]) -> list[list[Journal
         lines.append(line)
     offsets = [frame.offset for line in lines for frame in line]
     if offsets != sorted(offsets):
-        sentences.append("Records were out of order; their order was restored from their hashes.")
+        sentences.append(message("Records were out of order; their order was restored from their hashes."))
     return lines
 
 
@@ -190,7 +199,9 @@ def _readable(payloads: list[bytes], losses: set[int], sentences: list[str]) -> 
             kept.append(payload)
         except JournalError:
             moved.add(len(kept))
-            sentences.append(f"The record after record {len(kept)} cannot be read and is left out.")
+            sentences.append(
+                message(f"The record after record {arg(len(kept))} cannot be read and is left out.")
+            )
         if number in losses:
             moved.add(len(kept))
     return kept, moved
@@ -228,16 +239,18 @@ def doubts(state: State, losses: Collection[int], wrong: Mapping[str, str]) -> I
 def _doubt(result: Result, sources: tuple[InputSource, ...], last: int, wrong: Mapping[str, str]) -> str:
     for ref in files_of(result.action):
         if ref.path in wrong:
-            return f"its file {wrong[ref.path]}; compute it again"
+            return message(f"its file {arg(wrong[ref.path])}; compute it again")
     if result.number <= last:
-        return "a later record is lost and may have changed its inputs; compute it again"
+        return message("a later record is lost and may have changed its inputs; compute it again")
     for used in (each for source in sources for each in source.inputs):
         for ref in (used.file, *used.companions.values()):
             if ref.path in wrong:
-                return f"the {used.kind} {used.name} cannot be relied on, because {wrong[ref.path]}"
+                return message(
+                    f"the {arg(used.kind)} {arg(used.name)} cannot be relied on, because {arg(wrong[ref.path])}"
+                )
         if used.kind != MESH and used.number <= last:
-            return (
-                f"a record after the {used.kind} {used.name} is lost and may have noted a"
+            return message(
+                f"a record after the {arg(used.kind)} {arg(used.name)} is lost and may have noted a"
                 " re-zeroed sensor; compute it again unless you know that the sensor was not"
                 " re-zeroed"
             )
@@ -246,7 +259,7 @@ def _doubt(result: Result, sources: tuple[InputSource, ...], last: int, wrong: M
 
 def note_of(sentences: Collection[str]) -> Note:
     """Return what a salvaged session's journal says of its salvage."""
-    return Note(text=" ".join(("Salvaged from a damaged session.", *sentences))[:_LONGEST_NOTE])
+    return Note(text=join(" ", (message("Salvaged from a damaged session."), *sentences))[:_LONGEST_NOTE])
 
 
 def read_damaged(folder: Path) -> Content:
@@ -314,7 +327,7 @@ def ways_in(folder: Path) -> WaysIn:
         _others(known, state),
         len(remains.losses),
         tuple(f"{mark.kind} {mark.name}" for mark in doubts(state, remains.losses, wrong)),
-        tuple(f"{why}." for why in wrong.values()),
+        tuple(message(f"{arg(why)}.") for why in wrong.values()),
     )
 
 

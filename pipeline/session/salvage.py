@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import sync_folder, write_durably
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.content import content_of, original_of
 from contactbench.pipeline.session.errors import SessionError
@@ -83,7 +84,7 @@ def salvage(
         sync_folder(out.absolute().parent)
     except OSError as error:
         raise SessionError(
-            f"{out}: the copy cannot be written ({error}): choose another location with --out."
+            f"{arg(out)}: the copy cannot be written ({arg(error)}): choose another location with --out."
         ) from error
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
@@ -106,12 +107,12 @@ def _refuse_place(folder: Path, out: Path) -> None:
         inside = out.resolve().is_relative_to(folder.resolve())
     except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
         raise SessionError(
-            f"{out}: a session cannot be made here ({error}): choose another location."
+            f"{arg(out)}: a session cannot be made here ({arg(error)}): choose another location."
         ) from error
     if taken:
-        raise SessionError(f"{out}: this already exists: choose another name.")
+        raise SessionError(f"{arg(out)}: this already exists: choose another name.")
     if inside:
-        raise SessionError(f"{out}: this is inside the damaged session: choose another location.")
+        raise SessionError(f"{arg(out)}: this is inside the damaged session: choose another location.")
 
 
 def _copy(

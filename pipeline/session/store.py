@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
     NOWHERE,
@@ -80,13 +81,13 @@ class Session:
     ) -> None:
         self.folder, self.notes, self.damage = folder, read.notes, read.found.damage
         if left := unfinished(folder):
-            words = (
-                f"{folder / left[0]}: this recording ended abruptly: recover it with `contactbench"
+            words = message(
+                f"{arg(folder / left[0])}: this recording ended abruptly: recover it with `contactbench"
                 " session repair`."
             )
             self.notes = (
                 *self.notes,
-                words if lock else f"{words} Ignore this if it is still being recorded.",
+                words if lock else message(f"{arg(words)} Ignore this if it is still being recorded."),
             )
         self._records = list(read.records)
         self._lock, self._writer, self._by = lock, writer, by
@@ -116,7 +117,7 @@ class Session:
             sync_folder(folder.absolute().parent)
         except OSError as error:
             raise SessionError(
-                f"{folder}: the session cannot be created ({error}): choose another location."
+                f"{arg(folder)}: the session cannot be created ({arg(error)}): choose another location."
             ) from error
         finally:
             lock.release()
@@ -164,7 +165,7 @@ class Session:
             if not isinstance(error, OSError):
                 raise
             raise SessionError(
-                f"{folder}: the session cannot be written ({error}): check the permissions."
+                f"{arg(folder)}: the session cannot be written ({arg(error)}): check the permissions."
             ) from error
         return cls(folder, read, lock, writer, user() if by is None else by)
 
@@ -252,7 +253,7 @@ class Session:
         except OSError as error:
             self._full = self._full or error.errno in _NO_ROOM
             raise SessionError(
-                f"{file}: the file cannot be added to the session ({error}): free disk space or"
+                f"{arg(file)}: the file cannot be added to the session ({arg(error)}): free disk space or"
                 " check the disk, then run `contactbench session repair`. Nothing is lost."
             ) from error
         record = self._append(checked(InputAdded, file=ref, **given), sensor)
@@ -307,7 +308,7 @@ class Session:
         for role, sha256 in inputs.items():
             if self.state.input_with(sha256) is None and self.state.result_with(sha256) is None:
                 raise SessionError(
-                    f"{role}: the session contains nothing with the hash {sha256[:12]}: add it first."
+                    f"{arg(role)}: the session contains nothing with the hash {arg(sha256[:12])}: add it first."
                 )
         refs = self._store_all("results", {each: (content,) for each, content in files.items()})
         return self._append(checked(ResultAdded, files=refs, **given))
@@ -330,7 +331,7 @@ class Session:
             action = make(name=there.name, file=there.file, companions=dict(there.companions), **given)
         for ref in files_of(action):
             if wrong := file_problem(self.folder, ref):
-                raise SessionError(f"{self.folder}: {wrong}")
+                raise SessionError(f"{arg(self.folder)}: {arg(wrong)}")
         record = self._append(action, given.get("sensor"))
         return record if there.mark is None else self._append(there.mark)
 
@@ -340,7 +341,7 @@ class Session:
         """Say something of the newest result of this kind and name."""
         if (kind, name) not in self.state.current_results:
             raise SessionError(
-                f"{self.folder}: there is no result {kind} {name}: `session info` lists the results."
+                f"{arg(self.folder)}: there is no result {arg(kind)} {arg(name)}: `session info` lists the results."
             )
         return self._append(checked(ResultMarked, kind=kind, name=name, mark=mark, reason=reason))
 
@@ -368,7 +369,7 @@ class Session:
         except OSError as error:
             self._full = self._full or error.errno in _NO_ROOM  # else it may be the file that is copied
             raise SessionError(
-                f"{self.folder}: {name} cannot be copied into the session ({error}): free disk"
+                f"{arg(self.folder)}: {arg(name)} cannot be copied into the session ({arg(error)}): free disk"
                 " space or check the disk. Nothing was recorded."
             ) from error
         self._full = False
@@ -397,7 +398,7 @@ class Session:
                 try_room(self.folder)
             except OSError as error:
                 raise SessionError(
-                    f"{self.folder}: the disk still rejects writes ({error}): free disk space or"
+                    f"{arg(self.folder)}: the disk still rejects writes ({arg(error)}): free disk space or"
                     " check the disk."
                 ) from error
             self._full = False
@@ -417,7 +418,7 @@ class Session:
 
     def _needs_writer(self) -> JournalWriter:
         if self._writer is None or self._lock is None:
-            raise SessionError(f"{self.folder}: the session is open read-only: open it for writing.")
+            raise SessionError(f"{arg(self.folder)}: the session is open read-only: open it for writing.")
         if self._lock.held:  # a closed one says so itself
             self._lock.check()
         return self._writer
@@ -442,10 +443,10 @@ def _refuse_content(folder: Path) -> None:
         other = sorted(each.name for each in folder.iterdir() if each.name not in {LOCK, *FOLDERS})
     except OSError as error:
         raise SessionError(
-            f"{folder}: the folder cannot be read ({error}): choose another location."
+            f"{arg(folder)}: the folder cannot be read ({arg(error)}): choose another location."
         ) from error
     if JOURNAL in other:
-        raise SessionError(f"{folder}: there is already a session here: choose another folder.")
+        raise SessionError(f"{arg(folder)}: there is already a session here: choose another folder.")
     if any(not name.startswith(f".{JOURNAL}.") for name in other):
-        raise SessionError(f"{folder}: the folder contains {other[0]}: choose an empty one.")
+        raise SessionError(f"{arg(folder)}: the folder contains {arg(other[0])}: choose an empty one.")
     refuse_links(folder)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.files import file_problem, touched_mark
 from contactbench.pipeline.session.recompute import parameter_of
@@ -99,7 +99,9 @@ class _Follows:
         """Yield what makes it stale by itself."""
         for role, source in zip(result.action.inputs, self._sources[result.number], strict=True):
             if source.lost:
-                yield f"The {role} it was computed from is in no earlier record: a record was lost."
+                yield message(
+                    f"The {arg(role)} it was computed from is in no earlier record: a record was lost."
+                )
             for used in source.inputs:
                 yield from self._of_raw(used)
         yield from self._of_parameters(result)
@@ -113,19 +115,27 @@ class _Follows:
     def _of_made(self, made: Result) -> Iterator[str]:
         newest = self._results[made.slot]
         if made.outcome != self._outcomes[made.slot]:
-            yield f"The {made.title} it was computed from was recomputed on {minute_of(newest.at)}."
+            yield message(
+                f"The {arg(made.title)} it was computed from was recomputed on {arg(minute_of(newest.at))}."
+            )
             return
         # In a circle, which the newest results of journals made by hand can be, what it is by itself must do.
         known = self._known.get(newest.number)
         why = next(self._own(newest), None) if known is None else next(iter(known), None)
         if why is not None:
-            yield f"It was computed from the {made.title}, which is stale: {why}"
+            yield message(f"It was computed from the {arg(made.title)}, which is stale: {arg(why)}")
 
     def _of_raw(self, used: Input) -> Iterator[str]:
         newest = self._inputs[used.slot]
         if newest.number != used.number and newest.content != used.content:
-            what = "The mesh" if used.kind == MESH else f"The {used.kind} {used.name}"
-            yield f"{what} it was computed from was replaced by {newest.name} on {minute_of(newest.at)}."
+            what = (
+                message("The mesh")
+                if used.kind == MESH
+                else message(f"The {arg(used.kind)} {arg(used.name)}")
+            )
+            yield message(
+                f"{arg(what)} it was computed from was replaced by {arg(newest.name)} on {arg(minute_of(newest.at))}."
+            )
         if used.kind != MESH:
             yield from self._of_rezeros(used)
 
@@ -135,9 +145,11 @@ class _Follows:
         for sensor in sensors or self._rezeros:
             rezero = self._rezeros.get(sensor)
             if rezero is not None and self._recorded.is_before(used, rezero):
-                why = f" ({rezero.reason})" if rezero.reason else ""
-                what = f"The sensor {rezero.sensor} was re-zeroed on {minute_of(rezero.at)}{why}"
-                yield f"{what}, after the {used.kind} {used.name} was recorded."
+                why = message(f" ({arg(rezero.reason)})") if rezero.reason else ""
+                what = message(
+                    f"The sensor {arg(rezero.sensor)} was re-zeroed on {arg(minute_of(rezero.at))}{arg(why)}"
+                )
+                yield message(f"{arg(what)}, after the {arg(used.kind)} {arg(used.name)} was recorded.")
                 return
 
     def _of_parameters(self, result: Result) -> Iterator[str]:
@@ -147,21 +159,21 @@ class _Follows:
                 continue
             used = parameter_of(kind, parameter, given)
             if parameter_of(kind, parameter, {**given, parameter: setting.value}) != used:
-                yield (
-                    f"The parameter {kind}.{parameter} was set to {setting.value!r} on"
-                    f" {minute_of(setting.at)}; this was computed with {used!r}."
+                yield message(
+                    f"The parameter {arg(kind)}.{arg(parameter)} was set to {arg(setting.value)!r} on"
+                    f" {arg(minute_of(setting.at))}; this was computed with {arg(used)!r}."
                 )
 
 
 def _said(result: Result) -> Iterator[str]:
     if result.mark is not None and result.mark.mark in {"stale", "rejected"}:
-        what = "marked as stale" if result.mark.mark == "stale" else "rejected"
-        yield f"It was {what}: {result.mark.reason or 'no reason was given'}."
+        what = message("marked as stale") if result.mark.mark == "stale" else message("rejected")
+        yield message(f"It was {arg(what)}: {arg(result.mark.reason or message('no reason was given'))}.")
 
 
 # ---- broken ---------------------------------------------------------------------------------------
 
-DISK = (
+DISK = message(
     "The last write failed, so nothing is written to this session at the moment. Free disk space,"
     " or check the disk; writing then resumes automatically."
 )
@@ -343,7 +355,7 @@ class Standing:
         )
         if not isinstance(mean, int | float) or not isinstance(most, int | float):
             return ""
-        return f"{mean:.2f} mm on average, {most:.2f} mm at most"
+        return message(f"{arg(mean):.2f} mm on average, {arg(most):.2f} mm at most")
 
 
 # ---- the steps -------------------------------------------------------------------------------------
@@ -424,27 +436,27 @@ _RESTS_ON = {
     Step.EXPORT: _MADE_OF,
 }
 GOING_ON = {
-    Step.DEVICES: "Testing the devices.",
-    Step.GRAVITY: "Recording a calibration.",
-    Step.PROBE: "Preparing the probe.",
-    Step.REGIONS: "Applying the regions to the probe.",
-    Step.VERIFY: "Recording a verification.",
-    Step.EXPORT: "Writing a bundle.",
+    Step.DEVICES: message("Testing the devices."),
+    Step.GRAVITY: message("Recording a calibration."),
+    Step.PROBE: message("Preparing the probe."),
+    Step.REGIONS: message("Applying the regions to the probe."),
+    Step.VERIFY: message("Recording a verification."),
+    Step.EXPORT: message("Writing a bundle."),
 }
 
 
 def _devices(state: State, connected: bool) -> tuple[StepState, str]:
     sensor = state.setting(SENSOR)
     if not sensor:
-        words = "Choose the sensor and the source of its orientation, then test the connection."
+        words = message("Choose the sensor and the source of its orientation, then test the connection.")
         return StepState.READY, words
     scheme, name = str(sensor).partition("://")[0], str(sensor).partition("?")[0]
-    name = {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, name)
+    name = {"virtual": message("the virtual bench"), "replay": "a recording"}.get(scheme, name)
     if not connected:
-        return StepState.DONE, f"Chosen: {name}. Not connected: connect to measure."
-    words = f"Connected: {name}."
+        return StepState.DONE, message(f"Chosen: {arg(name)}. Not connected: connect to measure.")
+    words = message(f"Connected: {arg(name)}.")
     if not state.setting(POSES):
-        words += " Its orientation is unknown, so gravity cannot be calibrated."
+        words += message(" Its orientation is unknown, so gravity cannot be calibrated.")
     return StepState.DONE, words
 
 
@@ -452,28 +464,32 @@ def _gravity(standing: Standing) -> tuple[StepState, str]:
     standingd = standing.of("calibration")
     if standingd.found is None:
         if not standing.state.setting(SENSOR):
-            return StepState.LOCKED, "Choose the devices first."
-        return StepState.READY, "Hold the tool still in about six orientations; the next one is always shown."
+            return StepState.LOCKED, message("Choose the devices first.")
+        return StepState.READY, message(
+            "Hold the tool still in about six orientations; the next one is always shown."
+        )
     if standingd.state is CheckState.STALE:
-        return StepState.STALE, f"{standingd.why} Calibrate again."
+        return StepState.STALE, message(f"{arg(standingd.why)} Calibrate again.")
     if standingd.state is CheckState.FAILED:
-        return StepState.FAILED, f"The calibration was refused. {standingd.why} Recalibrate."
+        return StepState.FAILED, message(f"The calibration was refused. {arg(standingd.why)} Recalibrate.")
     usable = (
-        " It is usable, but not good." if standing.verdict("calibration").get("level") == "usable" else ""
+        message(" It is usable, but not good.")
+        if standing.verdict("calibration").get("level") == "usable"
+        else ""
     )
-    return StepState.DONE, f"Calibrated on {standingd.day}.{usable}"
+    return StepState.DONE, message(f"Calibrated on {arg(standingd.day)}.{arg(usable)}")
 
 
 def _probe(standing: Standing) -> tuple[StepState, str]:
     standingd, draft = standing.of("probe"), standing.state.setting(PROBE_DRAFT)
     if standingd.found is None:
         if draft:
-            return StepState.READY, "In preparation: continue where you left off, then use it."
-        return StepState.READY, "Choose the probe's mesh, align it and simplify it."
+            return StepState.READY, message("In preparation: continue where you left off, then use it.")
+        return StepState.READY, message("Choose the probe's mesh, align it and simplify it.")
     if standingd.state is CheckState.STALE:
-        return StepState.STALE, f"{standingd.why} Prepare it again."
-    begun = " Another one is in preparation: use it, or undo it." if draft else ""
-    return StepState.DONE, f"Prepared on {standingd.day}.{begun}"
+        return StepState.STALE, message(f"{arg(standingd.why)} Prepare it again.")
+    begun = message(" Another one is in preparation: use it, or undo it.") if draft else ""
+    return StepState.DONE, message(f"Prepared on {arg(standingd.day)}.{arg(begun)}")
 
 
 class RegionsState(StrEnum):
@@ -498,42 +514,46 @@ def regions_state(state: State) -> RegionsState:
 def _regions(standing: Standing) -> tuple[StepState, str]:
     match regions_state(standing.state):
         case RegionsState.NONE if standing.of("probe").found is None:
-            return StepState.LOCKED, "Prepare the probe first."
+            return StepState.LOCKED, message("Prepare the probe first.")
         case RegionsState.NONE:
-            return StepState.READY, "Optional: paint where contacts are preferred, or continue with Verify."
+            return StepState.READY, message(
+                "Optional: paint where contacts are preferred, or continue with Verify."
+            )
         case RegionsState.WAITING:
-            words = "The regions are painted but not applied to the probe yet: apply them."
+            words = message("The regions are painted but not applied to the probe yet: apply them.")
             return StepState.STALE, words
         case RegionsState.PLANNED:
-            return StepState.DONE, "Painted. The regions are applied when the probe is prepared."
-    return StepState.DONE, "Painted and applied to the probe."
+            return StepState.DONE, message("Painted. The regions are applied when the probe is prepared.")
+    return StepState.DONE, message("Painted and applied to the probe.")
 
 
 def _verify(standing: Standing) -> tuple[StepState, str]:
     standingd = standing.of("verification")
     if standingd.found is None:
-        return StepState.READY, "Touch the markers to check that contacts are correct."
+        return StepState.READY, message("Touch the markers to check that contacts are correct.")
     if standingd.state is CheckState.STALE:
-        return StepState.STALE, f"{standingd.why} Verify again."
+        return StepState.STALE, message(f"{arg(standingd.why)} Verify again.")
     why = standingd.why or standing.figures
     if standingd.state is CheckState.FAILED:
-        return StepState.FAILED, f"Not passed. {why} Correct the cause, then verify again."
-    return StepState.DONE, f"Passed: {why}." if why else f"Verified on {standingd.day}."
+        return StepState.FAILED, message(f"Not passed. {arg(why)} Correct the cause, then verify again.")
+    return StepState.DONE, message(f"Passed: {arg(why)}.") if why else message(
+        f"Verified on {arg(standingd.day)}."
+    )
 
 
 def _export(standing: Standing) -> tuple[StepState, str]:
     parts = [standing.of(kind) for kind in ("calibration", "probe", "verification")]
     if parts[-1].found is None:
-        return StepState.LOCKED, "Verify first. For trials, an unverified bundle can be exported."
+        return StepState.LOCKED, message("Verify first. For trials, an unverified bundle can be exported.")
     exported = standing.state.setting(RESULTS)
     if not exported:
-        return StepState.READY, "Review the bundle, then export it."
+        return StepState.READY, message("Review the bundle, then export it.")
     if exported != dict(results_of(standing.state)):
-        return StepState.STALE, "Results have changed since the last export: export again."
+        return StepState.STALE, message("Results have changed since the last export: export again.")
     for part in parts:
         if part.state is CheckState.STALE:
-            return StepState.STALE, f"{part.why} Repeat that, then export again."
-    return StepState.DONE, "The latest results are exported."
+            return StepState.STALE, message(f"{arg(part.why)} Repeat that, then export again.")
+    return StepState.DONE, message("The latest results are exported.")
 
 
 def _missing(standing: Standing) -> str:
@@ -541,11 +561,11 @@ def _missing(standing: Standing) -> str:
     calibration, probe = standing.of("calibration"), standing.of("probe")
     if calibration.found is None:
         if probe.found is None:
-            return "Calibrate gravity and prepare the probe first."
-        return "Calibrate gravity first."
+            return message("Calibrate gravity and prepare the probe first.")
+        return message("Calibrate gravity first.")
     if standing.verdict("calibration").get("level") == "refuse":
-        return "The calibration was refused: recalibrate gravity first."
-    return "" if probe.found is not None else "Prepare the probe first."
+        return message("The calibration was refused: recalibrate gravity first.")
+    return "" if probe.found is not None else message("Prepare the probe first.")
 
 
 def why_locked(state: State, *kinds: str) -> str:
@@ -553,9 +573,14 @@ def why_locked(state: State, *kinds: str) -> str:
     missing = [kind for kind in kinds or ("calibration", "probe") if state.newest(kind) is None]
     if not missing:
         return ""
-    steps = {"calibration": "calibrate in step 2, Gravity", "probe": "prepare the probe in step 3, Probe"}
-    todo = ", and ".join(steps[kind] for kind in missing)
-    return f"A contact cannot be located without {' and '.join(missing)}: {todo}."
+    steps = {
+        "calibration": message("calibrate in step 2, Gravity"),
+        "probe": message("prepare the probe in step 3, Probe"),
+    }
+    todo = join(message(", and "), (steps[kind] for kind in missing))
+    return message(
+        f"A contact cannot be located without {arg(join(message(' and '), missing))}: {arg(todo)}."
+    )
 
 
 # ---- the checklist of an export --------------------------------------------------------------------
@@ -568,7 +593,7 @@ class CheckState(StrEnum):
     STALE = "stale"
     MISSING = "missing"
     FAILED = "failed"
-    OPTIONAL = "left out"
+    OPTIONAL = message("left out")
 
 
 @dataclass(frozen=True)
@@ -592,21 +617,33 @@ def checklist(
     """Say how everything stands that a bundle rests on; reads files, see `read_facts`."""
     standing = Standing(state, stale, read_facts(folder, state), trouble)
     checks = [
-        _line(standing, "Known weight", "known_weight", Step.GRAVITY, "Hang a known weight on the tool."),
-        _line(standing, "Known touch", "known_touch", Step.VERIFY, "Press a known point of the probe."),
+        _line(
+            standing,
+            message("Known weight"),
+            "known_weight",
+            Step.GRAVITY,
+            message("Hang a known weight on the tool."),
+        ),
+        _line(
+            standing,
+            message("Known touch"),
+            "known_touch",
+            Step.VERIFY,
+            message("Press a known point of the probe."),
+        ),
     ]
     if any(each.state is CheckState.DONE for each in checks):  # one of them is enough
         checks = [
             replace(each, state=CheckState.OPTIONAL) if each.state is CheckState.MISSING else each
             for each in checks
         ]
-    touch = "Touch the markers to verify contacts."
-    report = "Finish a verification: its report is part of the bundle."
-    calibrate = "Calibrate the sensor with this tool."
+    touch = message("Touch the markers to verify contacts.")
+    report = message("Finish a verification: its report is part of the bundle.")
+    calibrate = message("Calibrate the sensor with this tool.")
     return (
         _sensor_line(standing),
         _line(standing, "Calibration", "calibration", Step.GRAVITY, calibrate),
-        _line(standing, "Probe", "probe", Step.PROBE, "Prepare the probe's mesh."),
+        _line(standing, "Probe", "probe", Step.PROBE, message("Prepare the probe's mesh.")),
         _regions_line(standing),
         _line(standing, "Verification", "verification", Step.VERIFY, touch),
         *checks,
@@ -619,29 +656,31 @@ def _line(standing: Standing, name: str, kind: str, step: Step, remedy: str) -> 
     standingd = standing.of(kind)
     state = standingd.state
     if standingd.found is None and state is CheckState.MISSING:
-        unseen = "Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. "
+        unseen = message("Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. ")
         words = (unseen if kind in _CHECKS else "") + remedy
     elif standingd.found is None:
-        words = f"It was rejected. {standingd.why} {remedy}".strip()
+        words = message(f"It was rejected. {arg(standingd.why)} {arg(remedy)}").strip()
     elif standingd.broken:
         words = standingd.broken
     elif state is CheckState.STALE:
-        words = f"{standingd.why} Repeat it."
+        words = message(f"{arg(standingd.why)} Repeat it.")
     elif kind in _CHECKS:
         outcome, words = standing.fact(kind, "outcome"), str(standing.fact(kind, "sentence") or "")
         if outcome == "failed":
-            state, words = CheckState.FAILED, words or f"The check failed. {remedy}"
+            state, words = CheckState.FAILED, words or message(f"The check failed. {arg(remedy)}")
         elif outcome != "passed":
             state = CheckState.MISSING
     elif kind == "calibration" and state is CheckState.FAILED:
-        words = "The calibration was refused: recalibrate."
+        words = message("The calibration was refused: recalibrate.")
     elif kind == "verification":
         if state is CheckState.FAILED:
-            words = f"Not passed: {'; '.join(standingd.reasons) or 'see its report'}. Verify again."
+            words = message(
+                f"Not passed: {arg(join('; ', standingd.reasons) or message('see its report'))}. Verify again."
+            )
         else:
-            words = f"Passed: {standing.figures}." if standing.figures else "Passed."
+            words = message(f"Passed: {arg(standing.figures)}.") if standing.figures else "Passed."
     else:
-        words = f"Made on {standingd.day}."
+        words = message(f"Made on {arg(standingd.day)}.")
     return CheckItem(name, state, words, step)
 
 
@@ -653,8 +692,8 @@ def _sensor_line(standing: Standing) -> CheckItem:
     known = [each for each in known if each]
     known += sorted({each.sensor for each in state.current_inputs.values() if each.sensor})
     if known:
-        return CheckItem("Sensor", CheckState.DONE, f"Serial number {known[0]}.", Step.DEVICES)
-    words = "Serial number missing: the bundle would say 'unknown'. Enter it below."
+        return CheckItem("Sensor", CheckState.DONE, message(f"Serial number {arg(known[0])}."), Step.DEVICES)
+    words = message("Serial number missing: the bundle would say 'unknown'. Enter it below.")
     return CheckItem("Sensor", CheckState.MISSING, words, Step.DEVICES)
 
 
@@ -665,21 +704,21 @@ def _regions_line(standing: Standing) -> CheckItem:
     count = len(given) if isinstance(given, list) else 0
     state = CheckState.DONE
     if count:
-        words = f"The probe has {regions_in_words(count)}."
+        words = message(f"The probe has {arg(regions_in_words(count))}.")
     elif standing.state.newest("regions") is not None:
         state = CheckState.MISSING
-        words = "Regions are painted but not applied to the probe yet: apply them."
+        words = message("Regions are painted but not applied to the probe yet: apply them.")
     else:
         state = CheckState.OPTIONAL
-        words = "No priority regions: all candidates are equal. That is fine for most probes."
+        words = message("No priority regions: all candidates are equal. That is fine for most probes.")
     return CheckItem("Regions", state, words, Step.REGIONS)
 
 
 def regions_in_words(count: int) -> str:
     """Say how many regions a probe has."""
     if count == 1:
-        return "one priority region"
-    return f"{count} priority regions" if count else "no priority regions"
+        return message("one priority region")
+    return message(f"{arg(count)} priority regions") if count else message("no priority regions")
 
 
 def results_of(state: State) -> Mapping[str, str]:
@@ -702,6 +741,9 @@ def files_of_bundle(state: State) -> tuple[FileRef, ...]:
 
 def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
-    for kind, what in (("calibration", "Calibrate first."), ("probe", "Prepare the probe first.")):
+    for kind, what in (
+        ("calibration", message("Calibrate first.")),
+        ("probe", message("Prepare the probe first.")),
+    ):
         if state.newest(kind) is None:
-            raise InputError(f"There is no {kind} yet, so nothing can be exported. {what}")
+            raise InputError(f"There is no {arg(kind)} yet, so nothing can be exported. {arg(what)}")

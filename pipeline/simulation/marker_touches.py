@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench import assets
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
 from contactbench.pipeline.simulation.scenes.touch import along, draw_press
@@ -70,7 +70,7 @@ def check_bundled(names: Iterable[str]) -> list[str]:
     unknown = [name for name in found if name not in assets.PROBE_NAMES]
     if unknown or not found:
         raise InputError(
-            f"there is no probe {', '.join(unknown)!r}: choose one of {', '.join(assets.PROBE_NAMES)}."
+            f"there is no probe {arg(', '.join(unknown))!r}: choose one of {arg(', '.join(assets.PROBE_NAMES))}."
         )
     return found
 
@@ -113,7 +113,7 @@ class MarkerStation:
         moment = self.scene.settle()
         if moment is None:
             raise InputError(
-                f"the tip slips at {np.round(1e3 * self._where, 1)} mm: choose a marker with more face around it."
+                f"the tip slips at {arg(np.round(1e3 * self._where, 1))} mm: choose a marker with more face around it."
             )
         return moment
 

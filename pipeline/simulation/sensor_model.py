@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -57,9 +57,9 @@ class SensorSettings:
             value = np.array(getattr(self, name), dtype=np.float64)
             finite = np.isfinite(value).all() or (name == "limit" and not np.isnan(value).any())
             if value.shape != (6,) or not finite:
-                raise InputError(f"sensor model: {name}: give six finite numbers, not {value}.")
+                raise InputError(f"sensor model: {arg(name)}: give six finite numbers, not {arg(value)}.")
             if name in ("noise", "resolution", "limit", "hysteresis") and (value < 0).any():
-                raise InputError(f"sensor model: {name}: give numbers of 0 or more, not {value}.")
+                raise InputError(f"sensor model: {arg(name)}: give numbers of 0 or more, not {arg(value)}.")
             object.__setattr__(self, name, value)
         crosstalk = np.array(self.crosstalk, dtype=np.float64)
         if crosstalk.shape != (6, 6) or not np.isfinite(crosstalk).all():
@@ -67,15 +67,17 @@ class SensorSettings:
         object.__setattr__(self, "crosstalk", crosstalk)
         if not (0 <= self.hysteresis_of_load <= 1 and 0 <= self.creep <= 1):
             raise InputError(
-                f"sensor model: hysteresis of load {self.hysteresis_of_load}, creep {self.creep}: give shares from 0"
-                " to 1."
+                f"sensor model: hysteresis of load {arg(self.hysteresis_of_load)}, creep {arg(self.creep)}:"
+                " give shares from 0 to 1."
             )
         if not 0 < self.rate <= _HIGHEST_RATE:
             raise InputError(
-                f"sensor model: rate {self.rate:g} Hz: give one above 0, up to {_HIGHEST_RATE:g}."
+                f"sensor model: rate {arg(self.rate):g} Hz: give one above 0, up to {arg(_HIGHEST_RATE):g}."
             )
         if not (np.isfinite(self.warm_up).all() and self.warm_up[1] > 0 and np.isfinite(self.ambient)):
-            raise InputError(f"sensor model: warm-up {self.warm_up}: give kelvin and a positive time, s.")
+            raise InputError(
+                f"sensor model: warm-up {arg(self.warm_up)}: give kelvin and a positive time, s."
+            )
 
     @property
     def wrench_noise(self) -> WrenchNoise:
@@ -153,7 +155,7 @@ def preset(name: str) -> SensorSettings:
         There is none of that name.
     """
     if name not in PRESETS:
-        raise InputError(f"sensor model {name!r}: choose one of {', '.join(PRESETS)}.")
+        raise InputError(f"sensor model {arg(name)!r}: choose one of {arg(', '.join(PRESETS))}.")
     return PRESETS[name]
 
 

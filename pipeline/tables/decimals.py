@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import plain_rows
 
 if TYPE_CHECKING:
@@ -63,5 +64,5 @@ def floats_of(cells: Sequence[bytes]) -> npt.NDArray[np.float64]:
     """Read texts (n,) without commas as numbers; NaN where one is empty, and ValueError where one is no number."""
     found = numbers_of(b"".join((b"\n".join(cells), b"\n")), 1, (0,), (False,)) if cells else None
     if found is None or len(found[0]) != len(cells):
-        raise ValueError("one of the cells is no number")
+        raise ValueError(message("one of the cells is no number"))
     return found[0][:, 0]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
 
@@ -35,16 +36,18 @@ def open_table(
         In bytes; 0 if that is unknown.
     """
     if not isinstance(source, File):
-        yield source, "standard input", 0
+        yield source, message("standard input"), 0
         return
     try:
         stream = source.open("rb")
     except FileNotFoundError:
-        raise error(f"{source}: there is no such file: check the path.") from None
+        raise error(message(f"{arg(source)}: there is no such file: check the path.")) from None
     except IsADirectoryError:
-        raise error(f"{source}: this is a folder: choose a CSV file inside it.") from None
+        raise error(message(f"{arg(source)}: this is a folder: choose a CSV file inside it.")) from None
     except (OSError, ValueError) as fault:
-        raise error(f"{source}: the file cannot be opened ({fault}): check its permissions.") from fault
+        raise error(
+            message(f"{arg(source)}: the file cannot be opened ({arg(fault)}): check its permissions.")
+        ) from fault
     with stream:
         yield stream, str(source), os.fstat(stream.fileno()).st_size
 
@@ -85,7 +88,9 @@ def read_table(
         select(reader)
         for rows in reader:
             if len(rows.lines) > room:
-                what = f"more than {row_limit:,} rows of {wording.rows}: choose the right file or shorten it."
+                what = message(
+                    f"more than {arg(row_limit):,} rows of {arg(wording.rows)}: choose the right file or shorten it."
+                )
                 raise reader.error(what, int(rows.lines[room]))
             room -= len(rows.lines)
             blocks.append(rows)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables.decimals import numbers_of
 
 if TYPE_CHECKING:
@@ -44,8 +44,8 @@ class Wording:
     rows: str = "numbers"  # What the rows are, in the plural
     meaning: str = ""  # Units and frames of the columns; follows "Name the columns t,x,y,z: "
     # What to do about a NaN, an infinity or an empty cell: a remedy with a full stop
-    not_finite: str = "correct or remove the row."
-    text: str = "a short text"  # What the text column should hold
+    not_finite: str = message("correct or remove the row.")
+    text: str = message("a short text")  # What the text column should hold
     error: type[InputError] = TableError  # What is raised
 
 
@@ -139,7 +139,7 @@ class TableReader:
         """
         self.columns = (*required, *(column for column in optional if column in self.names))
         if not self.columns:
-            raise ValueError("select at least one column of numbers")
+            raise ValueError(message("select at least one column of numbers"))
         wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
         self._check_names([column for column in wanted if column not in self.names], list(wanted))
         self._indices = [self.names.index(column) for column in self.columns]
@@ -149,7 +149,7 @@ class TableReader:
     def __iter__(self) -> Iterator[TableRows]:
         """Yield blocks of at least one row."""
         if not self.columns:
-            raise RuntimeError("select columns before reading rows")
+            raise RuntimeError(message("select columns before reading rows"))
         empty = True
         while self._pending:
             rows = self._parse(self._pending)
@@ -159,11 +159,15 @@ class TableReader:
                 yield rows
             self._pending = next(self._blocks, b"")
         if empty:
-            raise self.error("there is a header but no row below it: record again or choose another file.")
+            raise self.error(
+                message("there is a header but no row below it: record again or choose another file.")
+            )
 
     def error(self, what: str, line: int | None = None) -> InputError:
         """Return the error to raise about this file, for what only the caller can find wrong."""
-        return self._wording.error(f"{self._name}: " + ("" if line is None else f"line {line}: ") + what)
+        if line is None:
+            return self._wording.error(message(f"{arg(self._name)}: {arg(what)}"))
+        return self._wording.error(message(f"{arg(self._name)}: line {arg(line)}: {arg(what)}"))
 
     # ---- bytes -------------------------------------------------------------------------------
 
@@ -178,8 +182,8 @@ class TableReader:
             else:
                 rest += data
             if len(rest) > _LONGEST_LINE:
-                what = (
-                    f"a line is longer than 1 MiB, so this is not a CSV file of {self._wording.rows}:"
+                what = message(
+                    f"a line is longer than 1 MiB, so this is not a CSV file of {arg(self._wording.rows)}:"
                     " choose another."
                 )
                 raise self.error(what)
@@ -190,7 +194,9 @@ class TableReader:
         try:
             data = self._stream.read(self._block_bytes)
         except OSError as error:
-            raise self.error(f"the file cannot be read ({error}): copy it to another location.") from error
+            raise self.error(
+                message(f"the file cannot be read ({arg(error)}): copy it to another location.")
+            ) from error
         self.bytes_read += len(data)
         return data
 
@@ -203,7 +209,7 @@ class TableReader:
                 bad = error.start
         if bad >= 0:
             line = self._line + block.count(b"\n", 0, bad)
-            raise self.error("this is not UTF-8 text: save the table as CSV (UTF-8).", line)
+            raise self.error(message("this is not UTF-8 text: save the table as CSV (UTF-8)."), line)
         return block.replace(b"\r\n", b"\n") if b"\r" in block else block
 
     # ---- header ------------------------------------------------------------------------------
@@ -211,7 +217,9 @@ class TableReader:
     def _header(self) -> tuple[str, ...]:
         block = next(self._blocks, b"").removeprefix(_BOM)
         if not block.strip():
-            what = f"the file is empty: it needs the header {self._wording.header} and rows below it."
+            what = message(
+                f"the file is empty: it needs the header {arg(self._wording.header)} and rows below it."
+            )
             raise self.error(what)
         end = block.index(b"\n") + 1
         names = tuple(cell.strip() for cell in self._split(block[: end - 1].decode(), 1))
@@ -221,24 +229,31 @@ class TableReader:
 
     def _check_names(self, missing: Sequence[str], wanted: Sequence[str]) -> None:
         if missing:
-            found = ", ".join(name if name else "(no name)" for name in self.names)
-            what = f"column{'s' * (len(missing) > 1)} {', '.join(missing)} missing; found: {found[:200]}."
-            raise self.error(f"{what} {self._header_remedy()}", 1)
+            found = ", ".join(name if name else message("(no name)") for name in self.names)
+            lost = message("column") if len(missing) == 1 else message("columns")
+            what = message(f"{arg(lost)} {arg(', '.join(missing))} missing; found: {arg(found[:200])}.")
+            raise self.error(message(f"{arg(what)} {arg(self._header_remedy())}"), 1)
         for column in wanted:
             count = self.names.count(column)
             if count > 1:
-                raise self.error(f"column {column} occurs {count} times: keep one and rename the others.", 1)
+                raise self.error(
+                    message(
+                        f"column {arg(column)} occurs {arg(count)} times: keep one and rename the others."
+                    ),
+                    1,
+                )
 
     def _header_remedy(self) -> str:
         header = self._wording.header
         if any(mark in name for name in self.names for mark in ";\t"):
-            return f"Separate the columns with commas and write decimals with a point: {header}"
+            return message(f"Separate the columns with commas and write decimals with a point: {arg(header)}")
         try:
             float(self.names[0] if self.names else "")
         except ValueError:
-            meaning = self._wording.meaning
-            return f"Name the columns {header}" + (f": {meaning}." if meaning else ".")
-        return f"The first line contains numbers: put the header {header} above it."
+            if meaning := self._wording.meaning:
+                return message(f"Name the columns {arg(header)}: {arg(meaning)}.")
+            return message(f"Name the columns {arg(header)}.")
+        return message(f"The first line contains numbers: put the header {arg(header)} above it.")
 
     # ---- rows --------------------------------------------------------------------------------
 
@@ -284,35 +299,43 @@ class TableReader:
         try:
             return next(csv.reader([text], strict=True), [])
         except csv.Error as error:
-            what = f"the cells cannot be separated ({error}): check the quotes and the line ends."
+            what = message(
+                f"the cells cannot be separated ({arg(error)}): check the quotes and the line ends."
+            )
             raise self.error(what, line) from None
 
     def _check_count(self, cells: list[str], line: int) -> None:
         if len(cells) == len(self.names):
             return
-        what = f"{len(cells)} cell{'s' * (len(cells) != 1)}, but the header has {len(self.names)}"
+        what = message(
+            f"{arg(len(cells))} cell{arg('s' * (len(cells) != 1))}, but the header has {arg(len(self.names))}"
+        )
         if len(cells) < len(self.names):
-            raise self.error(f"{what}: complete the row or remove it.", line)
-        raise self.error(f"{what}: remove the surplus, and write decimals with a point.", line)
+            raise self.error(message(f"{arg(what)}: complete the row or remove it."), line)
+        raise self.error(message(f"{arg(what)}: remove the surplus, and write decimals with a point."), line)
 
     def _number(self, cell: str, place: int, line: int) -> float:
         text = cell.strip()
         if not text:
             if not self._finite[place]:
                 return math.nan
-            raise self.error(f"column {self.columns[place]} is empty: {self._wording.not_finite}", line)
+            raise self.error(
+                message(f"column {arg(self.columns[place])} is empty: {arg(self._wording.not_finite)}"), line
+            )
         try:
             # Python also takes 1_000 and the digits of other scripts, which no other reader does.
-            return float(text if text.isascii() and "_" not in text else "no number")
+            return float(text if text.isascii() and "_" not in text else message("no number"))
         except ValueError:
-            what = f"holds {text[:40]!r}, which is not a number: correct or remove the row."
-            raise self.error(f"column {self.columns[place]} {what}", line) from None
+            what = message(f"holds {arg(text[:40])!r}, which is not a number: correct or remove the row.")
+            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), line) from None
 
     def _text_cell(self, cell: str, line: int) -> bytes:
         text = cell.encode()
         if len(text) > _LONGEST_TEXT:
-            what = f"has {len(text)} bytes, more than {_LONGEST_TEXT}: it should hold {self._wording.text}."
-            raise self.error(f"column {self.names[self._text or 0]} {what}", line)
+            what = message(
+                f"has {arg(len(text))} bytes, more than {arg(_LONGEST_TEXT)}: it should hold {arg(self._wording.text)}."
+            )
+            raise self.error(message(f"column {arg(self.names[self._text or 0])} {arg(what)}"), line)
         if any(mark in cell for mark in ',"\r'):
             return b'"' + text.replace(b'"', b'""') + b'"'
         return text
@@ -323,5 +346,5 @@ class TableReader:
         bad = np.argwhere(~np.isfinite(rows.numbers) & self._finite)
         if len(bad):
             row, place = bad[0].tolist()
-            what = f"holds {rows.numbers[row, place]}: {self._wording.not_finite}"
-            raise self.error(f"column {self.columns[place]} {what}", int(rows.lines[row]))
+            what = message(f"holds {arg(rows.numbers[row, place])}: {arg(self._wording.not_finite)}")
+            raise self.error(message(f"column {arg(self.columns[place])} {arg(what)}"), int(rows.lines[row]))

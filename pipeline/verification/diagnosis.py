@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
 from contactbench.pipeline.verification.figures import ErrorCause, ErrorDiagnosis, Refined, Share
 from contactbench.pipeline.verification.statistics import vector
@@ -29,27 +30,29 @@ _BETTER = 0.9
 _MISPLACED = 3.0  # times the usual: such a marker stands out
 
 _REMEDIES = {
-    ErrorCause.ALIGNMENT: (
+    ErrorCause.ALIGNMENT: message(
         "Realign the probe with touches on all of its sides. If the refined alignment helps, it is enough."
     ),
-    ErrorCause.GRAVITY: (
+    ErrorCause.GRAVITY: message(
         "Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and"
         " the cable routed as in use."
     ),
-    ErrorCause.NOISE: (
+    ErrorCause.NOISE: message(
         "Average more samples, use a stronger filter or press harder. Look for vibration, and for"
         " markers that were not hit exactly."
     ),
-    ErrorCause.MESH: "Use a finer mesh, or rescan the probe where the markers do not lie on its surface.",
-    ErrorCause.TORSION: (
+    ErrorCause.MESH: message(
+        "Use a finer mesh, or rescan the probe where the markers do not lie on its surface."
+    ),
+    ErrorCause.TORSION: message(
         "Press with a tip that turns freely and does not grip, or at smaller angles: the torque"
         " at the contact is not about the surface normal."
     ),
-    ErrorCause.MOUNT: (
+    ErrorCause.MOUNT: message(
         "The probe rotates against its sensor under load: tighten or stiffen its mount, then"
         " realign and verify again."
     ),
-    ErrorCause.SENSOR: (
+    ErrorCause.SENSOR: message(
         "Touches differ by more than their own noise, and not as a wrong weight, alignment, mesh"
         " or marker would make them: hysteresis or creep of the sensor, a dragging cable, or a"
         " hand on the handle. More samples do not help. Let the sensor rest between touches,"
@@ -78,25 +81,39 @@ def diagnose(evidence: TouchEvidence, within: bool, names: Sequence[str] = ()) -
         for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
         if share > 0 or cause in _LISTED
     )
-    remedy = "No action needed."
+    remedy = message("No action needed.")
     if not within:
         remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
-    return ErrorDiagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
+    return ErrorDiagnosis(
+        found.first, message(f"{arg(_paragraph(shares, found, within))} {arg(remedy)}"), shares, found.scale
+    )
 
 
 def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str:
     first = shares[0]
-    named = " or ".join((first.cause, *found.rivals))
-    part = "most" if first.share > 0.5 else "the largest part"
+    named = join(message(" or "), (first.cause, *found.rivals))
+    part = message("most") if first.share > 0.5 else message("the largest part")
     start = (
-        f"The errors are within the limits; {part} of the remaining error comes from {named}"
+        message(
+            f"The errors are within the limits; {arg(part)} of the remaining error comes from {arg(named)}"
+        )
         if within
-        else f"Fix first: {named}. It explains {part} of the squared error"
+        else message(f"Fix first: {arg(named)}. It explains {arg(part)} of the squared error")
     )
-    others = [f"{each.cause} {100 * each.share:.0f} %" for each in shares[1:] if each.share >= CONFIRMED]
-    also = f"; then {', '.join(others)}" if others else "" if found.rivals else "; no other cause shows"
-    left = f" The unexplained scatter is {found.scale:.1f} times the expected noise."
-    return f"{start} ({100 * first.share:.0f} %{also}).{left}"
+    others = [
+        message(f"{arg(each.cause)} {arg(100 * each.share):.0f} %")
+        for each in shares[1:]
+        if each.share >= CONFIRMED
+    ]
+    also = (
+        message(f"; then {arg(join(', ', others))}")
+        if others
+        else ""
+        if found.rivals
+        else message("; no other cause shows")
+    )
+    left = message(f" The unexplained scatter is {arg(found.scale):.1f} times the expected noise.")
+    return message(f"{arg(start)} ({arg(100 * first.share):.0f} %{arg(also)}).{arg(left)}")
 
 
 def _undecided(found: Explained) -> str:
@@ -104,10 +121,10 @@ def _undecided(found: Explained) -> str:
     if not found.rivals:
         return ""
     if {found.first, *found.rivals} == {ErrorCause.ALIGNMENT, ErrorCause.GRAVITY}:
-        more = "touch in a second orientation, or on other sides."
+        more = message("touch in a second orientation, or on other sides.")
     else:
-        more = "touch more markers, from other angles and in other orientations."
-    return f"These touches cannot tell which it is; {more}"
+        more = message("touch more markers, from other angles and in other orientations.")
+    return message(f"These touches cannot tell which it is; {arg(more)}")
 
 
 def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> str:
@@ -118,11 +135,12 @@ def _places(evidence: TouchEvidence, found: Explained, names: Sequence[str]) -> 
     least = max(_MISPLACED * float(np.median(moved)), 0.1 * float(moved.max()))
     out = [int(each) for each in markers[moved > least]]
     called = [names[each] if names else str(each + 1) for each in out]
-    which = f" {', '.join(called)}" if called else ""
-    return (
+    which = message(f" {arg(', '.join(called))}") if called else ""
+    several = message("markers") if out else message("the markers")
+    them = message("the marker") if len(out) == 1 else several
+    return message(
         "The error is the same at each touch of a marker but differs between markers: check the"
-        " positions of"
-        f" {'the marker' if len(out) == 1 else 'the markers' if not out else 'markers'}{which}."
+        f" positions of {arg(them)}{arg(which)}."
     )
 
 

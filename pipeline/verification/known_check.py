@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -84,7 +84,7 @@ def load_calibrated(
     record = load_record(file)
     verdict = record.calibration.verdict
     refused = verdict.level is Level.REFUSE
-    faults = (f"The calibration was refused: {verdict.reasons[0]}",) if refused else ()
+    faults = (message(f"The calibration was refused: {arg(verdict.reasons[0])}"),) if refused else ()
     if R_ES is None and record.mount is not None:
         R_ES = record.mount.R_SE.T
     return record.calibration, R_ES, faults
@@ -105,18 +105,22 @@ def read_check(kind: str, file: File) -> dict[str, Any]:
     InputError
         It cannot be read, or is something else.
     """
-    remedy = f"choose a file written by `contactbench calibrate check {kind.removeprefix('known_')} --out`."
+    remedy = message(
+        f"choose a file written by `contactbench calibrate check {arg(kind.removeprefix('known_'))} --out`."
+    )
     try:
         content = json.loads(file.read_bytes())
     except (OSError, ValueError, RecursionError) as error:
-        raise InputError(f"{file}: the file cannot be read ({error!s:.100}): {remedy}") from error
+        raise InputError(
+            f"{arg(file)}: the file cannot be read ({arg(str(error)[:100])}): {arg(remedy)}"
+        ) from error
     known = isinstance(content, dict) and (content.get("schema"), content.get("version")) == (
         SCHEMAS[kind],
         VERSION,
     )
     words = (content.get("sentence"), content.get("outcome")) if known else ()
     if not words or not isinstance(words[0], str) or words[1] not in set(CheckOutcome):
-        raise InputError(f"{file}: not a {SCHEMAS[kind]} of version {VERSION}: {remedy}")
+        raise InputError(f"{arg(file)}: not a {arg(SCHEMAS[kind])} of version {arg(VERSION)}: {arg(remedy)}")
     found: dict[str, Any] = content
     return found
 
@@ -134,14 +138,20 @@ def or_none(value: float) -> float | None:
 def likely(causes: list[str]) -> str:
     """Return sentences that name causes, the likeliest first."""
     first, *others = causes
-    return " ".join([f"Likely cause: {first}.", *(f"Also possible: {each}." for each in others)])
+    return join(
+        " ",
+        [
+            message(f"Likely cause: {arg(first)}."),
+            *(message(f"Also possible: {arg(each)}.") for each in others),
+        ],
+    )
 
 
 def words_of(outcome: CheckOutcome, reasons: list[str], passed: str) -> str:
     """Return the one paragraph that says all."""
     start = {
         CheckOutcome.PASSED: passed,
-        CheckOutcome.FAILED: "The check failed.",
-        CheckOutcome.UNDECIDED: "The check is inconclusive.",
+        CheckOutcome.FAILED: message("The check failed."),
+        CheckOutcome.UNDECIDED: message("The check is inconclusive."),
     }[outcome]
-    return " ".join([start, *reasons])
+    return join(" ", [start, *reasons])

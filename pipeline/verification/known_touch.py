@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.knobs import Three
 from contactbench.pipeline.settings import TouchSettings
 from contactbench.pipeline.verification.known_check import (
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_POINT = "the point"
+_POINT = message("the point")
 # A finger trembles and gives way; what counts is where it pressed, not how steadily.
 PROTOCOL = ProtocolSettings(windows=((3.0, 60.0),), order=(_POINT,), steady_N=1.0, slip_m=0.005)
 _EXCLUDED = 2.0  # standard deviations beyond the limit of an error that is no chance
@@ -71,41 +71,48 @@ class Mistake:
 def _mistakes() -> Iterator[Mistake]:
     """Yield the mistakes that a touch can show, the usual ones first."""
     for force, torque, words in (
-        (1, -1, "the torques have the wrong sign"),
-        (-1, -1, "all channels have the wrong sign: the sensor reports the force on its other side"),
-        (-1, 1, "the forces have the wrong sign"),
-        (1, 1e-3, "the torques are in N·mm, not N·m"),
-        (1, 1e-2, "the torques are in N·cm, not N·m"),
-        (9.80665, 1, "the forces are in kgf, not N"),
-        (4.448222, 1, "the forces are in lbf, not N"),
-        (1, 1e3, "the torques are in kN·m, or were divided by 1000 once too often"),
-        (1, 0.112985, "the torques are in lbf·in, not N·m"),
-        (1, 1.355818, "the torques are in lbf·ft, not N·m"),
-        (1, 9.80665, "the torques are in kgf·m, not N·m"),
-        (1, 9.80665e-2, "the torques are in kgf·cm, not N·m"),
-        (4.448222, 0.112985, "forces and torques are in lbf and lbf·in, not N and N·m"),
-        (9.80665, 9.80665e-3, "forces and torques are in kgf and kgf·mm, not N and N·m"),
+        (1, -1, message("the torques have the wrong sign")),
+        (-1, -1, message("all channels have the wrong sign: the sensor reports the force on its other side")),
+        (-1, 1, message("the forces have the wrong sign")),
+        (1, 1e-3, message("the torques are in N·mm, not N·m")),
+        (1, 1e-2, message("the torques are in N·cm, not N·m")),
+        (9.80665, 1, message("the forces are in kgf, not N")),
+        (4.448222, 1, message("the forces are in lbf, not N")),
+        (1, 1e3, message("the torques are in kN·m, or were divided by 1000 once too often")),
+        (1, 0.112985, message("the torques are in lbf·in, not N·m")),
+        (1, 1.355818, message("the torques are in lbf·ft, not N·m")),
+        (1, 9.80665, message("the torques are in kgf·m, not N·m")),
+        (1, 9.80665e-2, message("the torques are in kgf·cm, not N·m")),
+        (4.448222, 0.112985, message("forces and torques are in lbf and lbf·in, not N and N·m")),
+        (9.80665, 9.80665e-3, message("forces and torques are in kgf and kgf·mm, not N and N·m")),
     ):
         yield Mistake(words, np.diag(np.repeat([float(force), torque], 3)))
     for turn in (90, 180, -90):
         R = Rotation.from_euler("z", -turn, degrees=True).as_matrix()
-        words = f"the probe's mesh is turned by {turn}° about the sensor's z axis, or the sensor on its mount"
+        words = message(
+            f"the probe's mesh is turned by {arg(turn)}° about the sensor's z axis, or the sensor on its mount"
+        )
         yield Mistake(words, _both(R))
     for axis in "xy":
         R = Rotation.from_euler(axis, 180, degrees=True).as_matrix()
-        yield Mistake(f"the probe's mesh is turned by 180° about the sensor's {axis} axis", _both(R))
+        yield Mistake(
+            message(f"the probe's mesh is turned by 180° about the sensor's {arg(axis)} axis"), _both(R)
+        )
     for row in range(6):
         signs = np.ones(6)
         signs[row] = -1
-        yield Mistake(f"the channel {'fm'[row // 3]}{'xyz'[row % 3]} has the wrong sign", np.diag(signs))
+        yield Mistake(
+            message(f"the channel {arg('fm'[row // 3])}{arg('xyz'[row % 3])} has the wrong sign"),
+            np.diag(signs),
+        )
     for a, b in ((0, 1), (1, 2), (0, 2)):
         P = np.eye(3)
         P[[a, b]] = P[[b, a]]
         one, other = "xyz"[a], "xyz"[b]
-        yield Mistake(f"the channels of {one} and {other} are swapped", _both(P))
+        yield Mistake(message(f"the channels of {arg(one)} and {arg(other)} are swapped"), _both(P))
         torques = np.eye(6)
         torques[3:, 3:] = P
-        yield Mistake(f"the torque channels of {one} and {other} are swapped", torques)
+        yield Mistake(message(f"the torque channels of {arg(one)} and {arg(other)} are swapped"), torques)
 
 
 def _both(T: Floats) -> Floats:
@@ -193,7 +200,9 @@ def check_touch(
         Nothing settled touches the probe.
     """
     if not (0 <= point_sigma < 1 and 0 < limit < 1):
-        raise InputError(f"limit {limit:g} m, point {point_sigma:g} m: give lengths between 0 and 1 m.")
+        raise InputError(
+            f"limit {arg(limit):g} m, point {arg(point_sigma):g} m: give lengths between 0 and 1 m."
+        )
     marker, _ = with_normals(make_markers(np.asarray(point, dtype=np.float64)[None], [_POINT]), probe)
     compensated = recording.compensated(model)
     noise, correlation, _ = measured_noise(compensated, PROTOCOL, None)
@@ -204,7 +213,7 @@ def check_touch(
             float(np.linalg.norm(compensated.wrenches[:, :3], axis=1).max()) if len(recording.times) else 0.0
         )
         raise InputError(
-            f"No steady press: |F| reaches {most:.1f} N. Press with 5 to 15 N for a second, then let go. If the"
+            f"No steady press: |F| reaches {arg(most):.1f} N. Press with 5 to 15 N for a second, then let go. If the"
             " press was harder, the forces are not in N: check them with a known weight."
         )
     return _judged(touches, compensated, placing, point_sigma, limit, faults)
@@ -237,21 +246,25 @@ def _judged(
         reasons = [_where(error, sigma), presses.cause(allowed)]
     elif error > limit or sigma > limit / _EXCLUDED:
         outcome = CheckOutcome.UNDECIDED
-        what = f"Press harder with something thin, and hit the point to within {500 * limit:.1f} mm."
+        what = message(
+            f"Press harder with something thin, and hit the point to within {arg(500 * limit):.1f} mm."
+        )
         reasons = [_where(error, sigma), what]
     elif any(presses.would_hide(each, allowed) for each in _MUST_SHOW):
         outcome = CheckOutcome.UNDECIDED
         reasons = [
-            (
-                f"The line of force passes only {1e3 * presses.lever:.0f} mm from the sensor's"
+            message(
+                f"The line of force passes only {arg(1e3 * presses.lever):.0f} mm from the sensor's"
                 " origin, so a wrong sign or unit of the torques would not show."
             ),
-            f"Press a point on the side of the probe, at least {3e3 * limit:.0f} mm from the sensor's axis.",
+            message(
+                f"Press a point on the side of the probe, at least {arg(3e3 * limit):.0f} mm from the sensor's axis."
+            ),
         ]
     if faults:
         outcome, reasons = CheckOutcome.FAILED, [*faults, *reasons]
-    passed = (
-        f"The press was located {1e3 * (error or 0.0):.1f} ± {1e3 * sigma:.1f} mm from the known"
+    passed = message(
+        f"The press was located {arg(1e3 * (error or 0.0)):.1f} ± {arg(1e3 * sigma):.1f} mm from the known"
         " point: signs and units are correct."
     )
     return TouchCheck(
@@ -299,14 +312,14 @@ class _Presses:
     def cause(self, allowed: float) -> str:
         """Say which mistakes explain that the point was missed."""
         if self._fit(self.wrenches) <= allowed:
-            return (
+            return message(
                 "The line of force passes through the point, but no contact was found there."
                 " Check the mesh at this point, and that nothing else touched the probe."
             )
         fits = [self._fit(self.wrenches @ each.T.T) for each in MISTAKES]
         best = min(fits)
         if best > allowed:
-            return (
+            return message(
                 "No common mistake explains it. Check that the right point was pressed, that"
                 " nothing else touched the probe, and how the mesh is aligned with the sensor."
             )
@@ -343,8 +356,10 @@ def _located(touch: Touch, wrench: Floats, placing: TouchLocator) -> Floats | No
 
 def _where(error: float | None, sigma: float) -> str:
     if error is None:
-        return "No single touch on the probe explains the press."
-    return f"The press was located {1e3 * error:.1f} ± {1e3 * sigma:.1f} mm from the known point."
+        return message("No single touch on the probe explains the press.")
+    return message(
+        f"The press was located {arg(1e3 * error):.1f} ± {arg(1e3 * sigma):.1f} mm from the known point."
+    )
 
 
 # ---- from files ----------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from scipy.special import chdtrc
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG, WeightSettings
 from contactbench.pipeline.verification.known_check import (
     SCHEMAS,
@@ -59,17 +59,23 @@ _OFFSET_N = 0.3  # N: a zero that is further off was moved since the calibration
 
 # What measured over true weight is if ..., and why. The first that fits is told.
 _FACTORS = (
-    (1 / 9.80665, "The forces are in kgf (kilograms), not N: multiply them by 9.80665."),
-    (9.80665, "The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N."),
-    (1 / 4.448222, "The forces are in lbf (pounds), not N: multiply them by 4.448."),
-    (4.448222, "The forces were multiplied by 4.448 once too often: they are treated as lbf, but are in N."),
-    (0.45359237, "The mass was probably given in pounds: give it in kg."),
+    (1 / 9.80665, message("The forces are in kgf (kilograms), not N: multiply them by 9.80665.")),
+    (
+        9.80665,
+        message("The forces were multiplied by 9.81 once too often: they are treated as kgf, but are in N."),
+    ),
+    (1 / 4.448222, message("The forces are in lbf (pounds), not N: multiply them by 4.448.")),
+    (
+        4.448222,
+        message("The forces were multiplied by 4.448 once too often: they are treated as lbf, but are in N."),
+    ),
+    (0.45359237, message("The mass was probably given in pounds: give it in kg.")),
     (
         2.20462262,
-        "The weight is probably marked in pounds, or two weights hang on the tool.",
+        message("The weight is probably marked in pounds, or two weights hang on the tool."),
     ),
-    (1e-3, "The mass was given in grams instead of kg, or the forces are in kN."),
-    (1e3, "The forces are in mN, or the mass was given in tonnes: give it in kg."),
+    (1e-3, message("The mass was given in grams instead of kg, or the forces are in kN.")),
+    (1e3, message("The forces are in mN, or the mass was given in tonnes: give it in kg.")),
 )
 _LEVERS = ((1000.0, "N·mm"), (100.0, "N·cm"))
 _AXES = "xyz"
@@ -155,12 +161,17 @@ def check_weight(
     """
     for name, poses in (("unloaded", unloaded), ("loaded", loaded)):
         if not poses:
-            raise InputError(f"{name}: there are no still readings: hold the tool still for a few seconds.")
+            raise InputError(
+                f"{arg(name)}: there are no still readings: hold the tool still for a few seconds."
+            )
     if not (0 < mass < 1000 and 0 <= mass_sigma < mass):
-        raise InputError(f"mass {mass:g} ± {mass_sigma:g} kg: give a mass above 0 and a smaller uncertainty.")
+        raise InputError(
+            f"mass {arg(mass):g} ± {arg(mass_sigma):g} kg: give a mass above 0 and a smaller uncertainty."
+        )
     if gravity is not None and not _GRAVITY_RANGE[0] <= gravity <= _GRAVITY_RANGE[1]:
         raise InputError(
-            f"gravity {gravity:g} m/s²: give a value between {_GRAVITY_RANGE[0]} and {_GRAVITY_RANGE[1]}."
+            f"gravity {arg(gravity):g} m/s²: give a value between {arg(_GRAVITY_RANGE[0])} and"
+            f" {arg(_GRAVITY_RANGE[1])}."
         )
     g = STANDARD_GRAVITY if gravity is None else gravity
     of_weight = float(np.hypot(mass_sigma / mass, 0.0 if gravity is not None else _GRAVITY_SIGMA / g))
@@ -277,26 +288,34 @@ class _Weighed:
         aside = angle > _TILT + _SURE * sigma and angle < np.pi - _TILT - _SURE * sigma
         if aside and np.linalg.norm(self.force) > _THERE * np.sqrt(np.trace(self.covariance)):
             found.append(
-                f"The force changes in a direction {np.degrees(angle):.0f}° away from straight"
-                f" down. {self._sideways()}"
+                message(
+                    f"The force changes in a direction {arg(np.degrees(angle)):.0f}° away from straight"
+                    f" down. {arg(self._sideways())}"
+                )
             )
         elif self.freedom > 0 and chdtrc(self.freedom, self.chi_square) < _INCONSISTENT:
             times = np.sqrt(self.chi_square / self.freedom)
             found.append(
-                f"The readings differ between poses by {times:.1f} times what noise and"
-                " calibration explain: something swung, touched the tool or slipped, or the force"
-                " channels have different scales."
+                message(
+                    f"The readings differ between poses by {arg(times):.1f} times what noise and"
+                    " calibration explain: something swung, touched the tool or slipped, or the force"
+                    " channels have different scales."
+                )
             )
         return found
 
     def _sideways(self) -> str:
         """Say which channels are exchanged or negated, if that explains the change."""
         changes = [
-            (f"the channels f{one} and f{other} are swapped", _swap(_AXES.index(one), _AXES.index(other)))
+            (
+                message(f"the channels f{arg(one)} and f{arg(other)} are swapped"),
+                _swap(_AXES.index(one), _AXES.index(other)),
+            )
             for one, other in ("xy", "yz", "xz")
         ]
         changes += [
-            (f"the channel f{axis} has the wrong sign", _negate(row)) for row, axis in enumerate(_AXES)
+            (message(f"the channel f{arg(axis)} has the wrong sign"), _negate(row))
+            for row, axis in enumerate(_AXES)
         ]
         loads = self.model.gravity_W + self.loads[:, None] * self.weight * self.down
         expected = np.einsum("nij,nj->ni", self.R_SW, loads) + self.model.force_bias
@@ -307,7 +326,7 @@ class _Weighed:
             if float(np.sqrt((left**2).sum() / self.loads.sum())) < _EXPLAINED * self.weight:
                 fitting.append(words)
         if not fitting:
-            return "The orientations or the mount are wrong, or something else pulled on the tool."
+            return message("The orientations or the mount are wrong, or something else pulled on the tool.")
         return likely(fitting)
 
     def lever(self) -> tuple[float, float]:
@@ -328,37 +347,39 @@ class _Weighed:
     def why(self, scale: float, sigma: float, significance: float) -> str:
         """Say how far the weight is off, and the likely cause."""
         if abs(significance) < _SURE:
-            return (
+            return message(
                 "The readings do not show the weight: it was not on the tool, it rested on"
                 " something, or the readings with and without it are the same."
             )
         size, sign = abs(scale), self._sign(scale)
         for factor, cause in _FACTORS:
             if abs(size / factor - 1) < _SAME_FACTOR:
-                return f"The sensor reads {size:.4g} times the weight. {cause} {sign}".strip()
+                return message(
+                    f"The sensor reads {arg(size):.4g} times the weight. {arg(cause)} {arg(sign)}"
+                ).strip()
         if sign:
-            return f"The sensor reads {size:.4g} times the weight, upwards. {sign}"
+            return message(f"The sensor reads {arg(size):.4g} times the weight, upwards. {arg(sign)}")
         off, unsure = f"{100 * abs(scale - 1):.1f}", f"{100 * sigma:.1f}"
         first = (
-            f"The sensor reads {off} ± {unsure} % too much."
+            message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too much.")
             if scale > 1
-            else f"The sensor reads {off} ± {unsure} % too little."
+            else message(f"The sensor reads {arg(off)} ± {arg(unsure)} % too little.")
         )
-        return (
-            f"{first} Check that the weight hangs freely, and that the sensor's own calibration"
+        return message(
+            f"{arg(first)} Check that the weight hangs freely, and that the sensor's own calibration"
             " and range are correct. If they are, multiply its forces and torques by"
-            f" {1 / scale:.4f}."
+            f" {arg(1 / scale):.4f}."
         )
 
     def _sign(self, scale: float) -> str:
         if scale >= 0:
             return ""
         if self.model.gravity_W @ self.down > 0:  # the tool's own weight points down
-            return (
+            return message(
                 "The readings with and without the weight are probably swapped: the tool's own"
                 " weight points down."
             )
-        return (
+        return message(
             "The forces have the wrong sign, or the world's z axis points down: give the direction of down."
         )
 
@@ -367,13 +388,17 @@ class _Weighed:
         found = []
         if untested := [f"f{axis}" for axis in _AXES if axis not in self.axes]:
             found.append(
-                f"The weight hardly loaded {', '.join(untested)}: tilt the tool and repeat to check that too."
+                message(
+                    f"The weight hardly loaded {arg(', '.join(untested))}: tilt the tool and repeat to check that too."
+                )
             )
         size = float(np.linalg.norm(self.offset))
         if size > _OFFSET_N:
             found.append(
-                f"Without the weight the sensor reads {size:.2g} N after compensation: its zero"
-                " moved since the calibration, or something touched the tool. Recalibrate."
+                message(
+                    f"Without the weight the sensor reads {arg(size):.2g} N after compensation: its zero"
+                    " moved since the calibration, or something touched the tool. Recalibrate."
+                )
             )
         return found
 
@@ -394,17 +419,19 @@ def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
     if lever > reach:
         units = [unit for factor, unit in _LEVERS if 0.001 <= lever / factor <= reach]
         cause = (
-            f"The torques are probably in {' / '.join(units)}, not N·m."
+            message(f"The torques are probably in {arg(' / '.join(units))}, not N·m.")
             if units
-            else "Check the unit of the torques."
+            else message("Check the unit of the torques.")
         )
-        far = f"By the torques, the weight hangs {lever:.3g} m from the sensor, beyond {1e3 * reach:g} mm."
-        return [f"{far} {cause}"]
+        far = message(
+            f"By the torques, the weight hangs {arg(lever):.3g} m from the sensor, beyond {arg(1e3 * reach):g} mm."
+        )
+        return [message(f"{arg(far)} {arg(cause)}")]
     if twist > _TWIST + 0.05 * lever:
         return [
-            (
+            message(
                 "A hanging weight makes no torque about its own line, but the sensor reads"
-                f" {1e3 * twist:.0f} mm times its force. Torque channels are swapped, one has the"
+                f" {arg(1e3 * twist):.0f} mm times its force. Torque channels are swapped, one has the"
                 " wrong sign, or the weight was held."
             )
         ]
@@ -412,9 +439,9 @@ def _wrong_torque(lever: float, twist: float, reach: float) -> list[str]:
 
 
 def _passed(mass: float, measured: float, sigma: float, angle: float) -> str:
-    return (
-        f"The sensor reads {measured:.4g} ± {sigma:.2g} kg for a weight of {mass:.4g} kg,"
-        f" {np.degrees(angle):.1f}° from straight down: unit, sign and scale of the forces are"
+    return message(
+        f"The sensor reads {arg(measured):.4g} ± {arg(sigma):.2g} kg for a weight of {arg(mass):.4g} kg,"
+        f" {arg(np.degrees(angle)):.1f}° from straight down: unit, sign and scale of the forces are"
         " correct."
     )
 
@@ -425,20 +452,20 @@ def _too_unsure(
     """Say what would make the uncertainty small enough; shares of the weight."""
     aim = limit / _SHARE
     sigma = float(np.hypot(noise, of_weight))
-    start = (
-        f"The uncertainty is {100 * sigma:.2g} % of the weight; detecting an error of"
-        f" {100 * limit:.2g} % takes {100 * aim:.2g} %."
+    start = message(
+        f"The uncertainty is {arg(100 * sigma):.2g} % of the weight; detecting an error of"
+        f" {arg(100 * limit):.2g} % takes {arg(100 * aim):.2g} %."
     )
     own = mass_sigma / mass
     if own >= 0.9 * aim:
-        return f"{start} Use a weight known to better than {100 * own:.2g} %."
+        return message(f"{arg(start)} Use a weight known to better than {arg(100 * own):.2g} %.")
     if of_weight >= 0.9 * aim:
-        return f"{start} Give the local gravity, or allow a larger limit."
+        return message(f"{arg(start)} Give the local gravity, or allow a larger limit.")
     times = noise / float(np.sqrt(aim**2 - of_weight**2))
     heavier, more = mass * times, int(np.ceil(times**2)) * max(1, readings // 2)
-    return (
-        f"{start} Use a weight of {heavier:.2g} kg or more, hold still for longer, or take {more} readings with and"
-        " without the weight."
+    return message(
+        f"{arg(start)} Use a weight of {arg(heavier):.2g} kg or more, hold still for longer, or take"
+        f" {arg(more)} readings with and without the weight."
     )
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -57,9 +57,13 @@ class Marker:
         check_name(self.name)
         point, normal = (np.array(each, dtype=np.float64) for each in (self.point_S, self.normal_S))
         if point.shape != (3,) or not np.isfinite(point).all():
-            raise MarkerError(f"marker {self.name}: give three finite coordinates, not {point.tolist()}.")
+            raise MarkerError(
+                f"marker {arg(self.name)}: give three finite coordinates, not {arg(point.tolist())}."
+            )
         if normal.shape != (3,):
-            raise MarkerError(f"marker {self.name}: the normal needs three numbers, not {normal.tolist()}.")
+            raise MarkerError(
+                f"marker {arg(self.name)}: the normal needs three numbers, not {arg(normal.tolist())}."
+            )
         for name, value in (("point_S", point), ("normal_S", normal)):
             value.flags.writeable = False
             object.__setattr__(self, name, value)
@@ -84,7 +88,7 @@ class MarkerSet:
         seen: set[str] = set()
         for marker in self.markers:
             if marker.name in seen:
-                raise MarkerError(f"marker {marker.name} appears twice: give each marker its own name.")
+                raise MarkerError(f"marker {arg(marker.name)} appears twice: give each marker its own name.")
             seen.add(marker.name)
 
     def __len__(self) -> int:
@@ -133,7 +137,7 @@ class MarkerSet:
             write_durably(file, self.to_bytes())
         except (OSError, ValueError) as error:
             raise MarkerError(
-                f"{file}: the markers cannot be written ({error}): choose another location."
+                f"{arg(file)}: the markers cannot be written ({arg(error)}): choose another location."
             ) from error
 
 
@@ -156,8 +160,8 @@ def check_name(name: str) -> None:
     """
     if not name or name != name.strip() or len(name) > _LONGEST_NAME or not name.isprintable():
         raise MarkerError(
-            f"marker name {name[:_LONGEST_NAME]!r}: give 1 to {_LONGEST_NAME} printable characters without spaces"
-            " at the ends."
+            f"marker name {arg(name[:_LONGEST_NAME])!r}: give 1 to {arg(_LONGEST_NAME)} printable characters"
+            " without spaces at the ends."
         )
 
 
@@ -172,10 +176,12 @@ def make_markers(points_S: ArrayLike, names: Sequence[str] | None = None) -> Mar
     """
     points = np.asarray(points_S, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise MarkerError(f"markers: give points of shape (n, 3), not {points.shape}.")
+        raise MarkerError(f"markers: give points of shape (n, 3), not {arg(points.shape)}.")
     called = [f"M{number}" for number in range(1, len(points) + 1)] if names is None else list(names)
     if len(called) != len(points):
-        raise MarkerError(f"markers: {len(called)} names for {len(points)} points: give one for each.")
+        raise MarkerError(
+            f"markers: {arg(len(called))} names for {arg(len(points))} points: give one for each."
+        )
     unknown = np.full(3, np.nan)
     return MarkerSet(tuple(Marker(*each, unknown) for each in zip(called, points, strict=True)))
 
@@ -204,9 +210,9 @@ def snap(markers: MarkerSet, probe: Probe, limit: float = OFF_PROBE) -> Snapped:
         if distance > limit
     ]
     if off:
-        more = f" and {len(off) - 5} more" if len(off) > 5 else ""
+        more = message(f" and {arg(len(off) - 5)} more") if len(off) > 5 else ""
         raise MarkerError(
-            f"markers off the probe's surface: {', '.join(off[:5])}{more}; {1e3 * limit:g} mm are"
+            f"markers off the probe's surface: {arg(', '.join(off[:5]))}{arg(more)}; {arg(1e3 * limit):g} mm are"
             " allowed. Check that they are in millimetres in the sensor frame S, and belong to"
             " this probe."
         )
@@ -252,7 +258,9 @@ def load_markers(file: File) -> MarkerSet:
         with file.open("rb") as stream:
             data = stream.read(_MOST_BYTES + 1)
     except (OSError, ValueError) as error:
-        raise MarkerError(f"{file}: the markers cannot be read ({error}): check the path.") from error
+        raise MarkerError(
+            f"{arg(file)}: the markers cannot be read ({arg(error)}): check the path."
+        ) from error
     return read_markers(data, str(file))
 
 
@@ -267,7 +275,7 @@ def read_markers(data: bytes, name: str = "markers") -> MarkerSet:
     """
     if len(data) > _MOST_BYTES:
         raise MarkerError(
-            f"{name}: larger than {_MOST_BYTES >> 20} MiB: not a table of markers. Choose the right file."
+            f"{arg(name)}: larger than {arg(_MOST_BYTES >> 20)} MiB: not a table of markers. Choose the right file."
         )
     try:
         rows = csv.reader(io.StringIO(data.decode("utf-8-sig"), newline=""), strict=True)
@@ -275,25 +283,27 @@ def read_markers(data: bytes, name: str = "markers") -> MarkerSet:
         missing = [column for column in COLUMNS if header.count(column) != 1]
         if missing:
             raise MarkerError(
-                f"{name}: line 1: each of {', '.join(COLUMNS)} must appear once; check {', '.join(missing)}."
+                f"{arg(name)}: line 1: each of {arg(', '.join(COLUMNS))} must appear once; check"
+                f" {arg(', '.join(missing))}."
             )
         places = [header.index(column) for column in COLUMNS]
         markers = [_row(row, places, f"{name}: line {rows.line_num}") for row in rows if any(row)]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise MarkerError(f"{name}: not CSV text ({error}): save it as UTF-8 CSV.") from error
+        raise MarkerError(f"{arg(name)}: not CSV text ({arg(error)}): save it as UTF-8 CSV.") from error
     if len(markers) > MOST_MARKERS:
         raise MarkerError(
-            f"{name}: {len(markers):,} markers, at most {MOST_MARKERS:,} are allowed: choose the right file."
+            f"{arg(name)}: {arg(len(markers)):,} markers, at most {arg(MOST_MARKERS):,} are allowed: choose"
+            " the right file."
         )
     try:
         return MarkerSet(tuple(markers))
     except MarkerError as error:
-        raise MarkerError(f"{name}: {error}") from error
+        raise MarkerError(f"{arg(name)}: {arg(error)}") from error
 
 
 def _row(row: list[str], places: list[int], where: str) -> Marker:
     if len(row) <= max(places):
-        raise MarkerError(f"{where}: {len(row)} cells; one is needed for each column.")
+        raise MarkerError(f"{arg(where)}: {arg(len(row))} cells; one is needed for each column.")
     name, *cells = (row[place].strip() for place in places)
     point = []
     for column, cell in zip(COLUMNS[1:], cells, strict=True):
@@ -302,9 +312,11 @@ def _row(row: list[str], places: list[int], where: str) -> Marker:
         except ValueError:
             value = np.nan
         if not abs(value) <= _FARTHEST_MM:
-            raise MarkerError(f"{where}: {column} is {cell[:30]!r}: give a number of millimetres.")
+            raise MarkerError(
+                f"{arg(where)}: {arg(column)} is {arg(cell[:30])!r}: give a number of millimetres."
+            )
         point.append(value / 1e3)
     try:
         return Marker(name, np.array(point), np.full(3, np.nan))
     except MarkerError as error:
-        raise MarkerError(f"{where}: {error}") from error
+        raise MarkerError(f"{arg(where)}: {arg(error)}") from error

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.verification.causes import across
 from contactbench.pipeline.verification.figures import ModelError
@@ -85,29 +86,29 @@ def measure_model_error(evidence: TouchEvidence, model: GravityModel) -> ModelEr
 def model_error_words(found: ModelError | None) -> str:
     """Return what a model error means and what to do about it; None: it was not measured."""
     if found is None:
-        return (
-            f"The model error was not measured; {_size(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM)} are"
-            f" assumed. Touch at least {FEWEST_MARKERS} markers to measure it."
+        return message(
+            f"The model error was not measured; {arg(_size(DEFAULT_FORCE_N, DEFAULT_TORQUE_NM))} are"
+            f" assumed. Touch at least {arg(FEWEST_MARKERS)} markers to measure it."
         )
     force, torque = found.force_N / DEFAULT_FORCE_N, found.torque_Nm / DEFAULT_TORQUE_NM
     draws = round(found.draws)
     # Where the least value is told, the bound may lie below it.
     most = _size(max(found.most_force_N, found.force_N), max(found.most_torque_Nm, found.torque_Nm))
-    size = (
-        f"Model error: {_size(found.force_N, found.torque_Nm)} (95 % upper limit {most}; the"
-        f" touches count as {draws} independent one{'s' * (draws != 1)})."
+    size = message(
+        f"Model error: {arg(_size(found.force_N, found.torque_Nm))} (95 % upper limit {arg(most)}; the"
+        f" touches count as {arg(draws)} independent one{arg('s' * (draws != 1))})."
     )
-    meaning = (
+    meaning = message(
         "Drift, cable, hysteresis and mount change each wrench by about this much; the bundle allows for it."
     )
-    remedy = "No action needed."
+    remedy = message("No action needed.")
     if max(force, torque) > _LARGE:
-        remedy = (
+        remedy = message(
             "This is large: contacts are located less precisely. Find what pulls on the probe or the"
             " sensor (cable, hose, cover), warm up the sensor and tighten the mount, then"
             " recalibrate and verify again."
         )
-    return f"{size} {meaning} {remedy}"
+    return message(f"{arg(size)} {arg(meaning)} {arg(remedy)}")
 
 
 def _size(force: float, torque: float) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.touch_location import memory, sample_noise
 
 if TYPE_CHECKING:
@@ -53,8 +54,10 @@ def measured_noise(
     said = []
     if tau > _CORRELATED:
         said.append(
-            f"Neighbouring samples are correlated (the sensor filters): {tau:.0f} samples count as"
-            " one, and the noise of means is increased accordingly."
+            message(
+                f"Neighbouring samples are correlated (the sensor filters): {arg(tau):.0f} samples count as"
+                " one, and the noise of means is increased accordingly."
+            )
         )
     root = np.sqrt(max(growth, 1.0))
     scaled = WrenchNoise(np.asarray(base.force) * root, np.asarray(base.torque) * root)
@@ -75,9 +78,9 @@ def resting(recording: TouchRecording, protocol: ProtocolSettings, rate: float) 
     offset = float(np.median(sizes[free]))
     if offset <= protocol.release_N:
         return None
-    return (
-        f"The sensor reads {offset:.1f} N with nothing touching: recalibrate, or raise the forces"
-        f" at which a touch begins and ends (now {protocol.touch_N:g} and {protocol.release_N:g}"
+    return message(
+        f"The sensor reads {arg(offset):.1f} N with nothing touching: recalibrate, or raise the forces"
+        f" at which a touch begins and ends (now {arg(protocol.touch_N):g} and {arg(protocol.release_N):g}"
         " N)."
     )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -30,16 +30,16 @@ class Why(StrEnum):
     """Why a touch is rejected."""
 
     SLIPPED = "slipped"
-    FORCE = "force out of window"
-    SHORT = "too short"
-    UNSETTLED = "not settled"
-    MOVED = "moved on without release"
+    FORCE = message("force out of window")
+    SHORT = message("too short")
+    UNSETTLED = message("not settled")
+    MOVED = message("moved on without release")
     AMBIGUOUS = "ambiguous"
-    IMPLAUSIBLE = "no single touch explains it"
-    FAR = "far from every marker"
-    MISSED = "misses the probe"
-    TANGENTIAL = "along the surface"
-    TOO_LIGHT = "too little force to locate"
+    IMPLAUSIBLE = message("no single touch explains it")
+    FAR = message("far from every marker")
+    MISSED = message("misses the probe")
+    TANGENTIAL = message("along the surface")
+    TOO_LIGHT = message("too little force to locate")
     SATURATED = "saturated"
 
 
@@ -100,8 +100,8 @@ class ProtocolSettings:
         for low, high in self.windows:
             if not self.touch_N < low < high < 1e4:
                 raise InputError(
-                    f"force window {low:g} to {high:g} N: the lower end must be above"
-                    f" {self.touch_N:g} N, where a touch begins, and below the upper end."
+                    f"force window {arg(low):g} to {arg(high):g} N: the lower end must be above"
+                    f" {arg(self.touch_N):g} N, where a touch begins, and below the upper end."
                 )
         if not self.windows or not 4 <= self.samples <= 100_000 or not 1 <= self.repeats <= 1000:
             raise InputError(
@@ -109,11 +109,13 @@ class ProtocolSettings:
             )
         if not 0 < self.release_N <= self.touch_N:
             raise InputError(
-                f"release force {self.release_N:g} N: give a value above 0 and up to {self.touch_N:g} N."
+                f"release force {arg(self.release_N):g} N: give a value above 0 and up to {arg(self.touch_N):g} N."
             )
         for name in ("settle_s", "steady_N", "slip_m", "gap_s", "take_s"):
             if not 0 < getattr(self, name) < 1e3:
-                raise InputError(f"touch protocol: {name} {getattr(self, name):g}: give a positive number.")
+                raise InputError(
+                    f"touch protocol: {arg(name)} {arg(getattr(self, name)):g}: give a positive number."
+                )
 
     def window_of(self, force: float) -> tuple[float, float] | None:
         """Return the window that a force, N, is in."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.verification.press import (
     UNRESOLVED,
@@ -48,7 +48,9 @@ class TouchProtocol:
         self.settings = settings or ProtocolSettings()
         unknown = set(self.settings.order) - set(placing.markers.names)
         if unknown:
-            raise InputError(f"order: there are no markers {', '.join(sorted(unknown))}: correct the names.")
+            raise InputError(
+                f"order: there are no markers {arg(', '.join(sorted(unknown)))}: correct the names."
+            )
         self._placing = placing
         self._press: OngoingPress | None = None
         self._latest = -np.inf

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.figures import ForceAccuracy
 
 if TYPE_CHECKING:
@@ -45,16 +46,20 @@ def force_accuracy(
     said = []
     if len(pairs) < _ENOUGH * len(accepted):
         said.append(
-            f"Only {len(pairs)} of {len(accepted)} accepted touches have a reference force: check"
-            " that its times use the recording's clock."
+            message(
+                f"Only {arg(len(pairs))} of {arg(len(accepted))} accepted touches have a reference force: check"
+                " that its times use the recording's clock."
+            )
         )
     if not pairs:
         return None, said
     ours, theirs = np.array(pairs).T
     if theirs.mean() < 0.5 * ours.mean():
         said.append(
-            f"The reference reads {theirs.mean():.2f} N where the sensor reads {ours.mean():.2f}"
-            " N: check its unit (N), and that it was pressed during these touches."
+            message(
+                f"The reference reads {arg(theirs.mean()):.2f} N where the sensor reads {arg(ours.mean()):.2f}"
+                " N: check its unit (N), and that it was pressed during these touches."
+            )
         )
     away = ours - theirs
     sd = float(away.std(ddof=1)) if len(away) > 1 else 0.0

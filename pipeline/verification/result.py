@@ -10,6 +10,7 @@ from pydantic import Field
 
 from contactbench.pipeline.calibration.orientation import convention_of
 from contactbench.pipeline.calibration.parameters import Parameters, check_roles, sha256_of
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.knobs import Positive
 from contactbench.pipeline.settings import VerificationSettings
 from contactbench.pipeline.verification.figures import Times, VerificationLimits
@@ -117,10 +118,12 @@ def verify_files(
     calibration = load_calibration(inputs["calibration"])
     probe, said, aligned, deviation = _load_probe(inputs["probe"])
     faults = (
-        [] if aligned else ["the probe was never aligned with the sensor: run `contactbench probe align`"]
+        []
+        if aligned
+        else [message("the probe was never aligned with the sensor: run `contactbench probe align`")]
     )
     if calibration.verdict.level is Level.REFUSE:
-        faults.append("the calibration was refused: recalibrate")
+        faults.append(message("the calibration was refused: recalibrate"))
     recording = read_touch_recording(inputs["recording"], convention_of(given), R_ES)
     return verify(
         probe,
@@ -159,7 +162,9 @@ def _load_probe(file: File) -> tuple[Probe, list[str], bool, float | None]:
     probe = probe_of(file, read)
     said = [*read.notes, *probe.health.sentences]
     if read.guess is not None and not read.guess.certain:
-        said.append("run `contactbench probe prepare --units` to make a probe with a confirmed unit.")
+        said.append(
+            message("run `contactbench probe prepare --units` to make a probe with a confirmed unit.")
+        )
     if read.raw.settled:
         known = load_probe_file(file)
         said += known.notes

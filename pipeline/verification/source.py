@@ -10,7 +10,7 @@ import numpy as np
 from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from contactbench.pipeline.calibration.orientation import Convention, RowError
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
 _BLOCK_ROWS = 65_536
-_REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, reference force in N")
+_REFERENCE = Wording(header="t,force", rows="forces", meaning=message("time in s, reference force in N"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
     back = int(np.count_nonzero(times[1:] <= latest[:-1]))
     if back > _MOST_BACK * len(times):
         raise InputError(
-            f"{name}: {back:,} of {len(times):,} samples are not later than an earlier row: sort"
+            f"{arg(name)}: {arg(back):,} of {arg(len(times)):,} samples are not later than an earlier row: sort"
             " them by time, or record again; t must be seconds of one clock."
         )
     steps = np.diff(latest)
@@ -85,12 +85,16 @@ def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
     said = []
     if back:
         said.append(
-            f"The clock goes back: {back:,} samples that are not later than an earlier one are left out."
+            message(
+                f"The clock goes back: {arg(back):,} samples that are not later than an earlier one are left out."
+            )
         )
     if len(gaps):
         said.append(
-            f"The recording has {len(gaps):,} gaps, the longest of {gaps.max():.1f} s: a touch"
-            " ends where a gap begins."
+            message(
+                f"The recording has {arg(len(gaps)):,} gaps, the longest of {arg(gaps.max()):.1f} s: a touch"
+                " ends where a gap begins."
+            )
         )
     return tuple(said)
 
@@ -120,7 +124,7 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
     recording = read_recording(file)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise InputError(
-            f"{file}: {len(recording.wrenches)} sensors and {len(recording.flanges)} flanges: a"
+            f"{arg(file)}: {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))} flanges: a"
             " verification needs one of each. Convert the right ones to CSV."
         )
     (track,), (flange,) = recording.wrenches.values(), recording.flanges.values()
@@ -136,9 +140,13 @@ def _from_mcap(file: File, R_ES: ArrayLike | None) -> TouchRecording:
             R_WS[count : count + found] = sensor_orientations(poses[kept[rows], :4], Convention(), R_ES)
             count += found
     if not count:
-        raise InputError(f"{file}: no reading has a pose: record the robot together with the sensor.")
+        raise InputError(f"{arg(file)}: no reading has a pose: record the robot together with the sensor.")
     lost = len(kept) - count
-    said = [f"{lost:,} readings left out: without a pose, or flagged as bad by the device."] if lost else []
+    said = (
+        [message(f"{arg(lost):,} readings left out: without a pose, or flagged as bad by the device.")]
+        if lost
+        else []
+    )
     return TouchRecording(
         track.times[kept],
         track.wrenches[kept],
@@ -152,8 +160,8 @@ def _from_csv(file: File, convention: Convention | None, R_ES: ArrayLike | None)
     wording = Wording(
         header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
         rows="readings",
-        meaning="raw forces in N, torques in N·m, in the sensor frame S, and its orientation",
-        not_finite="remove the row.",
+        meaning=message("raw forces in N, torques in N·m, in the sensor frame S, and its orientation"),
+        not_finite=message("remove the row."),
         error=WrenchFileError,
     )
     parts: list[TouchRecording] = []

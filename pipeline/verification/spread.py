@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.verification.markers import MarkerError, MarkerSet, make_markers, snap
 
@@ -50,7 +51,7 @@ def spread_markers(probe: Probe, count: int = 17, region: int | None = None) -> 
         The count is out of range, or the region has no facets.
     """
     if not 1 <= count <= _MOST:
-        raise MarkerError(f"{count} markers: give a number from 1 to {_MOST}.")
+        raise MarkerError(f"{arg(count)} markers: give a number from 1 to {arg(_MOST)}.")
     points = _drawn(probe, _chosen(probe, region), count)
     centre = points.mean(axis=0)
     # The middle first, so that a set of one marker is a useful one.
@@ -80,14 +81,18 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
         The pitch is out of range, or no point of the grid, or more than 1000, meet the facets.
     """
     if not pitch >= _FINEST:
-        raise MarkerError(f"a grid of {1e3 * pitch:g} mm is too fine: give {1e3 * _FINEST:g} mm or more.")
+        raise MarkerError(
+            f"a grid of {arg(1e3 * pitch):g} mm is too fine: give {arg(1e3 * _FINEST):g} mm or more."
+        )
     chosen = _chosen(probe, region)
     up = np.sign((probe.normals[chosen, 2] * probe.areas[chosen]).sum()) or 1.0
     corners = probe.vertices[probe.faces[chosen]].reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     axes = [_lines(low[axis], high[axis], pitch) for axis in (0, 1)]
     if len(axes[0]) * len(axes[1]) > 100 * _MOST:
-        raise MarkerError(f"a grid of {1e3 * pitch:g} mm is too fine for this probe: choose a wider one.")
+        raise MarkerError(
+            f"a grid of {arg(1e3 * pitch):g} mm is too fine for this probe: choose a wider one."
+        )
     x, y = (each.ravel() for each in np.meshgrid(*axes, indexing="ij"))
     outside = (high[2] if up > 0 else low[2]) + up * probe.size
     origins = np.column_stack([x, y, np.full(len(x), outside)])
@@ -96,8 +101,8 @@ def grid_markers(probe: Probe, pitch: float, region: int | None = None) -> Marke
     hit = (faces >= 0) & np.isin(faces, chosen)
     if not 1 <= np.count_nonzero(hit) <= _MOST:
         raise MarkerError(
-            f"a grid of {1e3 * pitch:g} mm has {np.count_nonzero(hit)} points on these facets, but"
-            f" 1 to {_MOST} are allowed: choose another pitch."
+            f"a grid of {arg(1e3 * pitch):g} mm has {arg(np.count_nonzero(hit))} points on these facets, but"
+            f" 1 to {arg(_MOST)} are allowed: choose another pitch."
         )
     points = origins[hit] + distances[hit, None] * directions[hit]
     return snap(make_markers(points), probe).markers
@@ -117,7 +122,7 @@ def _chosen(probe: Probe, region: int | None) -> NDArray[np.intp]:
     if not len(chosen) or (region is not None and region < 1):
         known = ", ".join(map(str, np.unique(probe.region[touchable & (probe.region > 0)]))) or "none"
         raise MarkerError(
-            f"there is no touchable region {region}; the probe has {known}: choose one, or --all."
+            f"there is no touchable region {arg(region)}; the probe has {arg(known)}: choose one, or --all."
         )
     return chosen
 

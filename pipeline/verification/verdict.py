@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.verification.figures import Unresolved, VerificationVerdict
 from contactbench.pipeline.verification.press import UNRESOLVED, Why
 
@@ -46,29 +47,39 @@ class VerdictCase:
         """Return the verdict; times that were not measured are a note."""
         reasons = [*self._errors(), *self._unclear(), *_times(times, self.limits)]
         if self.missing:
-            more = f" and {len(self.missing) - _LISTED} more" if len(self.missing) > _LISTED else ""
-            reasons.append(f"too few accepted touches of {', '.join(self.missing[:_LISTED])}{more}")
+            more = (
+                message(f" and {arg(len(self.missing) - _LISTED)} more")
+                if len(self.missing) > _LISTED
+                else ""
+            )
+            reasons.append(
+                message(f"too few accepted touches of {arg(join(', ', self.missing[:_LISTED]))}{arg(more)}")
+            )
         reasons += self.faults
-        notes = [] if times is not None else ["time: not measured"]
+        notes = [] if times is not None else [message("time: not measured")]
         if self.left_out:
             said = ", ".join(f"{name} ({why})" for name, why in self.left_out.items())
-            notes.append(f"skipped on purpose: {said}: contacts there are not verified")
+            notes.append(message(f"skipped on purpose: {arg(said)}: contacts there are not verified"))
         if self.markers < FEWEST_MARKERS:
-            many = "1 marker was" if self.markers == 1 else f"{self.markers} markers were"
+            many = (
+                message("1 marker was") if self.markers == 1 else message(f"{arg(self.markers)} markers were")
+            )
             notes.append(
-                f"too few to judge the whole probe: {many} touched, at least {FEWEST_MARKERS} are needed"
+                message(
+                    f"too few to judge the whole probe: {arg(many)} touched, at least {arg(FEWEST_MARKERS)} are needed"
+                )
             )
         return VerificationVerdict(not reasons, tuple(reasons), tuple(notes))
 
     def _errors(self) -> list[str]:
         if self.overall is None:
-            return ["no touch was accepted"]
+            return [message("no touch was accepted")]
         sizes = (
             ("mean", self.overall.mean_mm, self.limits.mean_m),
             ("largest", self.overall.max_mm, self.limits.max_m),
         )
         return [
-            f"the {name} error is {size:.2f} mm, over {1e3 * limit:g} mm"
+            message(f"the {arg(name)} error is {arg(size):.2f} mm, over {arg(1e3 * limit):g} mm")
             for name, size, limit in sizes
             if size > 1e3 * limit
         ]
@@ -79,8 +90,8 @@ class VerdictCase:
             return []
         kinds = ", ".join(f"{self.rejected[why]} {why}" for why in UNRESOLVED if self.rejected.get(why))
         return [
-            (
-                f"{found.touches} of {found.settled} settled touches match no marker ({kinds}): their"
+            message(
+                f"{arg(found.touches)} of {arg(found.settled)} settled touches match no marker ({arg(kinds)}): their"
                 " points may be wrong"
             )
         ]
@@ -113,7 +124,10 @@ def missing(
     counts = Counter((figure.marker, figure.window_N) for figure in figures if figure.accepted)
     short = [(name, window) for name in names for window in windows if counts[name, window] < wanted]
     several = len(windows) > 1
-    return tuple(f"{name} ({low:g} to {high:g} N)" if several else name for name, (low, high) in short)
+    return tuple(
+        message(f"{arg(name)} ({arg(low):g} to {arg(high):g} N)") if several else name
+        for name, (low, high) in short
+    )
 
 
 def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None, bool]:
@@ -138,8 +152,8 @@ def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None,
     if pitch >= needed:
         return None, False
     a, b = markers[closest].name, markers[int(other[closest, 1])].name
-    said = (
-        f"markers {a} and {b} are {1e3 * pitch:.1f} mm apart; {1e3 * needed:g} mm are needed to"
+    said = message(
+        f"markers {arg(a)} and {arg(b)} are {arg(1e3 * pitch):.1f} mm apart; {arg(1e3 * needed):g} mm are needed to"
         " tell a wrong contact from a touch of the neighbour. Give the order of the touches, or"
         " skip markers"
     )
@@ -147,10 +161,14 @@ def crowded(markers: MarkerSet, limits: VerificationLimits) -> tuple[str | None,
 
 
 _CHECKS = {
-    Why.MISSED: "miss the probe: check the units (N, N·m, mm), the mount of the sensor on the flange, and the alignment"
-    " of the probe.",
-    Why.IMPLAUSIBLE: "leave a torque that no single touch explains: press with a freely turning tip, and make sure"
-    " nothing else touches the probe.",
+    Why.MISSED: message(
+        "miss the probe: check the units (N, N·m, mm), the mount of the sensor on the flange, and the alignment"
+        " of the probe."
+    ),
+    Why.IMPLAUSIBLE: message(
+        "leave a torque that no single touch explains: press with a freely turning tip, and make sure"
+        " nothing else touches the probe."
+    ),
 }
 
 
@@ -159,7 +177,7 @@ def checks(figures: Sequence[TouchFigure]) -> list[str]:
     settled = sum(figure.accepted or figure.reason in UNRESOLVED for figure in figures)
     counts = Counter(figure.reason for figure in figures)
     return [
-        f"{counts[why]} of {settled} settled touches {words}"
+        message(f"{arg(counts[why])} of {arg(settled)} settled touches {arg(words)}")
         for why, words in _CHECKS.items()
         if 2 * counts[why] > settled
     ]
@@ -168,4 +186,8 @@ def checks(figures: Sequence[TouchFigure]) -> list[str]:
 def _times(times: Times | None, limits: VerificationLimits) -> list[str]:
     if times is None or times.p99_s <= limits.p99_s:
         return []
-    return [f"99 % of solves take up to {1e3 * times.p99_s:.3g} ms, more than {1e3 * limits.p99_s:g} ms"]
+    return [
+        message(
+            f"99 % of solves take up to {arg(1e3 * times.p99_s):.3g} ms, more than {arg(1e3 * limits.p99_s):g} ms"
+        )
+    ]

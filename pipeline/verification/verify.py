@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.verification.budget import verification_budget
 from contactbench.pipeline.verification.causes import TouchEvidence
 from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
@@ -72,11 +72,11 @@ class VerifySettings:
             raise InputError("noise of force and torque: give both or neither.")
         limits = (self.limits.mean_m, self.limits.max_m, self.limits.p99_s)
         if not all(0 < limit < 1e3 for limit in limits):
-            raise InputError(f"limits {limits}: give positive numbers.")
+            raise InputError(f"limits {arg(limits)}: give positive numbers.")
         if not 100 <= self.resamples <= 1_000_000 or self.seed < 0:
             raise InputError("bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.")
         if unexplained := [name for name, why in self.left_out.items() if not why.strip()]:
-            raise InputError(f"skipped: give the reason for skipping {', '.join(unexplained)}.")
+            raise InputError(f"skipped: give the reason for skipping {arg(', '.join(unexplained))}.")
 
 
 def find_touches(
@@ -152,7 +152,7 @@ def verify(
     touches = find_touches(compensated, placing, settings.protocol)
     if not touches:
         raise InputError(
-            f"the recording contains no touch: |F| never reaches {settings.protocol.touch_N:g} N."
+            f"the recording contains no touch: |F| never reaches {arg(settings.protocol.touch_N):g} N."
             " Check that it is the right recording, and that the calibration belongs to it."
         )
     evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples, stated is None)
@@ -201,7 +201,7 @@ def judge(
     """
     names = placing.markers.names
     if strangers := sorted(set(settings.left_out) - set(names)):
-        raise InputError(f"skipped: there are no markers {', '.join(strangers)}: correct the names.")
+        raise InputError(f"skipped: there are no markers {arg(', '.join(strangers))}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
     every, evidence = (
         evidence,
@@ -255,7 +255,7 @@ def judge(
         limits=settings.limits,
         settings=_plain(settings, placing, rate),
         sources=dict(sorted((sources or {}).items())),
-        warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
+        warnings=(*warnings, message(f"{arg(capitalised(said))}.")) if said else warnings,
         unresolved=case.unresolved,
         model_error=left,
         budget=verification_budget(evidence, placing.model.covariance, left, mesh_deviation)
@@ -397,7 +397,7 @@ def _angle_range(angle: float) -> str:
 
 
 def _span(window: tuple[float, float]) -> str:
-    return f"{window[0]:g} to {window[1]:g} N"
+    return message(f"{arg(window[0]):g} to {arg(window[1]):g} N")
 
 
 def _plain(settings: VerifySettings, placing: TouchLocator, rate: float | None) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.pack import CONFIG
 from contactbench.pipeline.config.runtime.values import rotation_ES
 from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.runtime.run import known
 from contactbench.pipeline.session.files import file_problem
 from contactbench.pipeline.session.recompute import chosen_of
@@ -143,7 +143,7 @@ def export(session: Session, place: Path, *, unverified: bool = False) -> Export
     sha256 = _sha256(found)
     if sha256 != _sha256(config):
         raise ConfigError(
-            f"{place}: the bundle on disk differs from the one that was written: check the disk,"
+            f"{arg(place)}: the bundle on disk differs from the one that was written: check the disk,"
             " then export again."
         )
     record(session, place, sha256, verified=found.model.verified)
@@ -159,8 +159,12 @@ def refuse_broken(session: Session) -> None:
 
 def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:
     """Write down that a bundle of the session's current results was exported."""
-    standing = "verified" if verified else "NOT verified"
-    session.note(f"A bundle was exported to {place}: {standing}, SHA-256 of contactbench.json {sha256}.")
+    standing = "verified" if verified else message("NOT verified")
+    session.note(
+        message(
+            f"A bundle was exported to {arg(place)}: {arg(standing)}, SHA-256 of contactbench.json {arg(sha256)}."
+        )
+    )
     session.set_parameter(SHA256, sha256)
     session.set_parameter(PLACE, str(place))
     session.set_parameter(RESULTS, dict(results_of(session.state)))
@@ -173,10 +177,10 @@ def _sha256(config: RuntimeConfig) -> str:
 def _checked(config: RuntimeConfig, place: Path) -> str:
     count = len(config.encoded())
     if config.model.verified:
-        words = f"{place}: bundle verified, {count} files. Ready for a robot's runtime."
-        return f"{words} {unchecked(config.model.checks)}".strip()
-    return (
-        f"{place}: {count} files intact, but the bundle is NOT verified. A robot's runtime refuses"
+        words = message(f"{arg(place)}: bundle verified, {arg(count)} files. Ready for a robot's runtime.")
+        return message(f"{arg(words)} {arg(unchecked(config.model.checks))}").strip()
+    return message(
+        f"{arg(place)}: {arg(count)} files intact, but the bundle is NOT verified. A robot's runtime refuses"
         " it unless told otherwise; for trials only."
     )
 
@@ -201,11 +205,14 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     regions = sorted(set(config.probe.region[config.probe.region > 0].tolist()))
     found = [
         ("Sensor", _sensor(model.sensor)),
-        ("Readings", f"{model.sensor.rate_Hz:g} readings per second"),
+        ("Readings", message(f"{arg(model.sensor.rate_Hz):g} readings per second")),
         ("Payload", f"{config.gravity.mass:.3f} kg"),
         (
             "Probe",
-            f"{model.probe.name} with {model.probe.facets:,} facets and {regions_in_words(len(regions))}",
+            message(
+                f"{arg(model.probe.name)} with {arg(model.probe.facets):,} facets and"
+                f" {arg(regions_in_words(len(regions)))}"
+            ),
         ),
         (
             "Limits",
@@ -217,21 +224,21 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
     gains = model.controller
     if gains is not None:
         found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))
-    part, error = model.verification, "not verified"
+    part, error = model.verification, message("not verified")
     if part is not None:
-        error = (
-            f"{1e3 * part.mean_error_m:.2f} mm on average, {1e3 * part.max_error_m:.2f} mm at most,"
-            f" on {part.markers} markers"
+        error = message(
+            f"{arg(1e3 * part.mean_error_m):.2f} mm on average, {arg(1e3 * part.max_error_m):.2f} mm at most,"
+            f" on {arg(part.markers)} markers"
         )
-    found.append(("Contact error", error))
-    found.append(("Made by", f"{model.provenance.operator}, {model.provenance.created}"))
+    found.append((message("Contact error"), error))
+    found.append((message("Made by"), f"{model.provenance.operator}, {model.provenance.created}"))
     return tuple(found)
 
 
 def _sensor(part: SensorPart) -> str:
     if not known(part.serial):
-        return part.model if known(part.model) else "model and serial number missing"
-    number = f"serial number {part.serial}"
+        return part.model if known(part.model) else message("model and serial number missing")
+    number = message(f"serial number {arg(part.serial)}")
     return f"{part.model}, {number}" if known(part.model) else number
 
 
@@ -252,24 +259,29 @@ def _changes(settings: Mapping[str, Any], config: RuntimeConfig) -> tuple[str, .
 def told(found: Differences) -> tuple[str, ...]:
     """Say what differs, in sentences; what is another in every bundle only where nothing else is."""
     if found.same:
-        return ("Identical, byte for byte.",)
+        return (message("Identical, byte for byte."),)
     fields = [each for each in found.fields if not each.field.startswith(_ALWAYS)]
     said = [
-        f"{each.field}: {_short(each.one)} → {_short(each.other)}"
-        + (f" ({each.meaning})." if each.meaning else ".")
+        message(f"{arg(each.field)}: {arg(_short(each.one))} → {arg(_short(each.other))}")
+        + (message(f" ({arg(each.meaning)}).") if each.meaning else ".")
         for each in fields[:_MOST_DIFFERENCES]
     ]
     if len(fields) > _MOST_DIFFERENCES:
         said.append(
-            f"{len(fields) - _MOST_DIFFERENCES} more fields differ: `contactbench bundle diff` lists them."
+            message(
+                f"{arg(len(fields) - _MOST_DIFFERENCES)} more fields differ: `contactbench bundle diff` lists them."
+            )
         )
     if found.mesh is not None:
         one, other = found.mesh["facets"]
         said.append(
-            f"The surfaces, of {one:,} and {other:,} facets, are at most {found.mesh['hausdorff_mm']:.3g} mm apart."
+            message(
+                f"The surfaces, of {arg(one):,} and {arg(other):,} facets, are at most"
+                f" {arg(found.mesh['hausdorff_mm']):.3g} mm apart."
+            )
         )
     if not said:
-        said.append("Only origin and date differ.")
+        said.append(message("Only origin and date differ."))
     return tuple(said)
 
 

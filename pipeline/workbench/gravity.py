@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration import Level, PoseSample
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
 from contactbench.pipeline.calibration.verify import StillVerification, verify_still
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.workbench.gravity_fit import (
     PLANNED,
     PoseRow,
@@ -46,8 +46,10 @@ _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²
 _SHORT = 100  # samples: the newest moment
 _NEAREST = np.radians(15.0)  # of a check to a pose that the calibration has seen: nearer, it tells little
-_NEAR = "This pose is too close to a calibration pose: turn the tool further."
-_NO_POSE = "The sensor sends readings, but no orientation arrives with them, so nothing can be captured."
+_NEAR = message("This pose is too close to a calibration pose: turn the tool further.")
+_NO_POSE = message(
+    "The sensor sends readings, but no orientation arrives with them, so nothing can be captured."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +99,8 @@ class GravityWork:
         self.settings, self.automatic = settings, automatic
         self._R_SE_live = (settings.R_ES if live_R_ES is None else live_R_ES).T
         self._earlier = tuple(
-            replace(pose, time=None, name=f"pose {number}") for number, pose in enumerate(earlier, 1)
+            replace(pose, time=None, name=message(f"pose {arg(number)}"))
+            for number, pose in enumerate(earlier, 1)
         )
         self._lock = threading.Lock()
         self._detector = StillnessDetector()
@@ -137,7 +140,9 @@ class GravityWork:
             try:
                 self._stillness = self._detector.update_block(times, wrenches, R_WE)
             except InputError as error:  # the clock was set back: a replay began anew
-                self._problem = f"The sample times went back, so the captures start over: {error}"
+                self._problem = message(
+                    f"The sample times went back, so the captures start over: {arg(error)}"
+                )
                 self._detector = StillnessDetector()
                 self._chosen.clear()
             self._notice()
@@ -168,14 +173,14 @@ class GravityWork:
             state = self._stillness.state
             if self._present is not None and self._present in self._chosen:
                 if self._chosen[self._present]:
-                    return "This pose is already captured. Turn the tool to the next one."
+                    return message("This pose is already captured. Turn the tool to the next one.")
                 self._chosen[self._present] = True
                 self._changed()
                 return "Taken."
             if state in {StillState.STILL, StillState.SETTLING}:
                 self._wanted = True
-                return "Averaging: keep still. The pose is captured as soon as this is done."
-            return "The tool is moving: hold it still, then press again."
+                return message("Averaging: keep still. The pose is captured as soon as this is done.")
+            return message("The tool is moving: hold it still, then press again.")
 
     def set_automatic(self, automatic: bool) -> None:
         """Choose whether every still pose to come is taken, or those that `take` asks for."""
@@ -239,7 +244,7 @@ class GravityWork:
             count = sum(row.state is PoseState.TAKEN for row in self._rows)
             expected = count if solved.enough else max(count + 1, PLANNED)
             return GravityView(
-                state, " ".join((self._problem, sentence)).strip(), stillness.seconds_until_still, share, done,
+                state, join(" ", (self._problem, sentence)).strip(), stillness.seconds_until_still, share, done,
                 self._wanted, R_WS, self._rows, count, expected, solved, self._errors, self._revision,
                 self._done != self._revision,
             )  # fmt: skip
@@ -255,8 +260,8 @@ class GravityWork:
         C = fitted.model.wrench_covariance(R_WS) + np.diag(_OWN)
         if residual @ np.linalg.solve(C, residual) <= chdtri(6, _TOUCH_RISK):
             return ""
-        return (
-            f"Something touches the tool: {np.linalg.norm(residual[:3]):.2g} N more than its"
+        return message(
+            f"Something touches the tool: {arg(np.linalg.norm(residual[:3])):.2g} N more than its"
             " weight. Remove it, or move on if nothing does."
         )
 
@@ -301,7 +306,7 @@ class GravityWork:
         """Return the poses that count, R_WS of the flange, each with the name that its row has."""
         first = len(self._earlier) + 1
         new = [
-            capture.to_pose(name=f"pose {number}")
+            capture.to_pose(name=message(f"pose {arg(number)}"))
             for number, capture in enumerate(self._detector.captures, first)
             if self._counts(capture)
         ]
@@ -371,7 +376,7 @@ class GravityCheck:
         if self._word:
             return self._word
         stands = describe(self.proposal, self._settings.down_W)
-        return f"Turn the tool to a new pose: {stands}. Then keep still."
+        return message(f"Turn the tool to a new pose: {arg(stands)}. Then keep still.")
 
     def _farthest(self) -> NDArray[np.float64]:
         """Return the orientation whose weight pulls least like that of any pose so far."""

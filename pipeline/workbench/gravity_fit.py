@@ -18,7 +18,7 @@ from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.session.make import CalibrationParameters
 
 if TYPE_CHECKING:
@@ -100,7 +100,9 @@ def gravity_settings(state: State) -> GravitySettings:
     tilt = state.settings.get(TILT)
     degrees = 180.0 if tilt is None else tilt.value
     if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
-        raise InputError(f"{TILT}: {degrees!r} is not an angle above 0 and up to 180 degrees: set it again.")
+        raise InputError(
+            f"{arg(TILT)}: {arg(degrees)!r} is not an angle above 0 and up to 180 degrees: set it again."
+        )
     return GravitySettings(parameters, float(degrees))
 
 
@@ -178,7 +180,7 @@ def solve(
         proposal = None
     else:
         words = suggestion.sentence.removeprefix("Next: ")
-        proposal = Proposal(suggestion.R_WS, _capital(words))
+        proposal = Proposal(suggestion.R_WS, capitalised(words))
     return Solved(calibration, proposal, findings(poses, calibration, settings))
 
 
@@ -207,7 +209,7 @@ def _planned(
     for R_WS in planned.R_WS:
         if all(float(down @ R_WS @ there) < np.cos(np.radians(20.0)) for there in taken):
             # No forecast: before there are residuals nobody knows the noise, and a figure would be wrong tenfold.
-            return Proposal(R_WS, f"{_capital(describe(R_WS, settings.down_W))}.")
+            return Proposal(R_WS, message(f"{arg(capitalised(describe(R_WS, settings.down_W)))}."))
     return None
 
 
@@ -221,10 +223,12 @@ def findings(
     found = [
         GravityFinding(
             f"rejected {rejection.name}",
-            f"{_capital(rejection.name)}: {rejection.reason} It does not count. Retake it, or"
-            f" continue with {int(calibration.kept.sum())} poses.",
+            message(
+                f"{arg(capitalised(rejection.name))}: {arg(rejection.reason)} It does not count. Retake it, or"
+                f" continue with {arg(int(calibration.kept.sum()))} poses."
+            ),
             leave_out=(rejection.index,),
-            remedy="Leave it out",
+            remedy=message("Leave it out"),
         )
         for rejection in calibration.rejected
     ]
@@ -265,14 +269,16 @@ def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Gravit
             key,
             sentence,
             settings=((INVERSE, not settings.parameters.inverse),),
-            remedy="Invert the orientations",
+            remedy=message("Invert the orientations"),
         )
     if turn is not None:
         return _turned(key, sentence, settings.R_ES @ turn)
     if key.startswith("rezero_before_"):
         change = int(key.removeprefix("rezero_before_")) - 1
         short = range(change) if change <= count - change else range(change, count)
-        return GravityFinding(key, sentence, leave_out=tuple(short), remedy="Leave out the smaller part")
+        return GravityFinding(
+            key, sentence, leave_out=tuple(short), remedy=message("Leave out the smaller part")
+        )
     return GravityFinding(key, sentence)
 
 
@@ -282,7 +288,10 @@ def _turned(key: str, sentence: str, R_ES: NDArray[np.float64]) -> GravityFindin
     ]
     words = ", ".join(f"{angle:.1f}" for angle in degrees)
     return GravityFinding(
-        key, sentence, settings=((MOUNT, degrees),), remedy=f"Set the mount to {words}° about x, y, z"
+        key,
+        sentence,
+        settings=((MOUNT, degrees),),
+        remedy=message(f"Set the mount to {arg(words)}° about x, y, z"),
     )
 
 
@@ -303,16 +312,12 @@ def _mounted(
     if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
-    sentence = (
-        f"The sensor is mounted on the flange {off:.0f}° differently than declared: with that"
-        f" corrected, the poses agree. {mounted.mounting} Set the mount accordingly, or check how"
+    sentence = message(
+        f"The sensor is mounted on the flange {arg(off):.0f}° differently than declared: with that"
+        f" corrected, the poses agree. {arg(mounted.mounting)} Set the mount accordingly, or check how"
         " the sensor is bolted on."
     )
     return _turned("mount", " ".join(sentence.split()), mounted.R_SE.T)
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 # ---- the poses, as a technician sees them ---------------------------------------------------------
@@ -322,7 +327,7 @@ class PoseState(StrEnum):
     """Whether a pose counts."""
 
     TAKEN = "taken"
-    LEFT_OUT = "left out"  # by the technician
+    LEFT_OUT = message("left out")  # by the technician
     REJECTED = "rejected"  # by what it reads, or because it was disturbed
 
 
@@ -351,7 +356,7 @@ def short_description(R_WS: NDArray[np.float64]) -> str:
     tilt = float(np.degrees(np.arccos(np.clip(-z_W[2], -1, 1))))
     down_S = -R_WS[2]
     side = int(np.argmax(np.abs(down_S)))
-    return f"{tilt:.0f}°, {'-' if down_S[side] < 0 else '+'}{'xyz'[side]} down"
+    return message(f"{arg(tilt):.0f}°, {arg('-' if down_S[side] < 0 else '+')}{arg('xyz'[side])} down")
 
 
 def middle(capture: Capture) -> float:
@@ -375,11 +380,24 @@ def calibrated_rows(
     """
     none = float("nan")
     rows = [
-        _row(f"pose {index + 1}", none if pose.time is None else pose.time, pose.R_WS, calibration, index)
+        _row(
+            message(f"pose {arg(index + 1)}"),
+            none if pose.time is None else pose.time,
+            pose.R_WS,
+            calibration,
+            index,
+        )
         for index, pose in enumerate(calibration.poses)
     ]
     out = [
-        PoseRow(f"out {number}", moment, None, "does not count", PoseState.LEFT_OUT, "You left it out.")
+        PoseRow(
+            f"out {number}",
+            moment,
+            None,
+            message("does not count"),
+            PoseState.LEFT_OUT,
+            message("You left it out."),
+        )
         for number, moment in enumerate(left_out, 1)
     ]
     return (*map(_of_earlier, rows[:earlier]), *rows[earlier:], *out)
@@ -426,15 +444,21 @@ def live_rows(
     for number, (capture, counts) in enumerate(captures, first):
         if capture.R_WS is None:
             continue
-        row = _live_row(f"pose {number}", middle(capture), capture.R_WS, settings, fitted if counts else None)
+        row = _live_row(
+            message(f"pose {arg(number)}"),
+            middle(capture),
+            capture.R_WS,
+            settings,
+            fitted if counts else None,
+        )
         if not counts:
-            reason = "It does not count. Restore it if it was good."
+            reason = message("It does not count. Restore it if it was good.")
             row = replace(row, state=PoseState.LEFT_OUT, reason=reason)
         rows.append((capture.start, row))
     for each in rejected:
         row = PoseRow(
             f"at {each.start - origin:.0f} s", 0.5 * (each.start + each.stop), None,
-            f"{each.state.value}: not captured", PoseState.REJECTED, each.reason, changeable=False,
+            message(f"{arg(each.state.value)}: not captured"), PoseState.REJECTED, each.reason, changeable=False,
         )  # fmt: skip
         rows.append((each.start, row))
     return tuple(row for _, row in sorted(rows, key=lambda each: each[0]))

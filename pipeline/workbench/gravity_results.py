@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.live import RECORDING, next_recording
@@ -216,6 +217,6 @@ def _recording(state: State, name: str) -> Input:
     found = state.current_inputs.get((RECORDING, name))
     if found is None:
         raise SessionError(
-            f"{name}: the session has no recording with this name: `session info` lists the recordings."
+            f"{arg(name)}: the session has no recording with this name: `session info` lists the recordings."
         )
     return found

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, message
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
@@ -112,10 +112,10 @@ class PressReading:
     def sentence(self) -> str:
         """What to do now."""
         if self.done:
-            return "The press is recorded."
+            return message("The press is recorded.")
         if self._began is None:
-            return "Press the point with 5 to 15 N, hold for a second, then let go."
-        return "Let go." if self.held >= _HELD_S else "Hold it steady."
+            return message("Press the point with 5 to 15 N, hold for a second, then let go.")
+        return message("Let go.") if self.held >= _HELD_S else message("Hold it steady.")
 
     def feed(self, block: LiveBlock) -> None:
         """Take samples."""

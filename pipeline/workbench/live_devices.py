@@ -9,7 +9,7 @@ from urllib.parse import quote
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.protocols.registry import drivers
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.why import CERTIFICATE, DUE, MOUNT, POSES, SENSOR, SERIAL
 from contactbench.pipeline.settings import ReportSettings, mount_rotation
 
@@ -103,25 +103,29 @@ def due_problem(due: str) -> str:
     try:
         ReportSettings.checked({"due": due})
     except InputError:
-        return f"The certificate's date {due!r} is not a date: write it as 2027-03-31, or leave it empty."
+        return message(
+            f"The certificate's date {arg(due)!r} is not a date: write it as 2027-03-31, or leave it empty."
+        )
     return ""
 
 
 def problem_of(address: str, *, poses: bool = False) -> str:
     """Say why an address is none of a sensor, or of a source of poses; empty: it is one."""
     if not address.strip():
-        what = "of the robot, such as ur+tcp://192.168.0.10" if poses else "of the sensor"
-        return f"Give the address {what}."
+        what = message("of the robot, such as ur+tcp://192.168.0.10") if poses else message("of the sensor")
+        return message(f"Give the address {arg(what)}.")
     try:
         parsed = DeviceAddress.parse(address.strip())
     except AddressError as error:
         return str(error)
     if not (parsed.gives_poses if poses else parsed.gives_wrenches):
         return (
-            f"{parsed.protocol} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
+            message(
+                f"{arg(parsed.protocol)} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
+            )
             if poses
-            else (
-                f"{parsed.protocol} is not a force/torque sensor: give the address of a sensor, such"
+            else message(
+                f"{arg(parsed.protocol)} is not a force/torque sensor: give the address of a sensor, such"
                 " as sri+tcp://192.168.0.108."
             )
         )

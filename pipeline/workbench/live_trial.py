@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.stream import StreamState
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,10 +21,12 @@ _FEWEST = 50  # readings before a noise is told
 _GAP = 2.5  # times the usual interval
 _CLOSE = 0.8  # of the range
 _GONE = {
-    StreamState.SILENT: "The sensor has gone silent. Check its cable and power; it resumes automatically.",
-    StreamState.LOST: "The sensor is disconnected: plug it in again. It resumes automatically.",
+    StreamState.SILENT: message(
+        "The sensor has gone silent. Check its cable and power; it resumes automatically."
+    ),
+    StreamState.LOST: message("The sensor is disconnected: plug it in again. It resumes automatically."),
 }
-_NO_POSES = (
+_NO_POSES = message(
     "No poses arrive, so the orientation is unknown: check the robot's address and cable. They"
     " resume automatically."
 )
@@ -103,9 +106,9 @@ def _gaps(times: NDArray[np.float64]) -> tuple[int, float]:
 def _states(sensor: Health, poses: Health | None, finished: bool) -> list[str]:
     said = []
     if finished:
-        said.append("End of the recording: choose it again to replay it.")
+        said.append(message("End of the recording: choose it again to replay it."))
     elif sensor.state is StreamState.CONNECTING:
-        said.append("The sensor does not respond yet: check its power and cable.")
+        said.append(message("The sensor does not respond yet: check its power and cable."))
     elif sensor.state in _GONE:
         said.append(_GONE[sensor.state])
     said += [*sensor.findings, *sensor.suspicions]
@@ -120,9 +123,13 @@ def _measured(noise: NDArray[np.float64], used: NDArray[np.float64] | None) -> l
     said = []
     if used is not None and np.nanmax(used, initial=0.0) >= _CLOSE:
         said.append(
-            f"A channel is at {100 * np.nanmax(used):.0f} % of its range; it clips at 100 %."
-            " Reduce the load, or re-zero the sensor."
+            message(
+                f"A channel is at {arg(100 * np.nanmax(used)):.0f} % of its range; it clips at 100 %."
+                " Reduce the load, or re-zero the sensor."
+            )
         )
     if np.isfinite(noise).all() and (noise == 0).all():
-        said.append("All readings are exactly the same: the sensor may be frozen. Touch it to check.")
+        said.append(
+            message("All readings are exactly the same: the sensor may be frozen. Touch it to check.")
+        )
     return said

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.verification.markers import (
     COLUMNS,
     Marker,
@@ -78,7 +79,7 @@ class Markers:
         """Return them with one called otherwise; MarkerError: the name is taken, or cannot be one."""
         check_name(new)
         if new != name and new in self.names:
-            raise MarkerError(f"there is already a marker {new}: choose another name.")
+            raise MarkerError(f"there is already a marker {arg(new)}: choose another name.")
         return Markers(
             tuple(
                 Marker(new, each.point_S, each.normal_S) if each.name == name else each for each in self.all
@@ -145,7 +146,9 @@ def kept(folder: Path, state: State) -> Markers:
     try:
         data = file.read_bytes()
     except OSError as error:
-        raise MarkerError(f"{file}: the markers cannot be read ({error}): run `session verify`.") from error
+        raise MarkerError(
+            f"{arg(file)}: the markers cannot be read ({arg(error)}): run `session verify`."
+        ) from error
     return Markers() if data == _EMPTY else Markers(read_markers(data, NAME).markers)
 
 

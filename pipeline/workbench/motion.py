@@ -22,7 +22,7 @@ from typing import IO, TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 
 from contactbench.pipeline.control.frames import Beginning, LoopFrame, read_line
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.installation import module_command
 from contactbench.pipeline.settings import PhantomSettings
 
@@ -135,9 +135,9 @@ class MotionRun:
         except OSError as error:
             self._said.close()
             raise InputError(
-                f"the virtual robot cannot be started ({error}): check {sys.executable}."
+                f"the virtual robot cannot be started ({arg(error)}): check {arg(sys.executable)}."
             ) from error
-        self._reader = threading.Thread(target=self._read, name="closed loop", daemon=True)
+        self._reader = threading.Thread(target=self._read, name=message("closed loop"), daemon=True)
         self._reader.start()
 
     # ---- what is asked -----------------------------------------------------------------------------
@@ -206,11 +206,11 @@ class MotionRun:
                 for line in lines:
                     self._take(read_line(line))
         except (InputError, OSError, ValueError) as error:
-            self._failure = f"the virtual robot sent an invalid answer ({error})."
+            self._failure = message(f"the virtual robot sent an invalid answer ({arg(error)}).")
             self._process.kill()
         code = self._process.wait()
         if self.outcome is None and not self._failure:
-            self._failure = self._last_words() or f"the virtual robot stopped with code {code}."
+            self._failure = self._last_words() or message(f"the virtual robot stopped with code {arg(code)}.")
 
     def _take(self, told: Beginning | LoopFrame | dict[str, Any]) -> None:
         if isinstance(told, Beginning):

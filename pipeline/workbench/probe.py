@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.files import File, NamedFile
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
@@ -277,7 +277,7 @@ def _inspected(file: File, units: str, progress: Progress, cancelled: Cancel) ->
     try:
         return inspect(file, _units(units), progress=progress, cancelled=cancelled)
     except MemoryError as error:
-        raise InputError(f"{file}: not enough memory: export the part with fewer facets.") from error
+        raise InputError(f"{arg(file)}: not enough memory: export the part with fewer facets.") from error
 
 
 def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
@@ -285,12 +285,12 @@ def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
         with file.open("rb") as source, target.open("wb") as copy:
             while chunk := source.read(_PORTION):
                 if cancelled is not None and cancelled():
-                    raise Cancelled("reading the mesh was cancelled: nothing was changed.")
+                    raise Cancelled(message("reading the mesh was cancelled: nothing was changed."))
                 copy.write(chunk)
     except OSError as error:
         target.unlink(missing_ok=True)
         raise InputError(
-            f"{file}: it cannot be copied ({error}): check the file and the free disk space."
+            f"{arg(file)}: it cannot be copied ({arg(error)}): check the file and the free disk space."
         ) from error
 
 

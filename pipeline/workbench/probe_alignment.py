@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import (
     align_axes,
     align_flange,
@@ -51,7 +51,7 @@ def by_points(pairs: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]) 
     """
     if len(pairs) < FEWEST_PAIRS:
         raise InputError(
-            f"{len(pairs)} points are picked, but {FEWEST_PAIRS} are needed: pick another one, far"
+            f"{arg(len(pairs))} points are picked, but {arg(FEWEST_PAIRS)} are needed: pick another one, far"
             " from these."
         )
     return align_points([point_P for point_P, _ in pairs], [point_S for _, point_S in pairs])
@@ -105,7 +105,7 @@ def by_file(file: Path) -> Alignment:
         with file.open("rb") as stream:
             data = stream.read(_LARGEST_FILE + 1)
     except OSError as error:
-        raise InputError(f"{file}: it cannot be read ({error}): check the path.") from error
+        raise InputError(f"{arg(file)}: it cannot be read ({arg(error)}): check the path.") from error
     return from_json(data, file.name)
 
 

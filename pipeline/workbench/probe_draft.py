@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.preparation.alignment import from_json
 from contactbench.pipeline.session.files import digest_of
 from contactbench.pipeline.session.why import PROBE_DRAFT
@@ -59,7 +59,9 @@ def draft_of(state: State) -> ProbeDraft | None:
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"{DRAFT}: the draft cannot be read ({error}): choose the mesh again.") from error
+        raise InputError(
+            f"{arg(DRAFT)}: the draft cannot be read ({arg(error)}): choose the mesh again."
+        ) from error
     return ProbeDraft(mesh, name, plan)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import (
     FacetGraph,
@@ -95,8 +96,8 @@ class Clear:
 Tool = Flood | Box | Plane | Mirror | Grow | Shrink | Smooth | Clear
 _WORDS: dict[type, str] = {
     Flood: "fill",
-    Box: "box into",
-    Plane: "half into",
+    Box: message("box into"),
+    Plane: message("half into"),
     Mirror: "mirror",
     Grow: "grow",
     Shrink: "shrink",
@@ -170,7 +171,7 @@ def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) 
     Growing, shrinking and smoothing give the region its new shape and leave other regions alone; the rest is
     added to it or, with `erase`, taken out of it.
     """
-    text = f"{_WORDS[type(found.tool)]} {model.regions[found.rank - 1].name}"
+    text = message(f"{arg(_WORDS[type(found.tool)])} {arg(model.regions[found.rank - 1].name)}")
     own = model.labels == found.rank
     match found.tool:
         case Grow() | Shrink() | Smooth():
@@ -178,7 +179,7 @@ def give(model: RegionModel, found: FoundFacets, *, protect: bool, erase: bool) 
         case Clear():
             model.assign(own, 0, text=text)
         case Flood() | Box() | Plane() if erase:
-            model.assign(found.mask & own, 0, text=f"{text}, erasing")
+            model.assign(found.mask & own, 0, text=message(f"{arg(text)}, erasing"))
         case _:
             model.assign(found.mask, found.rank, protect=protect, text=text)
 

@@ -6,7 +6,7 @@ import hashlib
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.mesh.regions.history import RegionSteps
@@ -83,11 +83,13 @@ def open_work(
         if not carried:
             steps = read_region_steps(desk.folder, regions_digest(desk.state))
         else:
-            notes.append("The probe changed after the regions were painted; they were transferred to it.")
+            notes.append(
+                message("The probe changed after the regions were painted; they were transferred to it.")
+            )
             notes += [each.sentence for each in carried if each.vanished]
     except InputError as error:
         regions = shell.regions
-        notes.append(f"The earlier regions are not shown: {error}")
+        notes.append(message(f"The earlier regions are not shown: {arg(error)}"))
     work = RegionsWork(shell, regions, tuple(notes))
     with suppress(InputError):  # they are of another surface: nothing of it can be undone
         work.model.put_steps(steps)

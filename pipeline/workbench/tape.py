@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording.recorder import health_facts
 from contactbench.pipeline.session.live import LiveRecording
 from contactbench.pipeline.workbench.live import Tap
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
 
-_NAMES = {"sensor": "The sensor", "robot": "The source of poses"}
+_NAMES = {"sensor": message("The sensor"), "robot": message("The source of poses")}
 
 
 class SessionTape:
@@ -107,7 +107,7 @@ class SessionTape:
     def error(self) -> str | None:
         """Why nothing more is written, such as a full disk; what was written before is kept. None: all is well."""
         failed = self._recording.recorder.error
-        return None if failed is None else f"{failed} Everything recorded until then is safe."
+        return None if failed is None else message(f"{arg(failed)} Everything recorded until then is safe.")
 
     @property
     def findings(self) -> tuple[str, ...]:
@@ -115,14 +115,20 @@ class SessionTape:
         said = [self.error] if self.error else []
         for device, health in tuple(self._health.items()):
             if health.state in {StreamState.SILENT, StreamState.LOST}:
-                said.append(f"{_NAMES[device]} sends nothing: the recording waits and resumes automatically.")
+                said.append(
+                    message(
+                        f"{arg(_NAMES[device])} sends nothing: the recording waits and resumes automatically."
+                    )
+                )
             said += [*health.findings, *health.suspicions]
         if self._recording.recorder.dropped:
             said.append(
-                "The disk is too slow, so samples are missing in the recording. Record to another disk."
+                message(
+                    "The disk is too slow, so samples are missing in the recording. Record to another disk."
+                )
             )
         if self._cut and not self._ended:
-            said.append("The devices were closed: the recording ends there.")
+            said.append(message("The devices were closed: the recording ends there."))
         return tuple(dict.fromkeys(said))
 
     # ---- its end -----------------------------------------------------------------------------------
@@ -148,19 +154,19 @@ class SessionTape:
         if not self._samples:
             self._recording.discard()
             raise InputError(
-                f"{self.name}: no sample arrived, so nothing was kept: check that the sensor sends"
+                f"{arg(self.name)}: no sample arrived, so nothing was kept: check that the sensor sends"
                 " samples, then start again."
             )
         return self._recording.keep(self._facts())
 
     def _discard(self, session: Session) -> None:  # noqa: ARG002 - the recording knows it
         self._stop()
-        self._recording.discard(f"was abandoned, with {self._samples:,} samples")
+        self._recording.discard(message(f"was abandoned, with {arg(self._samples):,} samples"))
 
     def _stop(self) -> None:
         with self._ending:
             if self._ended:
-                raise InputError(f"{self.name}: this recording has already ended.")
+                raise InputError(f"{arg(self.name)}: this recording has already ended.")
             self._ended = True
         self._end()
         self._recording.__exit__(None, None, None)

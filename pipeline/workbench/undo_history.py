@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic_core import PydanticUndefined, to_jsonable_python
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.session.recompute import RECOMPUTE
 from contactbench.pipeline.session.state import fold
 from contactbench.pipeline.workbench.region_history import read_region_steps, regions_digest
@@ -48,7 +49,11 @@ class SessionChange:
                 session.add_again(before)
         for before_input, after in self.inputs.values():
             if before_input is None:
-                session.note(f"Undone: adding {after.kind} {after.name}. It stays in the session, unused.")
+                session.note(
+                    message(
+                        f"Undone: adding {arg(after.kind)} {arg(after.name)}. It stays in the session, unused."
+                    )
+                )
             else:
                 session.add_again(before_input)
         for key, (value, _) in self.settings.items():

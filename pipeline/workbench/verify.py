@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
 from contactbench.pipeline.session.why import why_locked
@@ -384,7 +384,7 @@ def outcome_of(
         verification = read_verification(file)
     except InputError as error:
         raise InputError(
-            f"{file}: the verification cannot be read ({error}): run `contactbench session verify`."
+            f"{arg(file)}: the verification cannot be read ({arg(error)}): run `contactbench session verify`."
         ) from error
     reasons = stale.get(found.slot, ())
     outcome = VerifyOutcome(verification, _report(folder, state, found.known_as), stale=" ".join(reasons[:1]))
@@ -403,16 +403,16 @@ def differs(outcome: VerifyOutcome, live: TouchView) -> str:
     if live.mean_mm is None or outcome.mean_mm is None:
         if live.accepted == outcome.touches:
             return ""
-        return (
-            f"Live, {live.accepted} touches were accepted; the recording gives {outcome.touches}."
+        return message(
+            f"Live, {arg(live.accepted)} touches were accepted; the recording gives {arg(outcome.touches)}."
             " The recording counts."
         )
     same_count = live.accepted == outcome.touches
     if same_count and abs(live.mean_mm - outcome.mean_mm) <= _SAME_MM:
         return ""
-    return (
-        f"Live, {live.accepted} touches were accepted with a mean error of {live.mean_mm:.2f} mm;"
-        f" the recording gives {outcome.touches} with {outcome.mean_mm:.2f} mm, because it uses"
+    return message(
+        f"Live, {arg(live.accepted)} touches were accepted with a mean error of {arg(live.mean_mm):.2f} mm;"
+        f" the recording gives {arg(outcome.touches)} with {arg(outcome.mean_mm):.2f} mm, because it uses"
         " the noise of the whole recording. The recording counts."
     )
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.verification.protocol import ProtocolState, Touch, TouchEvent, TouchProtocol
 from contactbench.pipeline.verification.touch_location import TouchLocator, memory, sample_noise
 
@@ -377,14 +378,14 @@ class LiveTouches:
 
     def _notice(self) -> str:
         if self._poses and not any(known for _, known in self._poses):
-            return (
+            return message(
                 "No pose arrives with the samples, so the weight cannot be subtracted. Check the"
                 " robot's connection; touches count again once it is back."
             )
         release = self.settings.protocol.release_N
         if len(self._first) >= _FEWEST and not self._touches and np.median(self._first) > release:
-            return (
-                f"The sensor reads {float(np.median(self._first)):.1f} N, but nothing should touch"
+            return message(
+                f"The sensor reads {arg(float(np.median(self._first))):.1f} N, but nothing should touch"
                 " it yet: lift the probe clear. If nothing touches it, recalibrate."
             )
         return ""

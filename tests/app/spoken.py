@@ -102,9 +102,13 @@ def called(node: ast.Call) -> str:
 
 
 def sources() -> list[Source]:
-    """Return every file of `app` and `widgets`; not the command line, which is English as all commands are."""
+    """
+    Return every file of `app` and `widgets`.
+
+    Not the command line, which is English as all commands are, and not what passes messages of `pipeline` on.
+    """
     files = sorted(file for folder in ("app", "widgets") for file in (ROOT / folder).rglob("*.py"))
-    return [Source(file) for file in files if not file.name.startswith("cli")]
+    return [Source(file) for file in files if not file.name.startswith(("cli", "messages."))]
 
 
 def _is_log(value: ast.expr) -> bool:

@@ -13,10 +13,11 @@ from PySide6.QtCore import QCoreApplication, QTranslator
 
 from contactbench.app import translation
 from contactbench.app.cli import app
-from contactbench.app.sentences import templates
+from contactbench.app.jobs import Jobs
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.steps import Step
-from contactbench.widgets.phrases import PhraseBook, said
+from contactbench.widgets.messages import CONTEXT, translated
 
 from . import spoken as spoken_words
 from .spoken import Source, sources
@@ -38,13 +39,13 @@ def small(tmp_path, monkeypatch):
         '<?xml version="1.0"?><TS version="2.1" language="de"><context><name>StepList</name>'
         "<message><source>Gravity</source><translation>Schwerkraft</translation></message>"
         '<message><source>Probe</source><translation type="unfinished"></translation></message>'
+        "</context><context><name>pipeline</name>"
+        "<message><source>{0}: row {1} is {2} mm off</source>"
+        "<translation>{0}: {2} mm daneben in Zeile {1}</translation></message>"
+        "<message><source>the force is small</source><translation>die Kraft ist klein</translation></message>"
         "</context></TS>",
         encoding="utf-8",
     )
-    (tmp_path / "sentences_de.json").write_text(
-        '{"The arm moved.": "Der Arm bewegte sich.", "hold still": ""}', "utf-8"
-    )
-    monkeypatch.setattr(translation, "templates", lambda _: ("The arm moved.", "hold still"))
     translation.release("de")
     return tmp_path
 
@@ -57,13 +58,35 @@ def test_a_language_is_spoken_where_it_is_known(qapp, small, spoken):  # noqa: A
     try:
         assert steps.name_of(Step.GRAVITY) == "Schwerkraft"
         assert steps.name_of(Step.PROBE) == "Probe"
-        assert said("The arm moved.") == "Der Arm bewegte sich."
     finally:
         steps.deleteLater()
 
 
+def test_messages_are_translated_and_numbers_are_the_readers(qapp, small, spoken):  # noqa: ARG001
+    wrong = InputError(f"{arg('a.csv')}: row {arg(7)} is {arg(1234.56):,.1f} mm off")
+    spoken("de")
+    assert translated(wrong) == "a.csv: 1.234,6 mm daneben in Zeile 7"
+    assert translated(message(f"{arg(wrong)}, {arg('the force is small')}")) == (
+        "a.csv: 1.234,6 mm daneben in Zeile 7, die Kraft ist klein"
+    )
+    assert translated("the force is small") == "die Kraft ist klein"
+    assert translated(message(f"pose {arg(4)} is {arg(0.5)} mm off")) == "pose 4 is 0,5 mm off"
+
+
+def test_what_fails_in_a_worker_is_told_in_the_language_of_the_window(qapp, qtbot, small, spoken):  # noqa: ARG001
+    def fail(_progress, _cancelled):
+        raise InputError(f"{arg('a.csv')}: row {arg(7)} is {arg(0.5)} mm off")
+
+    spoken("de")
+    told = []
+    jobs = Jobs()
+    jobs.start("Reading", fail, lambda _: None, told.append)
+    qtbot.waitUntil(lambda: bool(told))
+    assert translated(told[0]) == "a.csv: 0,5 mm daneben in Zeile 7"
+
+
 def test_missing_strings_are_named(small, capsys):  # noqa: ARG001
-    assert translation.unfinished("de") == ("StepList: Probe", "pipeline: hold still")
+    assert translation.unfinished("de") == ("StepList: Probe",)
     assert translation.main(["check"]) == 1
     assert "de: StepList: Probe" in capsys.readouterr().out
     assert translation.main([]) == 2
@@ -77,8 +100,7 @@ def test_update_takes_strings_of_both_packages(tmp_path, monkeypatch):
     assert "<name>StepList</name>" in text
     assert "<name>MainWindow</name>" in text
     assert (tmp_path / "contactbench_de.qm").exists()
-    assert translation.sentences("de").keys() == set(templates(translation._PIPELINE))
-    assert not any(translation.sentences("de").values())
+    assert {text for context, text, _ in _messages("de") if context == CONTEXT} == translation.messages()
 
 
 # ---- what is said, and what is translated ----------------------------------------------------------
@@ -117,6 +139,7 @@ def test_words_that_would_stay_english_are_found(tmp_path, monkeypatch, line, co
 def test_the_file_of_a_language_is_that_of_the_source(spoken_files, language):
     """After a string has changed: ``python -m contactbench.app.translation update``, then translate what is new."""
     wanted = {(each.context, each.text) for source in spoken_files for each in source.strings}
+    wanted |= {(CONTEXT, text) for text in translation.messages()}
     assert {(context, text) for context, text, _ in _messages(language)} == wanted
 
 
@@ -134,27 +157,37 @@ def test_numbers_and_names_are_put_into_the_same_places(language):
         assert ("&" in made) == ("&" in text), f"{context}: {text}"
 
 
-@pytest.mark.parametrize("language", OTHERS)
-def test_the_phrase_book_holds_what_pipeline_says(language):
-    """After a sentence has changed: ``python -m contactbench.app.translation update``, then translate what is new."""
-    book = translation.sentences(language)
-    assert book.keys() == set(templates(translation._PIPELINE))
-    for text, made in book.items():
-        assert sorted(_PLACES.findall(made)) == sorted(_PLACES.findall(text)), text
-        assert (made[:1].isspace(), made[-1:].isspace()) == (text[:1].isspace(), text[-1:].isspace()), text
+@pytest.fixture
+def said_by(tmp_path, monkeypatch):
+    """Return the templates of a source."""
+
+    def found(source, file="pipeline/mesh/module.py"):
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_text(source, encoding="utf-8")
+        monkeypatch.setattr(translation, "_HERE", tmp_path / "app")
+        return set(translation.messages())
+
+    return found
 
 
-@pytest.mark.parametrize("language", OTHERS)
-def test_what_pipeline_says_is_found_again_with_anything_filled_in(language):
-    pairs = translation.sentences(language)
-    book = PhraseBook(pairs)
-    lost = [text for text, made in pairs.items() if book.say(_filled(text)) != _filled(made)]
-    # A few say nearly the same: the more particular one is found.
-    assert len(lost) <= 0.02 * len(pairs), lost
+def test_messages_and_what_errors_are_made_of_are_found(said_by):
+    assert said_by('say(message(f"pose {arg(name)} is {arg(angle):.1f} deg " "off"))') == {
+        "pose {0} is {1} deg off"
+    }
+    assert said_by(
+        'class FileError(InputError): ...\nclass TextError(FileError): ...\nraise TextError("no text")'
+    ) == {"no text"}
+    assert (
+        said_by('raise ValueError("no text"); raise InputError(text); message(f"{arg(a)}: 3 {arg(b)}")')
+        == set()
+    )
+    assert said_by('message("seen in a terminal")', "pipeline/commands/run.py") == set()
 
 
-def _filled(template):
-    return _PLACES.sub(lambda hole: f"<{hole[0][1:-1]}>", template)
+def test_a_value_that_is_no_argument_is_refused(said_by):
+    """It would be part of the template, which no language has."""
+    with pytest.raises(ValueError, match="each value in a message is given as arg"):
+        said_by('message(f"pose {name} is {arg(angle)} deg off")')
 
 
 @pytest.mark.parametrize("language", OTHERS)
@@ -218,9 +251,9 @@ def _words(language):
 
 def _messages(language):
     for context in ET.parse(translation._file(language)).iter("context"):  # noqa: S314 - our own file
-        for message in context.iter("message"):
-            made = message.find("translation").text or ""
-            yield context.findtext("name"), message.findtext("source"), made
+        for each in context.iter("message"):
+            made = each.find("translation").text or ""
+            yield context.findtext("name"), each.findtext("source"), made
 
 
 @pytest.fixture
@@ -262,7 +295,7 @@ def test_what_a_diagnosis_says_is_said_whole(qapp, spoken, mistake):  # noqa: AR
     spoken("de")
     found = diagnose(mistake(held(turned(12))), NOISE)
     for sentence in (found.sentence, *found.not_testable):
-        words = re.findall(r"\w+", said(sentence))
+        words = re.findall(r"\w+", translated(sentence))
         english = {
             "the",
             "and",
@@ -277,4 +310,4 @@ def test_what_a_diagnosis_says_is_said_whole(qapp, spoken, mistake):  # noqa: AR
             "torques",
             "negated",
         }
-        assert not english & set(words), said(sentence)
+        assert not english & set(words), translated(sentence)

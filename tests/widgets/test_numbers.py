@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QLocale, Qt
 
-from contactbench.widgets import phrases
+from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import (
     NumberBox,
     date_and_time,
@@ -53,7 +53,7 @@ def test_a_german_reads_commas():
     ],
 )
 def test_sentences_of_the_pipeline_have_commas_too(english, expected):
-    assert phrases.said(english) == expected
+    assert translated(english) == expected
 
 
 @pytest.mark.usefixtures("german")

@@ -34,7 +34,7 @@ from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientatio
 from contactbench.pipeline.calibration.diagnosis.side_by_side import HypothesisNoise
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.settings import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ class Diagnosis:
             if finding.hypothesis == hypothesis:
                 return finding
         keys = ", ".join(finding.hypothesis for finding in self.ranking)
-        raise InputError(f"there is no hypothesis {hypothesis!r}. Tested: {keys}.")
+        raise InputError(f"there is no hypothesis {arg(hypothesis)!r}. Tested: {arg(keys)}.")
 
     def corrected(self, hypothesis: str) -> tuple[PoseSample, ...]:
         """Return the poses as they are if a hypothesis holds.
@@ -222,7 +222,7 @@ def diagnose(
     """
     if not FEWEST_POSES <= len(poses) <= MOST_POSES:
         raise PoseError(
-            f"{len(poses)} poses: the convention check needs {FEWEST_POSES} to {MOST_POSES}. Take"
+            f"{arg(len(poses))} poses: the convention check needs {arg(FEWEST_POSES)} to {arg(MOST_POSES)}. Take"
             " poses with different tilts about two axes; from a long recording, use only the"
             " parts where the sensor stood still."
         )
@@ -324,23 +324,25 @@ def _untold(
             if case.hypothesis.scales and case.evidence.log_likelihood > least
         ]
         return (
-            f"But {' or '.join(units)} would fit equally well. Press one known point and compare."
+            message(
+                f"But {arg(join(message(' or '), units))} would fit equally well. Press one known point and compare."
+            )
             if units
             else ""
         )
     noise = np.repeat(declared.evidence.noise, 3) * context.sigmas
     error = usual_task().sensor_error(noise)
     if error > _LARGEST_ERROR:
-        return (
-            f"But residuals of this size move a contact by {1e3 * error:.1f} mm, and nothing shows"
+        return message(
+            f"But residuals of this size move a contact by {arg(1e3 * error):.1f} mm, and nothing shows"
             " whether they are noise. Give the noise from the sensor's data sheet."
         )
     scales = [case for case in cases if case.hypothesis.scales and case.value > declared.value + _UNTOLD]
     if scales and context.prior.mass is None:
-        masses = [f"{case.hypothesis.title} ({case.mass:.2g} kg)" for case in scales[:3]]
-        return (
-            f"But the units cannot be determined without the tool's mass: {declared.mass:.2g} kg"
-            f" as declared, or {' or '.join(masses)}. Weigh the tool and give its mass."
+        masses = [message(f"{arg(case.hypothesis.title)} ({arg(case.mass):.2g} kg)") for case in scales[:3]]
+        return message(
+            f"But the units cannot be determined without the tool's mass: {arg(declared.mass):.2g} kg"
+            f" as declared, or {arg(join(message(' or '), masses))}. Weigh the tool and give its mass."
         )
     return ""
 

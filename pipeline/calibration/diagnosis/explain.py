@@ -23,6 +23,7 @@ from contactbench.pipeline.calibration.diagnosis.prior import (
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.errors import arg, capitalised, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -113,7 +114,7 @@ def decided_by(best: HypothesisCase, rivals: Sequence[HypothesisCase]) -> str:
     """Return what sets `best` apart from rivals that are not as good: priors where residuals would not do."""
     reasons = {decisive(best, rival) for rival in rivals}
     priors = [part for part in best.priors if part in reasons]
-    return f"prior: {', '.join(priors)}" if priors else RESIDUALS
+    return message(f"prior: {arg(join(', ', priors))}") if priors else RESIDUALS
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,17 +177,17 @@ class Words:
         untold : str
             What keeps data that fit as they are from being called consistent.
         """
-        return " ".join([*self._finding(none_known, untold), *self._left_out(self._best)])
+        return join(" ", [*self._finding(none_known, untold), *self._left_out(self._best)])
 
     def _finding(self, none_known: bool, untold: str) -> Iterator[str]:
         best = self._best
         if none_known:
             yield self._unexplained()
         elif self._blind():
-            yield "These poses show no inconsistency, but they cannot show much:"
+            yield message("These poses show no inconsistency, but they cannot show much:")
             yield from self._blind()
         elif not best.weighs:
-            yield (
+            yield message(
                 "The sensor feels no weight, so no convention can be tested. Take the poses with the tool"
                 " mounted, check the unit of the forces, and that the sensor does not re-zero itself."
             )
@@ -195,7 +196,7 @@ class Words:
             yield from self._second()
             yield from [untold] if untold else self._also()
         else:
-            yield f"{self._said()}: {self._because(best)}. {best.hypothesis.remedy}"
+            yield message(f"{arg(self._said())}: {arg(self._because(best))}. {arg(best.hypothesis.remedy)}")
             yield from self._second()
             yield from self._also()
             yield from self._rests_on_noise()
@@ -207,9 +208,9 @@ class Words:
             return fact
         said = in_words(probability)
         return (
-            f"{fact} (probably, at odds of {said})"
+            message(f"{arg(fact)} (probably, at odds of {arg(said)})")
             if probability > _PROBABLE
-            else f"{fact} (possibly, at odds of {said})"
+            else message(f"{arg(fact)} (possibly, at odds of {arg(said)})")
         )
 
     def _blind(self) -> tuple[str, ...]:
@@ -223,9 +224,12 @@ class Words:
         """Return a sentence about one case."""
         residual = self._size(case)
         if case is self._declared:
-            return f"As declared, the residuals are {residual}."
+            return message(f"As declared, the residuals are {arg(residual)}.")
         margin = case.score - self._declared.score
-        return f"{_capital(case.hypothesis.title)}: residuals {residual}, log odds {margin:+,.1f} against as declared."
+        return message(
+            f"{arg(capitalised(case.hypothesis.title))}: residuals {arg(residual)}, log odds"
+            f" {arg(margin):+,.1f} against as declared."
+        )
 
     def not_testable(self, cases: Sequence[HypothesisCase]) -> tuple[str, ...]:
         """Return what these data do not tell."""
@@ -237,65 +241,85 @@ class Words:
         ]
         if same:
             words.append(
-                f"These poses fit equally well as declared and as {_list(same)}, so they cannot"
-                " decide between the two. Turn the wrist about more than one axis between poses."
+                message(
+                    f"These poses fit equally well as declared and as {arg(_list(same))}, so they cannot"
+                    " decide between the two. Turn the wrist about more than one axis between poses."
+                )
             )
         if not self._context.known:
-            mass = "" if self._context.prior.mass is not None else ", or the mass of the tool as weighed"
+            mass = (
+                ""
+                if self._context.prior.mass is not None
+                else message(", or the mass of the tool as weighed")
+            )
             words.append(
-                "The noise was not given, so units can only be judged by the resulting mass and"
-                f" centre of mass. Give the noise from the sensor's data sheet{mass}."
+                message(
+                    "The noise was not given, so units can only be judged by the resulting mass and"
+                    f" centre of mass. Give the noise from the sensor's data sheet{arg(mass)}."
+                )
             )
         return tuple(words)
 
     def _consistent(self) -> str:
         case = self._declared
         angle = _angle(case, self._context.prior)
-        return (
-            f"The data are consistent as they are: residuals {self._size(case)}, gravity {np.degrees(angle):.1f}°"
-            f" from down, mass {case.mass:.3g} kg."
+        return message(
+            f"The data are consistent as they are: residuals {arg(self._size(case))}, gravity"
+            f" {arg(np.degrees(angle)):.1f}° from down, mass {arg(case.mass):.3g} kg."
         )
 
     def _second(self) -> Iterator[str]:
         """Say what is strange about the load even if the best reading is right."""
         best, prior = self._best, self._context.prior
         said = {
-            DOWN: f"gravity points {np.degrees(_angle(best, prior)):.0f}° away from down",
-            SIDE: f"the centre of mass lies {_side(_height(best, prior))} of the sensor",
-            REACH: f"the centre of mass lies {_distance(best)} from the sensor",
-            WEIGHED: f"the mass comes out as {best.mass:.2g} kg where {prior.mass or 0:.2g} kg was weighed",
-            MASS: f"the mass comes out as {best.mass:.2g} kg",
-            QUIET: f"the noise comes out as {self._noise(best)}",
+            DOWN: message(f"gravity points {arg(np.degrees(_angle(best, prior))):.0f}° away from down"),
+            SIDE: message(f"the centre of mass lies {arg(_side(_height(best, prior)))} of the sensor"),
+            REACH: message(f"the centre of mass lies {arg(_distance(best))} from the sensor"),
+            WEIGHED: message(
+                f"the mass comes out as {arg(best.mass):.2g} kg where {arg(prior.mass or 0):.2g} kg was weighed"
+            ),
+            MASS: message(f"the mass comes out as {arg(best.mass):.2g} kg"),
+            QUIET: message(f"the noise comes out as {arg(self._noise(best))}"),
         }
         strange = [said[part] for part, weight in best.priors.items() if weight < _STRANGE]
         if strange and best is not self._declared:
-            yield f"But then {_list(strange)}. Correct this, then check again for a second mistake."
+            yield message(
+                f"But then {arg(_list(strange))}. Correct this, then check again for a second mistake."
+            )
         elif strange:
-            yield f"But {_list(strange)}. Check what was declared about the tool and the world's z axis."
+            yield message(
+                f"But {arg(_list(strange))}. Check what was declared about the tool and the world's z axis."
+            )
 
     def _also(self) -> Iterator[str]:
         if not self._tied:
             return
         changes = [case.hypothesis.change for case in self._tied]
         if self._best.hypothesis.change and all(changes):
-            yield f"It may equally have been before pose {_list([str(change + 1) for change in changes])}."
+            yield message(
+                f"It may equally have been before pose {arg(_list([str(change + 1) for change in changes]))}."
+            )
             return
         units = any(case.hypothesis.scales for case in (self._best, *self._tied))
         masses = [f" ({case.mass:.2g} kg)" if units else "" for case in self._tied]
         rivals = [case.hypothesis.title + mass for case, mass in zip(self._tied, masses, strict=True)]
-        yield f"Cannot be distinguished from: {'; '.join(rivals[:_LISTED])}. {self._telling(units)}"
+        yield message(
+            f"Cannot be distinguished from: {arg(join('; ', rivals[:_LISTED]))}. {arg(self._telling(units))}"
+        )
 
     def _telling(self, units: bool) -> str:
         """Say what would tell the best reading from those that are as good."""
         if all(case.same(self._best) for case in self._tied):
-            return "With these poses it makes no difference."
+            return message("With these poses it makes no difference.")
         if units and self._context.prior.mass is None:
-            return "Weigh the tool and give its mass."
+            return message("Weigh the tool and give its mass.")
         if units and not self._context.known:
-            return "Give the noise from the sensor's data sheet."
+            return message("Give the noise from the sensor's data sheet.")
         if all(self._as_likely(case) for case in self._tied):
-            return "Press the tool with a finger, and check the directions of the forces and torques."
-        return "Take more poses, tilted about two axes by up to 90°."
+            return message(
+                "Press the tool with a finger, and check the directions of the forces and torques."
+            )
+        return message("Take more poses, tilted about two axes by up to 90°.")
 
     def _as_likely(self, case: HypothesisCase) -> bool:
         """Tell whether no residual, of these or other poses, sets a case apart from the best."""
@@ -305,7 +329,9 @@ class Words:
         forces = np.abs(self._best.hypothesis.factor[0]) != 1
         if forces and self._context.known and decisive(self._best, self._declared) == RESIDUALS:
             times = 1 / self._declared.evidence.noise[0]
-            yield f"Or the specified noise is {times:.0f} times too large: weigh the tool to be sure."
+            yield message(
+                f"Or the specified noise is {arg(times):.0f} times too large: weigh the tool to be sure."
+            )
 
     def _because(self, case: HypothesisCase) -> str:
         if decisive(case, self._declared) in (RESIDUALS, NOTHING):
@@ -319,53 +345,71 @@ class Words:
             start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
             reading = case.hypothesis.reading
             if after > before:
-                return f"with {reading} the residuals rise to the noise's size, from {start} to {sizes[1]}"
-            return f"with {reading} the residuals fall from {start} to {sizes[1]}"
+                return message(
+                    f"with {arg(reading)} the residuals rise to the noise's size, from {arg(start)} to {arg(sizes[1])}"
+                )
+            return message(f"with {arg(reading)} the residuals fall from {arg(start)} to {arg(sizes[1])}")
         part = decisive(case, self._declared)
-        return (
-            f"the residuals, {self._size(case)}, do not decide it, but as declared"
-            f" {self._strange(part, case)}"
+        return message(
+            f"the residuals, {arg(self._size(case))}, do not decide it, but as declared"
+            f" {arg(self._strange(part, case))}"
         )
 
     def _strange(self, part: str, case: HypothesisCase) -> str:
         """Say what would be strange about the load as declared."""
         declared, prior = self._declared, self._context.prior
         if part == DOWN and case.hypothesis.prior is not None:
-            return f"gravity would point {np.degrees(_angle(declared, prior)):.0f}° away from down"
+            return message(
+                f"gravity would point {arg(np.degrees(_angle(declared, prior))):.0f}° away from down"
+            )
         if part == SIDE and case.hypothesis.prior is not None:
-            return f"the centre of mass would lie {_side(_height(declared, prior))} of the sensor"
+            return message(
+                f"the centre of mass would lie {arg(_side(_height(declared, prior)))} of the sensor"
+            )
         if part == DOWN:
             angles = [np.degrees(_angle(each, prior)) for each in (declared, case)]
-            return f"gravity would point {angles[0]:.0f}° away from down; read this way, {angles[1]:.0f}°"
+            return message(
+                f"gravity would point {arg(angles[0]):.0f}° away from down; read this way, {arg(angles[1]):.0f}°"
+            )
         if part == SIDE:
             sides = [_side(_height(each, prior)) for each in (declared, case)]
-            return f"the centre of mass would lie {sides[0]} of the sensor; read this way, {sides[1]}"
+            return message(
+                f"the centre of mass would lie {arg(sides[0])} of the sensor; read this way, {arg(sides[1])}"
+            )
         if part == REACH:
-            return (
-                f"the centre of mass would lie {_distance(declared)} from the sensor; read this way,"
-                f" {_distance(case)}"
+            return message(
+                f"the centre of mass would lie {arg(_distance(declared))} from the sensor; read this way,"
+                f" {arg(_distance(case))}"
             )
         if part == QUIET:
-            return f"the noise would be {self._noise(declared)}; read this way, {self._noise(case)}"
-        weighed = f"; {prior.mass:.3g} kg was weighed" if part == WEIGHED else ""
-        return f"the mass would be {declared.mass:.2g} kg; read this way, {case.mass:.2g} kg{weighed}"
+            return message(
+                f"the noise would be {arg(self._noise(declared))}; read this way, {arg(self._noise(case))}"
+            )
+        weighed = message(f"; {arg(prior.mass):.3g} kg was weighed") if part == WEIGHED else ""
+        return message(
+            f"the mass would be {arg(declared.mass):.2g} kg; read this way, {arg(case.mass):.2g} kg{arg(weighed)}"
+        )
 
     def _unexplained(self) -> str:
         best = self._best
         noise = (
-            "a specified noise that is too small, " if self._context.known and best is self._declared else ""
+            message("a specified noise that is too small, ")
+            if self._context.known and best is self._declared
+            else ""
         )
         if best is self._declared:
-            said = f"unchanged they leave {self._size(best)}, and no other reading is more probable"
-        else:
-            said = (
-                f"the likeliest, {best.hypothesis.title}, leaves {self._size(best)}; unchanged"
-                f" they leave {self._size(self._declared)}"
+            said = message(
+                f"unchanged they leave {arg(self._size(best))}, and no other reading is more probable"
             )
-        return (
-            f"No single convention mistake explains the data: {said} (odds of another cause:"
-            f" {in_words(self._odds[NONE])}). Look for two mistakes at once, a pulling cable,"
-            f" drift, {noise}or poses in which something was touched."
+        else:
+            said = message(
+                f"the likeliest, {arg(best.hypothesis.title)}, leaves {arg(self._size(best))}; unchanged"
+                f" they leave {arg(self._size(self._declared))}"
+            )
+        return message(
+            f"No single convention mistake explains the data: {arg(said)} (odds of another cause:"
+            f" {arg(in_words(self._odds[NONE]))}). Look for two mistakes at once, a pulling cable,"
+            f" drift, {arg(noise)}or poses in which something was touched."
         )
 
     def _left_out(self, case: HypothesisCase) -> Iterator[str]:
@@ -374,18 +418,22 @@ class Words:
             return
         names = [named(self._context.poses, index) for index in out]
         if len(out) > 1:
-            yield f"{_capital(_list(names, len(names)))} look bumped and were left out."
+            yield message(f"{arg(capitalised(_list(names, len(names))))} look bumped and were left out.")
             return
         if case.key.startswith(SHIFTED):
-            yield f"{_capital(names[0])} then has no orientation of its own and was left out."
+            yield message(
+                f"{arg(capitalised(names[0]))} then has no orientation of its own and was left out."
+            )
             return
-        ends = {0: " (or the sensor was re-zeroed after it)"}
-        ends[len(self._context.poses) - 1] = " (or the sensor was re-zeroed before it)"
-        yield f"{_capital(names[0])} looks bumped{ends.get(out[0], '')} and was left out."
+        ends = {0: message(" (or the sensor was re-zeroed after it)")}
+        ends[len(self._context.poses) - 1] = message(" (or the sensor was re-zeroed before it)")
+        yield message(
+            f"{arg(capitalised(names[0]))} looks bumped{arg(ends.get(out[0], ''))} and was left out."
+        )
 
     def _noise(self, case: HypothesisCase) -> str:
         force, torque = case.evidence.noise * self._context.sigmas[[0, 3]]
-        return f"{_force(force)} and {_torque(torque)}"
+        return message(f"{arg(_force(force))} and {arg(_torque(torque))}")
 
     def _residual(self, case: HypothesisCase, halves: NDArray[np.intp]) -> float:
         return self._context.residual(case, self._best, halves)
@@ -429,8 +477,8 @@ def _short(number: float) -> str:
 
 
 def _side(height: float) -> str:
-    side = "the other side" if height < 0 else "the tool's side"
-    return f"{_length(abs(height))} on {side}"
+    side = message("the other side") if height < 0 else message("the tool's side")
+    return message(f"{arg(_length(abs(height)))} on {arg(side)}")
 
 
 def _length(metres: float) -> str:
@@ -442,12 +490,8 @@ def _length(metres: float) -> str:
 def _list(words: Sequence[str], most: int = _LISTED) -> str:
     shown = list(words[:most])
     if len(words) > most:
-        shown.append(f"{len(words) - most} more")
-    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]
+        shown.append(message(f"{arg(len(words) - most)} more"))
+    return shown[0] if len(shown) == 1 else message(f"{arg(join(', ', shown[:-1]))} and {arg(shown[-1])}")
 
 
 NONE = "none"
@@ -493,6 +537,6 @@ def in_words(probability: float) -> str:
     """Return odds such as "8 to 1"."""
     ratio = probability / max(1 - probability, 1e-9)
     if ratio > 1000:
-        return "over 1000 to 1"
+        return message("over 1000 to 1")
     whole = round(max(ratio, 1 / ratio)) if ratio > 0 else 1000
-    return f"{whole} to 1" if ratio >= 1 else f"1 to {whole}"
+    return message(f"{arg(whole)} to 1") if ratio >= 1 else message(f"1 to {arg(whole)}")

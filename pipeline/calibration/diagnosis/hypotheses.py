@@ -12,6 +12,7 @@ from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, 
 from contactbench.pipeline.calibration.diagnosis.prior import Prior, angle_between
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, Rereadings
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,7 +53,14 @@ def hypotheses(
     R_WS = poses.R_SW.transpose(0, 2, 1)
     rereadings = Rereadings(R_WS, raw)
     found = [
-        Hypothesis(AS_DECLARED, "as declared", "The data are as declared", "the unchanged data", "", R_WS)
+        Hypothesis(
+            AS_DECLARED,
+            message("as declared"),
+            message("The data are as declared"),
+            message("the unchanged data"),
+            "",
+            R_WS,
+        )
     ]
     for family in (
         rereadings,
@@ -72,7 +80,6 @@ def hypotheses(
 
 _KGF, _LBF, _INCH, _FOOT = STANDARD_GRAVITY, 0.45359237 * STANDARD_GRAVITY, 0.0254, 0.3048
 _NAMES = ("fx", "fy", "fz", "mx", "my", "mz")
-_REMEDY = "Multiply {} by -1, or set the sign in the driver."
 _OFTEN, _MOST = 5.0, 20.0  # as often as the rarest variants
 
 
@@ -85,42 +92,47 @@ def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
         Orientations as declared.
     """
     for key, title, fact, force, torque, share in (
-        ("torque_Nmm", "torques in N·mm", "Torques are in N·mm", 1, 1e-3, _OFTEN),
-        ("torque_Ncm", "torques in N·cm", "Torques are in N·cm", 1, 1e-2, 1.0),
+        ("torque_Nmm", message("torques in N·mm"), message("Torques are in N·mm"), 1, 1e-3, _OFTEN),
+        ("torque_Ncm", message("torques in N·cm"), message("Torques are in N·cm"), 1, 1e-2, 1.0),
         (
             "torque_1000_too_small",
-            "torques 1000 times too small",
-            "Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often",
+            message("torques 1000 times too small"),
+            message("Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often"),
             1,
             1e3,
             1.0,
         ),
-        ("torque_lbfin", "torques in lbf·in", "Torques are in lbf·in", 1, _LBF * _INCH, 1.0),
-        ("torque_kgfcm", "torques in kgf·cm", "Torques are in kgf·cm", 1, _KGF / 100, 0.5),
-        ("force_kgf", "forces in kgf", "Forces are in kgf", _KGF, 1, 1.0),
-        ("force_kgf_torque_Nmm", "forces in kgf with torques in N·mm", "Forces are in kgf and torques in N·mm",
-         _KGF, 1e-3, 1.0),
-        ("force_kgf_torque_Ncm", "forces in kgf with torques in N·cm", "Forces are in kgf and torques in N·cm",
-         _KGF, 1e-2, 0.5),
-        ("force_kgf_torque_kgfcm", "forces in kgf with torques in kgf·cm",
-         "Forces are in kgf and torques in kgf·cm", _KGF, _KGF / 100, 1.0),
-        ("force_kgf_torque_kgfm", "forces in kgf with torques in kgf·m", "Forces are in kgf and torques in kgf·m",
-         _KGF, _KGF, 1.0),
-        ("force_lbf", "forces in lbf", "Forces are in lbf", _LBF, 1, 1.0),
-        ("force_lbf_torque_lbfin", "forces in lbf with torques in lbf·in",
-         "Forces are in lbf and torques in lbf·in", _LBF, _LBF * _INCH, 2.0),
-        ("force_lbf_torque_lbfft", "forces in lbf with torques in lbf·ft",
-         "Forces are in lbf and torques in lbf·ft", _LBF, _LBF * _FOOT, 2.0),
+        ("torque_lbfin", message("torques in lbf·in"), message("Torques are in lbf·in"), 1, _LBF * _INCH, 1.0),
+        ("torque_kgfcm", message("torques in kgf·cm"), message("Torques are in kgf·cm"), 1, _KGF / 100, 0.5),
+        ("force_kgf", message("forces in kgf"), message("Forces are in kgf"), _KGF, 1, 1.0),
+        ("force_kgf_torque_Nmm", message("forces in kgf with torques in N·mm"),
+         message("Forces are in kgf and torques in N·mm"), _KGF, 1e-3, 1.0),
+        ("force_kgf_torque_Ncm", message("forces in kgf with torques in N·cm"),
+         message("Forces are in kgf and torques in N·cm"), _KGF, 1e-2, 0.5),
+        ("force_kgf_torque_kgfcm", message("forces in kgf with torques in kgf·cm"),
+         message("Forces are in kgf and torques in kgf·cm"), _KGF, _KGF / 100, 1.0),
+        ("force_kgf_torque_kgfm", message("forces in kgf with torques in kgf·m"),
+         message("Forces are in kgf and torques in kgf·m"), _KGF, _KGF, 1.0),
+        ("force_lbf", message("forces in lbf"), message("Forces are in lbf"), _LBF, 1, 1.0),
+        ("force_lbf_torque_lbfin", message("forces in lbf with torques in lbf·in"),
+         message("Forces are in lbf and torques in lbf·in"), _LBF, _LBF * _INCH, 2.0),
+        ("force_lbf_torque_lbfft", message("forces in lbf with torques in lbf·ft"),
+         message("Forces are in lbf and torques in lbf·ft"), _LBF, _LBF * _FOOT, 2.0),
     ):  # fmt: skip
-        what = " and ".join(
-            f"{name} by {value:.6g}" for name, value in (("forces", force), ("torques", torque)) if value != 1
+        what = join(
+            message(" and "),
+            [
+                message(f"{arg(name)} by {arg(value):.6g}")
+                for name, value in ((message("forces"), force), (message("torques"), torque))
+                if value != 1
+            ],
         )
         yield Hypothesis(
             key,
             title,
             fact,
-            "the units corrected",
-            f"Multiply {what}.",
+            message("the units corrected"),
+            message(f"Multiply {arg(what)}."),
             R_WS,
             np.repeat([force, torque], 3).astype(np.float64),
             share=share,
@@ -131,16 +143,17 @@ def signs(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     """Yield readings with reversed signs: of all channels, of forces or torques, of an axis, of one channel."""
     every = np.arange(6)
     for key, what, wrong, why, share in (
-        ("wrench_negated", "forces and torques", every < 6, ", as with a sensor that reports the reaction", _MOST),
-        ("torque_negated", "torques", every >= 3, "", _MOST),
-        ("force_negated", "forces", every < 3, "", _OFTEN),
+        ("wrench_negated", message("forces and torques"), every < 6,
+         message(", as with a sensor that reports the reaction"), _MOST),
+        ("torque_negated", message("torques"), every >= 3, "", _MOST),
+        ("force_negated", message("forces"), every < 3, "", _OFTEN),
     ):  # fmt: skip
         yield Hypothesis(
             key,
-            f"{what} with the wrong sign",
-            f"The {what} have the wrong sign{why}",
-            f"{what} negated",
-            _REMEDY.format(what),
+            message(f"{arg(what)} with the wrong sign"),
+            message(f"The {arg(what)} have the wrong sign{arg(why)}"),
+            message(f"{arg(what)} negated"),
+            _reversed(what),
             R_WS,
             np.where(wrong, -1.0, 1.0),
             share=share,
@@ -148,23 +161,27 @@ def signs(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
     for axis, name in enumerate("xyz"):
         yield Hypothesis(
             f"axis_{name}_reversed",
-            f"{name} axis reversed",
-            f"The sensor's {name} axis is reversed",
-            f"f{name} and m{name} negated",
-            _REMEDY.format(f"f{name} and m{name}"),
+            message(f"{arg(name)} axis reversed"),
+            message(f"The sensor's {arg(name)} axis is reversed"),
+            message(f"f{arg(name)} and m{arg(name)} negated"),
+            _reversed(message(f"f{arg(name)} and m{arg(name)}")),
             R_WS,
             np.where(every % 3 == axis, -1.0, 1.0),
         )
     for channel, name in enumerate(_NAMES):
         yield Hypothesis(
             f"{name}_negated",
-            f"{name} with the wrong sign",
-            f"The channel {name} has the wrong sign",
-            f"{name} negated",
-            _REMEDY.format(name),
+            message(f"{arg(name)} with the wrong sign"),
+            message(f"The channel {arg(name)} has the wrong sign"),
+            message(f"{arg(name)} negated"),
+            _reversed(name),
             R_WS,
             np.where(every == channel, -1.0, 1.0),
         )
+
+
+def _reversed(what: str) -> str:
+    return message(f"Multiply {arg(what)} by -1, or set the sign in the driver.")
 
 
 def swaps(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
@@ -174,19 +191,19 @@ def swaps(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
             channels = np.arange(6)
             for one, other in pairs:
                 channels[[one, other]] = other, one
-            words = [f"{_NAMES[one]} with {_NAMES[other]}" for one, other in pairs]
+            words = [message(f"{arg(_NAMES[one])} with {arg(_NAMES[other])}") for one, other in pairs]
             key = "_".join(f"{_NAMES[one]}_{_NAMES[other]}" for one, other in pairs) + "_swapped"
-            yield _swapped(R_WS, key, " and ".join(words), channels)
-    yield _swapped(R_WS, "force_torque_swapped", "forces with torques", np.roll(np.arange(6), 3))
+            yield _swapped(R_WS, key, join(message(" and "), words), channels)
+    yield _swapped(R_WS, "force_torque_swapped", message("forces with torques"), np.roll(np.arange(6), 3))
 
 
 def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[np.intp]) -> Hypothesis:
     return Hypothesis(
         key,
-        f"{what} swapped",
-        f"Channels are swapped: {what}",
-        "the channels swapped back",
-        f"Swap {what} in the column names or in the driver.",
+        message(f"{arg(what)} swapped"),
+        message(f"Channels are swapped: {arg(what)}"),
+        message("the channels swapped back"),
+        message(f"Swap {arg(what)} in the column names or in the driver."),
         R_WS,
         channels=channels,
     )
@@ -220,10 +237,10 @@ def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
     behind = replace(prior, tool_axis_S=tuple(-np.array(prior.tool_axis_S)))
     yield Hypothesis(
         TOOL_BEHIND,
-        "tool on the other side of the sensor",
-        "The sensor's z axis points away from the tool",
-        "the tool on the other side of the sensor",
-        "If the sensor is mounted that way, the data are correct as they are.",
+        message("tool on the other side of the sensor"),
+        message("The sensor's z axis points away from the tool"),
+        message("the tool on the other side of the sensor"),
+        message("If the sensor is mounted that way, the data are correct as they are."),
         R_WS,
         share=8.0,
         prior=behind,
@@ -238,7 +255,7 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
         g = evidence.gravity_W
         down = g / max(float(np.linalg.norm(g)), 1e-12)
         words = ", ".join(f"{value:.2f}" for value in down + 0.0)
-        title, fact, reading, remedy = _gravity(down, f"({words})")
+        title, fact, reading, remedy = _gravity(down, message(f"({arg(words)})"))
         found = replace(prior, down_W=tuple(down)) if g.any() else prior
         return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, prior=found)
     turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
@@ -249,10 +266,10 @@ def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothe
         axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
         words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
         angle = f"{np.degrees(np.linalg.norm(vector)):.1f}°"
-        title = f"sensor turned by {angle} on the flange"
-        fact = f"The sensor is turned by {angle} about its axis ({words}) on the flange"
-        reading = "that rotation"
-        remedy = "Run calibrate --estimate-mount, or correct the sensor's mounting."
+        title = message(f"sensor turned by {arg(angle)} on the flange")
+        fact = message(f"The sensor is turned by {arg(angle)} about its axis ({arg(words)}) on the flange")
+        reading = message("that rotation")
+        remedy = message("Run calibrate --estimate-mount, or correct the sensor's mounting.")
     return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, R_WS=evidence.R_WS)
 
 
@@ -260,24 +277,24 @@ def _about_z(degrees: float) -> tuple[str, str, str, str]:
     """Return title, fact, reading and remedy of a sensor that is turned about its z axis."""
     angle = f"{degrees:.4g}°"
     return (
-        f"sensor turned by {angle} about z on the flange",
-        f"The sensor is turned by {angle} about its z axis on the flange",
-        f"the orientations turned by {angle} about the sensor's z axis",
-        f"Correct the sensor's mounting: R_WS becomes R_WS · Rz({angle}).",
+        message(f"sensor turned by {arg(angle)} about z on the flange"),
+        message(f"The sensor is turned by {arg(angle)} about its z axis on the flange"),
+        message(f"the orientations turned by {arg(angle)} about the sensor's z axis"),
+        message(f"Correct the sensor's mounting: R_WS becomes R_WS · Rz({arg(angle)})."),
     )
 
 
 def _gravity(down_W: NDArray[np.float64], name: str) -> tuple[str, str, str, str]:
     """Return title, fact, reading and remedy of gravity in another direction."""
     option = ",".join(f"{value:.3g}" for value in down_W + 0.0)
-    remedy = (
+    remedy = message(
         "If the robot hangs from a ceiling or a wall, or the orientations are those of another frame,"
-        f" pass --down {option}."
+        f" pass --down {arg(option)}."
     )
     return (
-        f"gravity along {name} of the world",
-        f"Gravity points along {name} of the world frame",
-        "gravity in that direction",
+        message(f"gravity along {arg(name)} of the world"),
+        message(f"Gravity points along {arg(name)} of the world frame"),
+        message("gravity in that direction"),
         remedy,
     )
 
@@ -292,13 +309,16 @@ _SWAPS = 3  # pairs that are worth a fit
 
 def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
     """Yield poses whose orientations belong to the next or previous row, or to each other's."""
-    for step, whose in ((1, "next"), (-1, "previous")):
+    for step, whose in ((1, message("next")), (-1, message("previous"))):
         yield Hypothesis(
             f"{SHIFTED}{step}",
-            f"orientations shifted by one row to the {whose}",
-            f"Orientations and readings are shifted by one row: each reading belongs to the {whose} row's orientation",
-            "the rows shifted back",
-            "Shift the orientations by one row, and remove the row that is left without one.",
+            message(f"orientations shifted by one row to the {arg(whose)}"),
+            message(
+                f"Orientations and readings are shifted by one row: each reading belongs to the {arg(whose)}"
+                " row's orientation"
+            ),
+            message("the rows shifted back"),
+            message("Shift the orientations by one row, and remove the row that is left without one."),
             np.roll(R_WS, -step, axis=0),
         )
     pairs, count = _likely_swaps(poses)
@@ -307,10 +327,10 @@ def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
         again[[first, second]] = R_WS[[second, first]]
         yield Hypothesis(
             f"rows_{first + 1}_and_{second + 1}_swapped",
-            f"orientations of poses {first + 1} and {second + 1} swapped",
-            f"The orientations of poses {first + 1} and {second + 1} are swapped",
-            "the channels swapped back",
-            "Swap the two orientations, or retake the two poses.",
+            message(f"orientations of poses {arg(first + 1)} and {arg(second + 1)} swapped"),
+            message(f"The orientations of poses {arg(first + 1)} and {arg(second + 1)} are swapped"),
+            message("the channels swapped back"),
+            message("Swap the two orientations, or retake the two poses."),
             again,
             variants=count,
         )
@@ -346,11 +366,13 @@ def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Ite
     for change in moments:
         yield Hypothesis(
             f"rezero_before_{change + 1}",
-            f"re-zero before pose {change + 1}",
-            f"The sensor was re-zeroed between poses {change} and {change + 1}",
-            "a new bias from there on",
-            "Calibrate with only the poses before it or only those after it, and stop the sensor"
-            " from re-zeroing itself.",
+            message(f"re-zero before pose {arg(change + 1)}"),
+            message(f"The sensor was re-zeroed between poses {arg(change)} and {arg(change + 1)}"),
+            message("a new bias from there on"),
+            message(
+                "Calibrate with only the poses before it or only those after it, and stop the sensor"
+                " from re-zeroing itself."
+            ),
             R_WS,
             change=change,
             course=(np.arange(n) >= change).astype(np.float64),
@@ -359,14 +381,19 @@ def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Ite
     when = np.arange(n, dtype=np.float64) if times is None else times
     span = float(np.ptp(when))
     if n >= _FEWEST_DRIFTING and span > 0:
-        remedy = "Let the sensor warm up, then retake the poses without a long pause."
+        remedy = message("Let the sensor warm up, then retake the poses without a long pause.")
         to_go = (when.max() - when) / span
-        words = "drifting zero", "The sensor's zero drifts", "a bias that changes evenly", remedy
+        words = (
+            message("drifting zero"),
+            message("The sensor's zero drifts"),
+            message("a bias that changes evenly"),
+            remedy,
+        )
         yield Hypothesis("drift", *words, R_WS, course=-to_go)
         words = (
-            "settling zero",
-            "The sensor's zero settles, as while it warms up",
-            "a bias that settles",
+            message("settling zero"),
+            message("The sensor's zero settles, as while it warms up"),
+            message("a bias that settles"),
             remedy,
         )
         yield Hypothesis(

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-DOWN = "gravity points down"
-WEIGHED = "the mass as weighed"
-MASS = "a plausible mass"
-SIDE = "the centre of mass lies on the tool's side"
-REACH = "the centre of mass lies within the tool"
-QUIET = "a plausible noise"
+DOWN = message("gravity points down")
+WEIGHED = message("the mass as weighed")
+MASS = message("a plausible mass")
+SIDE = message("the centre of mass lies on the tool's side")
+REACH = message("the centre of mass lies within the tool")
+QUIET = message("a plausible noise")
 
 _TAIL = 4.0  # degrees of freedom of Student's t: a base ten standard deviations off level is strange, not impossible
 _HUBER = 3.0  # standard deviations
@@ -76,14 +76,15 @@ class Prior:
             value = getattr(self, name)
             if value is not None and not least < value <= most:
                 raise InputError(
-                    f"Prior.{name}: {value} is not above {least:g} and at most {most:g} ({unit})."
+                    f"Prior.{arg(name)}: {arg(value)} is not above {arg(least):g} and at most {arg(most):g}"
+                    f" ({arg(unit)})."
                 )
         if self.mass_sigma is not None and self.mass is None:
             raise InputError("Prior.mass_sigma without Prior.mass: give the mass as weighed, kg, too.")
         low, high = self.mass_range
         if not 0 < low < high < np.inf:
             raise InputError(
-                f"Prior.mass_range: {self.mass_range} is no range of masses: give (low, high), kg."
+                f"Prior.mass_range: {arg(self.mass_range)} is no range of masses: give (low, high), kg."
             )
 
     def log_densities(
@@ -157,5 +158,7 @@ def _bound(square: float) -> float:
 def _direction(name: str, value: tuple[float, float, float]) -> tuple[float, ...]:
     array = np.array(value, dtype=np.float64)
     if array.shape != (3,) or not np.isfinite(array).all() or not array.any():
-        raise InputError(f"Prior.{name}: give three finite numbers that are not all 0, not {value!r}.")
+        raise InputError(
+            f"Prior.{arg(name)}: give three finite numbers that are not all 0, not {arg(value)!r}."
+        )
     return tuple((array / np.linalg.norm(array)).tolist())

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,8 +50,8 @@ class RawOrientations:
         values, columns = np.array(self.values, dtype=np.float64), self.convention.columns
         if values.ndim != 2 or values.shape[1] != len(columns) or not np.isfinite(values).all():
             raise InputError(
-                f"RawOrientations.values: give finite numbers of shape (n, {len(columns)}), columns"
-                f" {', '.join(columns)}, not shape {values.shape}."
+                f"RawOrientations.values: give finite numbers of shape (n, {arg(len(columns))}), columns"
+                f" {arg(', '.join(columns))}, not shape {arg(values.shape)}."
             )
         object.__setattr__(self, "values", values)
 
@@ -82,10 +82,10 @@ class Rereadings:
         there, here = ("R_WS", "R_SW") if inverse else ("R_SW", "R_WS")
         return Hypothesis(
             "transposed",
-            "orientations transposed",
-            f"The orientations are transposed ({there}, not {here})",
-            f"the numbers read as {there}",
-            "Leave out --inverse." if inverse else "Pass --inverse, or export R_WS.",
+            message("orientations transposed"),
+            message(f"The orientations are transposed ({arg(there)}, not {arg(here)})"),
+            message(f"the numbers read as {arg(there)}"),
+            message("Leave out --inverse.") if inverse else message("Pass --inverse, or export R_WS."),
             R_WS,
             share=_OFTEN,
         )
@@ -102,10 +102,12 @@ class Rereadings:
         for shift, order, read in ((1, "x, y, z, w", "w, x, y, z"), (-1, "w, x, y, z", "x, y, z, w")):
             yield Hypothesis(
                 "quaternion_" + order.replace(", ", ""),
-                f"quaternions in the order {order}",
-                f"The quaternions are in the order {order}, but were read as {read}",
-                f"the numbers read as {order}",
-                "Correct the column names or the order of the export: contactbench expects qw, qx, qy, qz.",
+                message(f"quaternions in the order {arg(order)}"),
+                message(f"The quaternions are in the order {arg(order)}, but were read as {arg(read)}"),
+                message(f"the numbers read as {arg(order)}"),
+                message(
+                    "Correct the column names or the order of the export: contactbench expects qw, qx, qy, qz."
+                ),
                 rotations(np.roll(values, shift, axis=1), convention) @ self._mount,
                 share=_SOMETIMES,
             )
@@ -124,14 +126,14 @@ class Rereadings:
         try:
             R_WS = self._read(replace(given, degrees=not given.degrees))
         except InputError as error:
-            self.not_testable.append(f"The angles cannot be {unit}: {error}")
+            self.not_testable.append(message(f"The angles cannot be {arg(unit)}: {arg(error)}"))
             return
         yield Hypothesis(
             unit,
-            f"angles in {unit}",
-            f"The angles are in {unit}, but were read as {other}",
-            f"the numbers read as {unit}",
-            "Pass --radians." if given.degrees else "Leave out --radians.",
+            message(f"angles in {arg(unit)}"),
+            message(f"The angles are in {arg(unit)}, but were read as {arg(other)}"),
+            message(f"the numbers read as {arg(unit)}"),
+            message("Pass --radians.") if given.degrees else message("Leave out --radians."),
             R_WS,
             share=_OFTEN,
         )
@@ -144,16 +146,17 @@ class Rereadings:
             key, option, share = "rotation_vector", "--rotation-vector", _SOMETIMES
         else:
             key, option, share = f"euler_{convention.order}", f"--euler {convention.order}", 1.0
-        remedy = f"Pass {option}."
+        remedy = message(f"Pass {arg(option)}.")
         if convention.degrees != given.degrees:
             unit = "degrees" if convention.degrees else "radians"
-            key, what = f"{key}_{unit}", f"{what} in {unit}"
-            remedy = f"Pass {option}, and {'leave out' if convention.degrees else 'pass'} --radians."
+            radians = message("leave out") if convention.degrees else message("pass")
+            key, what = f"{key}_{unit}", message(f"{arg(what)} in {arg(unit)}")
+            remedy = message(f"Pass {arg(option)}, and {arg(radians)} --radians.")
         return Hypothesis(
             key,
             what,
-            f"The orientations are {what}, not {here}",
-            "that convention",
+            message(f"The orientations are {arg(what)}, not {arg(here)}"),
+            message("that convention"),
             remedy,
             self._read(convention),
             share=share,
@@ -162,7 +165,9 @@ class Rereadings:
     def _converted(self) -> Iterator[Hypothesis]:
         """Yield what an earlier program did that took angles for other angles than they were."""
         self.not_testable.append(
-            "A mix-up of degrees and radians can only be tested with the angles as they were written."
+            message(
+                "A mix-up of degrees and radians can only be tested with the angles as they were written."
+            )
         )
         R = self._R_WS @ self._mount.T
         inverse = self._raw is not None and self._raw.convention.inverse
@@ -176,50 +181,62 @@ class Rereadings:
         # The three columns the other way round. Of angles whose first axis is also the last, such as ZYZ, two sets
         # are equally plain: only the numbers themselves tell which was written.
         for read, meant in COLUMNS_REVERSED:
-            long = f"Euler angles in the order {meant}", f"Euler angles in the order {read}"
+            long = (
+                message(f"Euler angles in the order {arg(meant)}"),
+                message(f"Euler angles in the order {arg(read)}"),
+            )
             again = columns_mistaken(R, read, meant)
-            yield self._mended(f"columns_{meant}_read_as_{read}", (*long, *long), again, inverse)
+            yield self._mended(f"columns_{meant}_read_as_{read}", (*long, long[0], read), again, inverse)
 
     def _mended(self, key: str, names: tuple[str, ...], R: NDArray[np.float64], inverse: bool) -> Hypothesis:
         """Return the hypothesis of a wrong conversion; `names` of what was meant and read, long and short."""
         meant, read, short_meant, short_read = names
         return Hypothesis(
             key,
-            f"{short_meant} converted as {short_read.removeprefix('Euler angles in the order ')}",
-            f"The orientations were made from {meant} as if they were {read}",
-            "that conversion corrected",
-            f"Convert again as {meant}, or give contactbench the original angles.",
+            message(f"{arg(short_meant)} converted as {arg(short_read)}"),
+            message(f"The orientations were made from {arg(meant)} as if they were {arg(read)}"),
+            message("that conversion corrected"),
+            message(f"Convert again as {arg(meant)}, or give contactbench the original angles."),
             (R.transpose(0, 2, 1) if inverse else R) @ self._mount,
         )
 
 
 def _meaning(convention: Convention) -> str:
     vector = convention.kind is Kind.ROTATION_VECTOR
-    return "rotation vectors" if vector else f"Euler angles in the order {convention.order}"
+    return (
+        message("rotation vectors")
+        if vector
+        else message(f"Euler angles in the order {arg(convention.order)}")
+    )
 
 
 def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float64]:
     """Return the constant rotation R_ES that the sensor has in the flange of raw orientations R_WE."""
     if len(raw.values) != len(R_WS):
         raise InputError(
-            f"raw has {len(raw.values)} rows for {len(R_WS)} poses: give the numbers behind each pose, in order."
+            f"raw has {arg(len(raw.values))} rows for {arg(len(R_WS))} poses: give the numbers behind each"
+            " pose, in order."
         )
     mounts = rotations(raw.values, raw.convention).transpose(0, 2, 1) @ R_WS
     wrong = np.flatnonzero(np.abs(mounts - mounts[0]).max(axis=(1, 2)) > _SAME)
     if len(wrong):
         raise InputError(
-            f"raw row {wrong[0] + 1} is not the orientation of pose {wrong[0] + 1}, unlike the"
+            f"raw row {arg(wrong[0] + 1)} is not the orientation of pose {arg(wrong[0] + 1)}, unlike the"
             " other rows: give the numbers that the poses were made from, and their convention."
         )
     return np.asarray(mounts[0], dtype=np.float64)
 
 
 def _named(way: str) -> str:
-    return "rotation vectors" if way == VECTOR else f"Euler angles about the fixed axes {', '.join(way)}"
+    return (
+        message("rotation vectors")
+        if way == VECTOR
+        else message(f"Euler angles about the fixed axes {arg(', '.join(way))}")
+    )
 
 
 def _short(way: str) -> str:
-    return "rotation vectors" if way == VECTOR else f"Euler angles {way}"
+    return message("rotation vectors") if way == VECTOR else message(f"Euler angles {arg(way)}")
 
 
 def _slug(way: str) -> str:

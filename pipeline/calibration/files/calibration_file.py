@@ -32,7 +32,7 @@ from contactbench.pipeline.calibration.outliers import Rejection
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.calibration.verdict import Verdict
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.files import File
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ _V = TypeVar("_V")
 
 SCHEMA, VERSION = "contactbench.calibration", 2
 SIZE_LIMIT = 32 * 2**20  # bytes; ten thousand poses take half of it
-REMEDY = "use the file as contactbench wrote it, or calibrate again."
+REMEDY = message("use the file as contactbench wrote it, or calibrate again.")
 _ROUNDING = 1e-9  # of what is computed anew, on another machine too
 
 
@@ -67,7 +67,7 @@ class SourceFile:
                 return cls(file.name, hashlib.file_digest(stream, "sha256").hexdigest())
         except (OSError, ValueError) as error:
             raise CalibrationFileError(
-                f"{file}: the file cannot be read ({error}): check the path."
+                f"{arg(file)}: the file cannot be read ({arg(error)}): check the path."
             ) from error
 
 
@@ -136,7 +136,7 @@ def save_calibration(
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise CalibrationFileError(
-            f"{file}: the calibration cannot be written ({error}): choose a folder that exists, is writable"
+            f"{arg(file)}: the calibration cannot be written ({arg(error)}): choose a folder that exists, is writable"
             " and has space."
         ) from error
 
@@ -151,14 +151,14 @@ def encode_calibration(
 ) -> bytes:
     """Return what `save_calibration` writes; `name` is what messages call it."""
     if created is not None and created.tzinfo is None:
-        raise CalibrationFileError(f"{name}: created has no time zone: use datetime.now(UTC).")
+        raise CalibrationFileError(f"{arg(name)}: created has no time zone: use datetime.now(UTC).")
     source = SourceFile.of(source) if isinstance(source, File) else source
     content = _document(calibration, source, created, mount)
     try:
         data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
     except ValueError as error:  # not finite, or text that is no Unicode
         raise CalibrationFileError(
-            f"{name}: this calibration cannot be written ({error}): {REMEDY}"
+            f"{arg(name)}: this calibration cannot be written ({arg(error)}): {arg(REMEDY)}"
         ) from error
     decode_record(data, name)  # what cannot be read is better refused now
     return data
@@ -190,10 +190,10 @@ def load_record(file: File) -> CalibrationRecord:
         with file.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except FileNotFoundError:
-        raise CalibrationFileError(f"{file}: there is no such file: check the path.") from None
+        raise CalibrationFileError(f"{arg(file)}: there is no such file: check the path.") from None
     except (OSError, ValueError) as error:
         raise CalibrationFileError(
-            f"{file}: the file cannot be read ({error}): choose a calibration file."
+            f"{arg(file)}: the file cannot be read ({arg(error)}): choose a calibration file."
         ) from error
     return decode_record(data, str(file))
 
@@ -212,7 +212,7 @@ def creation_time() -> datetime:
         return datetime.now(UTC) if epoch is None else datetime.fromtimestamp(int(epoch), UTC)
     except (ValueError, OverflowError, OSError):
         raise InputError(
-            f"SOURCE_DATE_EPOCH is {epoch!r}: set it to whole seconds since 1970, or unset it."
+            f"SOURCE_DATE_EPOCH is {arg(epoch)!r}: set it to whole seconds since 1970, or unset it."
         ) from None
 
 
@@ -452,7 +452,9 @@ def _or_infinite(value: float | None) -> float:
 def decode_record(data: bytes, name: str) -> CalibrationRecord:
     """Return what a file holds, after checking that its parts fit together."""
     if len(data) > SIZE_LIMIT:
-        raise CalibrationFileError(f"{name}: larger than {SIZE_LIMIT >> 20} MiB: choose a calibration file.")
+        raise CalibrationFileError(
+            f"{arg(name)}: larger than {arg(SIZE_LIMIT >> 20)} MiB: choose a calibration file."
+        )
     content = _parse(data, name)
     model = _model(content, name)
     poses = tuple(_sample(pose, f"{name}: poses[{i}]") for i, pose in enumerate(content.poses))
@@ -489,8 +491,8 @@ def _model(content: _Document, name: str) -> GravityModel:
     model = content.value(GravityModel)
     if abs(model.mass - content.mass) > _ROUNDING * model.mass:
         raise CalibrationFileError(
-            f"{name}: mass_kg is {content.mass:.6g}, but gravity_W_N over {STANDARD_GRAVITY} m/s² is"
-            f" {model.mass:.6g}: {REMEDY}"
+            f"{arg(name)}: mass_kg is {arg(content.mass):.6g}, but gravity_W_N over {arg(STANDARD_GRAVITY)} m/s² is"
+            f" {arg(model.mass):.6g}: {arg(REMEDY)}"
         )
     return model
 
@@ -532,7 +534,7 @@ def _down(content: _Document, name: str) -> NDArray[np.float64]:
     with _at(f"{name}: down_W"):
         direction(content.down_W)
     if abs(np.linalg.norm(content.down_W) - 1) > _ROUNDING:
-        raise CalibrationFileError(f"{name}: down_W is not of length 1: {REMEDY}")
+        raise CalibrationFileError(f"{arg(name)}: down_W is not of length 1: {arg(REMEDY)}")
     return content.down_W
 
 
@@ -540,8 +542,8 @@ def _mount(part: _MountPart | None, name: str) -> Mount | None:
     if part is None:
         return None
     if abs(np.linalg.norm(part.quaternion_SE) - 1) > _ROUNDING:
-        raise CalibrationFileError(f"{name}: mount.quaternion_SE is not of length 1: {REMEDY}")
-    with _at(f"{name}: mount.covariance_rad2"):
+        raise CalibrationFileError(f"{arg(name)}: mount.quaternion_SE is not of length 1: {arg(REMEDY)}")
+    with _at(message(f"{arg(name)}: mount.covariance_rad2")):
         _check_covariance(part.covariance)
     return part.value(Mount)
 
@@ -550,7 +552,9 @@ def _created(content: _Document, name: str) -> datetime | None:
     try:
         return None if content.created is None else datetime.fromisoformat(content.created)
     except ValueError as error:  # the 31st of February
-        raise CalibrationFileError(f"{name}: created is not a time ({error}): {REMEDY}") from None
+        raise CalibrationFileError(
+            f"{arg(name)}: created is not a time ({arg(error)}): {arg(REMEDY)}"
+        ) from None
 
 
 # ---- sense -------------------------------------------------------------------------------------
@@ -567,8 +571,8 @@ def _check_residuals(
     wrong = np.flatnonzero(off > _ROUNDING * size)
     if len(wrong):
         raise CalibrationFileError(
-            f"{name}: poses[{wrong[0]}]: the residual is not the reading minus the prediction: a"
-            f" number was changed. {REMEDY.capitalize()}"
+            f"{arg(name)}: poses[{arg(wrong[0])}]: the residual is not the reading minus the prediction: a"
+            f" number was changed. {arg(capitalised(REMEDY))}"
         )
 
 
@@ -579,9 +583,9 @@ def _check_covariance(C: NDArray[np.float64]) -> None:
         scale = np.where(deviations > 0, deviations, 1.0)
         correlation = C / scale / scale[:, None]
     if not (np.abs(correlation - correlation.T) < _ROUNDING).all():
-        raise InputError(f"the matrix is not symmetric: {REMEDY}")
+        raise InputError(f"the matrix is not symmetric: {arg(REMEDY)}")
     if (np.diag(C) < 0).any() or np.linalg.eigvalsh(correlation)[0] < -_ROUNDING:
-        raise InputError(f"the matrix is not positive semidefinite, so it is not a covariance: {REMEDY}")
+        raise InputError(f"the matrix is not positive semidefinite, so it is not a covariance: {arg(REMEDY)}")
 
 
 @contextmanager
@@ -589,7 +593,7 @@ def _at(place: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise CalibrationFileError(f"{place}: {error}") from None
+        raise CalibrationFileError(f"{arg(place)}: {arg(error)}") from None
 
 
 def _parse(data: bytes, name: str) -> _Document:
@@ -598,7 +602,7 @@ def _parse(data: bytes, name: str) -> _Document:
         content = from_json(data)
     except ValueError as error:
         raise CalibrationFileError(
-            f"{name}: not valid JSON ({error}): choose a calibration file, or copy it again."
+            f"{arg(name)}: not valid JSON ({arg(error)}): choose a calibration file, or copy it again."
         ) from None
     _check_kind(content, name)
     if content.get("version") == 1 and not isinstance(content["version"], bool):
@@ -607,7 +611,9 @@ def _parse(data: bytes, name: str) -> _Document:
         document = _Document.model_validate_json(data)
     except ValidationError as error:
         fault = error.errors(include_url=False, include_context=False, include_input=False)[0]
-        raise CalibrationFileError(f"{name}: {_where(fault['loc'])} {_what(fault)}: {REMEDY}") from None
+        raise CalibrationFileError(
+            f"{arg(name)}: {arg(_where(fault['loc']))} {arg(_what(fault))}: {arg(REMEDY)}"
+        ) from None
     _check_facts(document, name)
     return document
 
@@ -615,12 +621,18 @@ def _parse(data: bytes, name: str) -> _Document:
 def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
-        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "the schema is missing"
-        raise CalibrationFileError(f"{name}: {found}; expected {SCHEMA!r}: choose a calibration file.")
+        found = (
+            message(f"the schema is {arg(ascii(schema[:60]))}")
+            if isinstance(schema, str)
+            else message("the schema is missing")
+        )
+        raise CalibrationFileError(
+            f"{arg(name)}: {arg(found)}; expected {arg(SCHEMA)!r}: choose a calibration file."
+        )
     version = content.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise CalibrationFileError(
-            f"{name}: written by a newer contactbench (version above {VERSION}): update contactbench."
+            f"{arg(name)}: written by a newer contactbench (version above {arg(VERSION)}): update contactbench."
         )
 
 
@@ -666,7 +678,9 @@ def _check_facts(content: _Document, name: str) -> None:
     faults["causes"] = not all(0 <= cause.odds <= 1 for cause in content.causes)
     for field, wrong in faults.items():
         if wrong:
-            raise CalibrationFileError(f"{name}: {field} does not fit the other fields: {REMEDY}")
+            raise CalibrationFileError(
+                f"{arg(name)}: {arg(field)} does not fit the other fields: {arg(REMEDY)}"
+            )
 
 
 def _where(path: tuple[int | str, ...]) -> str:
@@ -676,15 +690,15 @@ def _where(path: tuple[int | str, ...]) -> str:
 
 
 _WORDS = {
-    "missing": "is missing",
-    "extra_forbidden": "is not a known field",
-    "finite_number": "is not a finite number",
-    "less_than_equal": "is too large",
-    "greater_than_equal": "is too small",
-    "greater_than": "is too small",
+    "missing": message("is missing"),
+    "extra_forbidden": message("is not a known field"),
+    "finite_number": message("is not a finite number"),
+    "less_than_equal": message("is too large"),
+    "greater_than_equal": message("is too small"),
+    "greater_than": message("is too small"),
 }
 
 
 def _what(fault: Mapping[str, Any]) -> str:
-    message = str(fault["msg"]).removeprefix("Input ")
-    return _WORDS.get(fault["type"], message[:1].lower() + message[1:])
+    text = str(fault["msg"]).removeprefix("Input ")
+    return _WORDS.get(fault["type"], text[:1].lower() + text[1:])

@@ -24,7 +24,7 @@ from contactbench.pipeline.calibration.stillness import (
 )
 from contactbench.pipeline.calibration.stillness.captures import angle
 from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack, read_recording
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
@@ -105,7 +105,7 @@ def capture_poses(
     mcap = is_recording(source)
     if mcap and (convention is not None or robot_poses is not None):
         raise InputError(
-            f"{source}: a recording states its own orientation convention and contains the robot's"
+            f"{arg(source)}: a recording states its own orientation convention and contains the robot's"
             " poses: leave out the convention and the robot's table."
         )
     work = Capturing(model)
@@ -113,7 +113,7 @@ def capture_poses(
         return _of_two(source, convention, robot_poses, R_ES, work, delay, progress)
     if delay is not None:
         raise InputError(
-            f"{source}: a table has wrench and pose in one row, so a delay has no meaning: use a"
+            f"{arg(source)}: a table has wrench and pose in one row, so a delay has no meaning: use a"
             " recording (.mcap), or a separate table of robot poses."
         )
     return _of_table(source, convention, R_ES, work, progress)
@@ -159,11 +159,15 @@ def _of_two(
             R_WS = sensor_orientations(quaternions[good, :4], Convention(), R_ES)
             work.update(wrenches.times[rows][good], wrenches.wrenches[rows][good], R_WS)
     if bad:
-        said.append(f"{bad:,} readings left out: empty, frozen, or flagged as bad by the device.")
+        said.append(
+            message(f"{arg(bad):,} readings left out: empty, frozen, or flagged as bad by the device.")
+        )
     if lost:
-        said.append(f"{lost:,} readings left out: no pose within {LONGEST_GAP} s.")
+        said.append(message(f"{arg(lost):,} readings left out: no pose within {arg(LONGEST_GAP)} s."))
     if not kept:
-        raise RecordingError(f"{source}: no reading has a pose close enough in time. {' '.join(said)}")
+        raise RecordingError(
+            f"{arg(source)}: no reading has a pose close enough in time. {arg(join(' ', said))}"
+        )
     return work.finish(tuple(said), None if delay is None else seconds)
 
 
@@ -189,7 +193,7 @@ def read_any_poses(
     """
     if not (robot_poses is not None or is_recording(source) or is_recorded_table(source)):
         if delay is not None:
-            raise InputError(f"{source}: a table of still poses has no delay: leave it out.")
+            raise InputError(f"{arg(source)}: a table of still poses has no delay: leave it out.")
         return read_poses(source, convention, R_ES=R_ES)
     found = capture_poses(
         source, convention, robot_poses=robot_poses, R_ES=R_ES, delay=delay, progress=progress
@@ -197,11 +201,15 @@ def read_any_poses(
     warnings = (*found.warnings, *found.left_out)
     if not found.poses:
         raise RecordingError(
-            f"{source}: the recording contains no still pose: hold each pose for a few seconds"
-            f" without touching anything. {' '.join(warnings)}".rstrip()
+            message(
+                f"{arg(source)}: the recording contains no still pose: hold each pose for a few seconds"
+                f" without touching anything. {arg(join(' ', warnings))}"
+            ).strip()
         )
     quaternions = _quaternions(np.array([pose.R_WS for pose in found.poses]))
-    note = f"{source} is a recording: {len(found.poses)} still poses found in {found.rows:,} readings."
+    note = message(
+        f"{arg(source)} is a recording: {arg(len(found.poses))} still poses found in {arg(found.rows):,} readings."
+    )
     return PoseTable(
         found.poses, quaternions, Convention(), None, np.arange(1, len(found.poses) + 1), warnings, (note,)
     )
@@ -216,7 +224,7 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
 def _only(source: File | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise RecordingError(
-            f"{source}: it contains {len(recording.wrenches)} sensors and {len(recording.flanges)}"
+            f"{arg(source)}: it contains {arg(len(recording.wrenches))} sensors and {arg(len(recording.flanges))}"
             " robots: record one of each, the robot with --pose."
         )
     (wrenches,), (poses,) = recording.wrenches.values(), recording.flanges.values()
@@ -230,8 +238,8 @@ def _check_overlap(
     (one, two), (three, four) = wrenches.times[[0, -1]], poses.times[[0, -1]]
     if two < three - _LONGEST_DELAY_S or four < one - _LONGEST_DELAY_S:
         raise RecordingError(
-            f"{source}: column t runs from {one:.10g} to {two:.10g} s, that of {robot_poses} from"
-            f" {three:.10g} to {four:.10g} s: they do not overlap. Write both with the same clock,"
+            f"{arg(source)}: column t runs from {arg(one):.10g} to {arg(two):.10g} s, that of {arg(robot_poses)} from"
+            f" {arg(three):.10g} to {arg(four):.10g} s: they do not overlap. Write both with the same clock,"
             " in s."
         )
 
@@ -242,21 +250,21 @@ def _delay(
     if delay == "auto":
         estimate = estimate_delay(wrenches, poses)
         if estimate.seconds is None:
-            raise RecordingError(f"{source}: {estimate.sentence} Or give the delay in seconds.")
+            raise RecordingError(f"{arg(source)}: {arg(estimate.sentence)} Or give the delay in seconds.")
         seconds, sentence = estimate.usable
         said.append(sentence)
         return seconds
     seconds = 0.0 if delay is None else float(delay)
     if not abs(seconds) <= _LONGEST_DELAY_S:
         raise InputError(
-            f"a delay of {seconds:g} s is out of range: give at most {_LONGEST_DELAY_S:g} s, or auto."
+            f"a delay of {arg(seconds):g} s is out of range: give at most {arg(_LONGEST_DELAY_S):g} s, or auto."
         )
     return seconds
 
 
 # A shorter stop was hardly meant for a pose. Between two looks a robot that moves has turned.
 _SHORTEST_STOP_S, _LOOK_S = 0.7, 0.05
-_HEADER = "t,fx,fy,fz,mx,my,mz and the orientation"
+_HEADER = message("t,fx,fy,fz,mx,my,mz and the orientation")
 
 
 @dataclass(frozen=True, eq=False)
@@ -274,7 +282,8 @@ class Captured:
     def left_out(self) -> tuple[str, ...]:
         """The stretches that gave no pose, with the reasons: sentences."""
         return tuple(
-            f"left out, {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in self.rejected
+            message(f"left out, {arg(each.start):.1f} to {arg(each.stop):.1f} s: {arg(each.reason)}")
+            for each in self.rejected
         )
 
 
@@ -290,8 +299,10 @@ def _of_table(
         convention = find_convention(reader, convention)
         if "t" in reader.names and not set(convention.columns) & set(reader.names):
             raise reader.error(
-                f"there is no orientation ({', '.join(convention.columns)}) beside the readings:"
-                " add it, or give the robot's poses as a separate table, --robot-poses FILE.",
+                message(
+                    f"there is no orientation ({arg(', '.join(convention.columns))}) beside the readings:"
+                    " add it, or give the robot's poses as a separate table, --robot-poses FILE."
+                ),
                 1,
             )
         reader.select(("t", *CHANNELS, *convention.columns), allow_nan=CHANNELS)
@@ -349,7 +360,7 @@ class Capturing:
             if not any(start < stop[3] and end > stop[2] for start, end in told)
         ]
         poses = tuple(
-            capture.to_pose(name=f"pose {number} at {capture.start:.1f} s")
+            capture.to_pose(name=message(f"pose {arg(number)} at {arg(capture.start):.1f} s"))
             for number, capture in enumerate(captures, 1)
         )
         refused = tuple(sorted((*rejected, *unused), key=lambda each: each.start))
@@ -371,9 +382,11 @@ class Capturing:
         settings = self._detector.settings
         needed = settings.window / 2 + settings.min_duration
         reason = (
-            f"the robot stood for only {stop - start:.1f} s; {needed:.1f} s after settling are needed"
+            message(
+                f"the robot stood for only {arg(stop - start):.1f} s; {arg(needed):.1f} s after settling are needed"
+            )
             if stop - start < needed
-            else (
+            else message(
                 "the robot stood still, but the reading did not settle: vibration, a moving cable, or a hand"
             )
         )
@@ -396,8 +409,10 @@ def in_order(reader: TableReader) -> Iterator[TableRows]:
         if (times < before).any():
             row = int(np.argmax(times < before))
             raise reader.error(
-                f"column t runs backwards, from {before[row]:.10g} to {times[row]:.10g} s: sort the rows by time, or"
-                " cut the table where the clock was set back.",
+                message(
+                    f"column t runs backwards, from {arg(before[row]):.10g} to {arg(times[row]):.10g} s:"
+                    " sort the rows by time, or cut the table where the clock was set back."
+                ),
                 int(rows.lines[row]),
             )
         latest = float(times[-1])

@@ -26,7 +26,7 @@ from contactbench.pipeline.contact.stream import (
     refuse_overwriting,
     whole_output,
 )
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
 from contactbench.pipeline.tables.shortest import csv_rows
@@ -146,8 +146,8 @@ def _wording(convention: Convention | None) -> Wording:
     return Wording(
         header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
         rows="readings",
-        meaning="raw forces in N, torques in N·m, in the sensor frame S, and its orientation",
-        not_finite="remove the row, or use --allow-nan to pass it through.",
+        meaning=message("raw forces in N, torques in N·m, in the sensor frame S, and its orientation"),
+        not_finite=message("remove the row, or use --allow-nan to pass it through."),
         text="a time",
         error=WrenchFileError,
     )
@@ -166,7 +166,7 @@ class _Compensation:
         self._refused = ""
         if isinstance(calibration, Calibration):
             if calibration.verdict.level is Level.REFUSE:
-                self._refused = " ".join(calibration.verdict.reasons)
+                self._refused = join(" ", calibration.verdict.reasons)
             calibration = calibration.model
         self._model = calibration
         self._convention = convention
@@ -256,9 +256,11 @@ class _Compensation:
 
     def _warnings(self) -> Iterator[str]:
         if self._refused:
-            yield f"The calibration was refused, so do not trust these wrenches. {self._refused}"
+            yield message(
+                f"The calibration was refused, so do not trust these wrenches. {arg(self._refused)}"
+            )
         if self._not_finite:
-            yield (
-                f"{self._not_finite} of {self._rows} rows have empty or infinite cells; they were"
+            yield message(
+                f"{arg(self._not_finite)} of {arg(self._rows)} rows have empty or infinite cells; they were"
                 " passed through (--allow-nan)."
             )

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
 from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot import ROBOTS
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
@@ -42,13 +42,13 @@ _LONGEST_NAME = 256  # bytes; what a table takes as text
 
 # What each column may hold, and what to call it. The bounds are those of PoseSample.
 _RANGES: dict[str, tuple[float, float, str]] = {
-    **dict.fromkeys(FORCES, (-1e5, 1e5, "a force in N")),
-    **dict.fromkeys(TORQUES, (-1e5, 1e5, "a torque in N·m")),
-    **dict.fromkeys(_FORCE_SD, (0.0, 1e5, "a standard deviation in N")),
-    **dict.fromkeys(_TORQUE_SD, (0.0, 1e5, "a standard deviation in N·m")),
-    "t": (-1e300, 1e300, "a time in s"),
-    "temperature": (-1e300, 1e300, "a temperature in °C"),
-    "count": (1.0, 2.0**53, "a number of samples"),
+    **dict.fromkeys(FORCES, (-1e5, 1e5, message("a force in N"))),
+    **dict.fromkeys(TORQUES, (-1e5, 1e5, message("a torque in N·m"))),
+    **dict.fromkeys(_FORCE_SD, (0.0, 1e5, message("a standard deviation in N"))),
+    **dict.fromkeys(_TORQUE_SD, (0.0, 1e5, message("a standard deviation in N·m"))),
+    "t": (-1e300, 1e300, message("a time in s")),
+    "temperature": (-1e300, 1e300, message("a temperature in °C")),
+    "count": (1.0, 2.0**53, message("a number of samples")),
 }
 
 
@@ -101,9 +101,11 @@ def read_poses(
     reader, chosen = selection.reader, selection.convention
     if "t" in rows.columns and _sampled(rows.column("t")):
         raise reader.error(
-            f"this is a recording ({len(rows.lines)} rows, {_step_text(rows.column('t'))} apart),"
-            " not a table of still poses: find the still poses with contactbench calibrate"
-            " captures."
+            message(
+                f"this is a recording ({arg(len(rows.lines))} rows, {arg(_step_text(rows.column('t')))} apart),"
+                " not a table of still poses: find the still poses with contactbench calibrate"
+                " captures."
+            )
         )
     _check_ranges(reader, rows)
     raw = np.column_stack([rows.column(name) for name in chosen.columns])
@@ -142,7 +144,7 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise InputError(
-            f"{file}: the poses cannot be written ({error}): choose a folder that exists, is writable and has"
+            f"{arg(file)}: the poses cannot be written ({arg(error)}): choose a folder that exists, is writable and has"
             " space."
         ) from error
 
@@ -150,7 +152,7 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
 def encode_poses(poses: Sequence[PoseSample], name: str) -> bytes:
     """Return what `write_poses` writes; `name` is what messages call it."""
     if not poses:
-        raise InputError(f"{name}: there are no poses to write: capture some first.")
+        raise InputError(f"{arg(name)}: there are no poses to write: capture some first.")
     quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat(canonical=True)
     rows = [
         dict(zip(("qx", "qy", "qz", "qw"), quaternion, strict=True)) | _cells(name, poses, index)
@@ -190,15 +192,21 @@ def is_recorded_table(file: File) -> bool:
             return True
         if len(values) <= POSE_LIMIT:
             return False
-        many = f"there are more than {POSE_LIMIT} rows, too many for a table of still poses"
+        many = message(f"there are more than {arg(POSE_LIMIT)} rows, too many for a table of still poses")
         if column == "t" and np.isfinite(values).any():
             raise reader.error(
-                f"{many}, but by column t they are {_step_text(values)} apart, too far for a recording: t must be in s,"
-                f" and samples at most {_CLOSEST_POSES_S} s apart. Record faster, or shorten the table."
+                message(
+                    f"{arg(many)}, but by column t they are {arg(_step_text(values))} apart, too far for a"
+                    f" recording: t must be in s, and samples at most {arg(_CLOSEST_POSES_S)} s apart."
+                    " Record faster, or shorten the table."
+                )
             )
         raise reader.error(
-            f"{many}. If this is a recording, add the time of each row in s as column t: contactbench calibrate fit and"
-            " contactbench calibrate captures then find the still poses in it."
+            message(
+                f"{arg(many)}. If this is a recording, add the time of each row in s as column t:"
+                " contactbench calibrate fit and contactbench calibrate captures then find the still poses"
+                " in it."
+            )
         )
 
 
@@ -241,18 +249,29 @@ def find_convention(reader: TableReader, convention: Convention | None) -> Conve
     if there in ([], [Kind.QUATERNION]):
         return Convention()  # where its columns are missing, the reader says so
     remedies = {
-        Kind.EULER: "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
-        " ZYX: about the rotating axes), --rotation-vector if they are axis times angle",
-        Kind.JOINTS: f"--robot NAME for the joints j1 to j6 (known: {', '.join(sorted(ROBOTS))})",
+        Kind.EULER: message(
+            "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
+            " ZYX: about the rotating axes), --rotation-vector if they are axis times angle"
+        ),
+        Kind.JOINTS: message(
+            f"--robot NAME for the joints j1 to j6 (known: {arg(', '.join(sorted(ROBOTS)))})"
+        ),
     }
-    ways = " or ".join(remedies[kind] for kind in there if kind in remedies)
+    ways = join(message(" or "), (remedies[kind] for kind in there if kind in remedies))
     if len(there) == 1:
         columns = ", ".join(Convention(there[0]).columns)
-        raise reader.error(f"columns {columns} alone do not define the orientation: pass {ways}.", 1)
+        raise reader.error(
+            message(f"columns {arg(columns)} alone do not define the orientation: pass {arg(ways)}."), 1
+        )
     if Kind.QUATERNION in there:
-        ways += ", or rename these columns to use qw, qx, qy, qz"
-    kinds = " and as ".join({Kind.QUATERNION: "quaternions", Kind.EULER: "angles"}.get(k, k) for k in there)
-    raise reader.error(f"the orientations are given as {kinds}: choose one. Pass {ways}.", 1)
+        ways += message(", or rename these columns to use qw, qx, qy, qz")
+    kinds = join(
+        message(" and as "),
+        ({Kind.QUATERNION: message("quaternions"), Kind.EULER: message("angles")}.get(k, k) for k in there),
+    )
+    raise reader.error(
+        message(f"the orientations are given as {arg(kinds)}: choose one. Pass {arg(ways)}."), 1
+    )
 
 
 def sensor_orientations(
@@ -292,7 +311,7 @@ def mount_rotation(R_ES: ArrayLike) -> NDArray[np.float64]:
     R = np.array(R_ES, dtype=np.float64)
     if R.shape != (3, 3) or not (np.abs(R.T @ R - np.eye(3)) < 1e-6).all() or np.linalg.det(R) < 0:
         raise InputError(
-            f"R_ES must be a (3, 3) rotation, the sensor's axes in the flange as columns, not {R.tolist()}"
+            f"R_ES must be a (3, 3) rotation, the sensor's axes in the flange as columns, not {arg(R.tolist())}"
         )
     return R
 
@@ -304,8 +323,10 @@ def _wording(convention: Convention | None) -> Wording:
     return Wording(
         header=",".join(((convention or Convention()).columns) + CHANNELS),
         rows="poses",
-        meaning="mean readings with bias and weight, forces in N, torques in N·m, in the sensor frame S",
-        not_finite="complete or remove the pose.",
+        meaning=message(
+            "mean readings with bias and weight, forces in N, torques in N·m, in the sensor frame S"
+        ),
+        not_finite=message("complete or remove the pose."),
         text="a name",
         error=PoseFileError,
     )
@@ -327,7 +348,10 @@ class _Selection:
             there = [name in reader.names for name in group]
             if any(there) and not all(there):
                 missing = ", ".join(name for name, found in zip(group, there, strict=True) if not found)
-                raise reader.error(f"column {missing} missing: give {', '.join(group)}, or none of them.", 1)
+                raise reader.error(
+                    message(f"column {arg(missing)} missing: give {arg(', '.join(group))}, or none of them."),
+                    1,
+                )
         reader.select(
             (*self.convention.columns, *CHANNELS),
             optional=_OPTIONAL,
@@ -348,8 +372,11 @@ def _check_ranges(reader: TableReader, rows: TableRows) -> None:
             what += ", whole"
         if wrong.any():
             row = int(np.argmax(wrong))
-            message = f"column {column} holds {values[row]:g}, but {what} lies between {least:g} and {most:g}"
-            raise reader.error(f"{message}: correct or remove the row.", int(rows.lines[row]))
+            problem = message(
+                f"column {arg(column)} holds {arg(values[row]):g}, but {arg(what)} lies between"
+                f" {arg(least):g} and {arg(most):g}"
+            )
+            raise reader.error(message(f"{arg(problem)}: correct or remove the row."), int(rows.lines[row]))
 
 
 def _poses(reader: TableReader, rows: TableRows, R_WS: NDArray[np.float64]) -> Iterator[PoseSample]:
@@ -384,7 +411,9 @@ def _three(
     if len(given) in {0, 3}:
         return np.array(given) if given else None
     empty = next(name for name in group if name not in row)
-    raise reader.error(f"column {empty} is empty: give {', '.join(group)}, or none of them.", line)
+    raise reader.error(
+        message(f"column {arg(empty)} is empty: give {arg(', '.join(group))}, or none of them."), line
+    )
 
 
 def _name(cell: bytes) -> str:
@@ -410,13 +439,13 @@ def _warnings(
     moved = np.abs(wrenches - wrenches.mean(axis=0))
     force, torque = np.linalg.norm(moved[:, :3], axis=1).max(), np.linalg.norm(moved[:, 3:], axis=1).max()
     if torque > max(_LONGEST_ARM * force, _FELT_TORQUE):
-        yield (
-            f"Between poses the torques change by up to {torque:.3g}, but the forces by only"
-            f" {force:.3g} N: if the torques are in N·mm, divide them by 1000."
+        yield message(
+            f"Between poses the torques change by up to {arg(torque):.3g}, but the forces by only"
+            f" {arg(force):.3g} N: if the torques are in N·mm, divide them by 1000."
         )
     cosines = (np.einsum("iab,ab->i", R_WS, R_WS[0]) - 1) / 2
     if len(R_WS) > 1 and (cosines > np.cos(_SAME)).all():
-        yield (
+        yield message(
             "All poses have the same orientation to within half a degree. Turn the wrist between"
             " poses, or check that the orientation columns are the ones the robot updates."
         )
@@ -436,21 +465,21 @@ def _copied(
     again = np.flatnonzero(turned & (wrenches[1:] == wrenches[:-1]).all(axis=1))
     if len(again):
         one, other = lines[again[0] : again[0] + 2].tolist()
-        more = f", and {len(again) - 1} more such pairs" if len(again) > 1 else ""
-        yield (
-            f"Lines {one} and {other} have exactly the same reading although the sensor was turned"
-            f" between them{more}: the reading was copied, or the readings are shifted by a row."
+        more = message(f", and {arg(len(again) - 1)} more such pairs") if len(again) > 1 else ""
+        yield message(
+            f"Lines {arg(one)} and {arg(other)} have exactly the same reading although the sensor was turned"
+            f" between them{arg(more)}: the reading was copied, or the readings are shifted by a row."
             " Correct or remove the pose."
         )
 
 
 def _time_warnings(times: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
     known = np.isfinite(times)
-    yield from _disorder("times in column t", times[known], lines[known])
+    yield from _disorder(message("times in column t"), times[known], lines[known])
     steps = _steps(times)
     if len(steps) and float(np.median(steps)) <= _CLOSEST_POSES_S:
-        yield (
-            f"By column t the poses are {_step_text(times)} apart, but a pose takes a second:"
+        yield message(
+            f"By column t the poses are {arg(_step_text(times))} apart, but a pose takes a second:"
             " write t in s. If the rows are samples of a recording, give the whole recording."
         )
 
@@ -460,7 +489,7 @@ def _name_warnings(names: Sequence[str], lines: NDArray[np.int64]) -> Iterator[s
     parts = [re.match(r"(\D*)(\d{1,9})", name) for name in names]
     numbers = [int(part[2]) for part in parts if part]
     if len(numbers) == len(names) and len({part[1] for part in parts if part}) == 1:
-        yield from _disorder("numbers in column name", np.array(numbers, dtype=np.float64), lines)
+        yield from _disorder(message("numbers in column name"), np.array(numbers, dtype=np.float64), lines)
 
 
 def _disorder(what: str, values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
@@ -470,9 +499,9 @@ def _disorder(what: str, values: NDArray[np.float64], lines: NDArray[np.int64]) 
         return
     moved = lines[values != np.sort(values)].tolist()
     shown = ", ".join(map(str, moved[:6])) + (", ..." if len(moved) > 6 else "")
-    how = "two rows are swapped" if len(moved) == 2 else "rows were moved"
-    yield (
-        f"The {what} do not increase at lines {shown}: if {how}, entirely or in some columns,"
+    how = message("two rows are swapped") if len(moved) == 2 else message("rows were moved")
+    yield message(
+        f"The {arg(what)} do not increase at lines {arg(shown)}: if {arg(how)}, entirely or in some columns,"
         " restore the order. Each reading must stand beside its own orientation."
     )
 
@@ -480,9 +509,11 @@ def _disorder(what: str, values: NDArray[np.float64], lines: NDArray[np.int64]) 
 def _angle_warnings(raw: NDArray[np.float64], *, degrees: bool) -> Iterator[str]:
     largest = np.abs(raw).max()
     if degrees and 0 < largest <= _FULL_TURN:
-        yield f"No angle is larger than {largest:.3g}°: if they are in rad, pass --radians."
+        yield message(f"No angle is larger than {arg(largest):.3g}°: if they are in rad, pass --radians.")
     if not degrees and largest > 2 * _FULL_TURN:
-        yield f"Angles reach {largest:.3g} rad, more than two turns: if they are in degrees, leave out --radians."
+        yield message(
+            f"Angles reach {arg(largest):.3g} rad, more than two turns: if they are in degrees, leave out --radians."
+        )
 
 
 def _repeats(values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
@@ -493,9 +524,9 @@ def _repeats(values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[
         if earlier != line:
             again.append((earlier, line))
     if again:
-        yield (
-            f"Rows that repeat an earlier row exactly: {len(again)}; the first is line"
-            f" {again[0][1]}, which repeats line {again[0][0]}. They count as separate poses:"
+        yield message(
+            f"Rows that repeat an earlier row exactly: {arg(len(again))}; the first is line"
+            f" {arg(again[0][1])}, which repeats line {arg(again[0][0])}. They count as separate poses:"
             " remove them."
         )
 
@@ -525,6 +556,6 @@ def _one_line(file: str, poses: Sequence[PoseSample], index: int) -> str:
     except UnicodeEncodeError:  # half a character, which has no bytes
         fits = False
     if not fits:
-        what = f"its name must be one line of text of at most {_LONGEST_NAME} bytes: change it."
-        raise InputError(f"{file}: {named(poses, index)[:40]!a}: {what}")
+        what = message(f"its name must be one line of text of at most {arg(_LONGEST_NAME)} bytes: change it.")
+        raise InputError(f"{arg(file)}: {arg(ascii(named(poses, index)[:40]))}: {arg(what)}")
     return name

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 from contactbench.pipeline.calibration.stillness.captures import BLOCK, LEAST
+from contactbench.pipeline.errors import arg
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
 _FEWEST = 10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
@@ -185,8 +186,8 @@ class StillnessIntake:
     def _know(self, rate: float) -> None:
         if rate < _SLOWEST:
             raise InputError(
-                f"{rate:.2g} samples per second are too few to tell stillness from motion: check"
-                f" that the times are in s, and give {_SLOWEST:g} or more"
+                f"{arg(rate):.2g} samples per second are too few to tell stillness from motion: check"
+                f" that the times are in s, and give {arg(_SLOWEST):g} or more"
             )
         self.rate = rate
         fewest = _FEWEST_FITTED if rate >= _SLOW else _FEWEST
@@ -204,7 +205,7 @@ class StillnessIntake:
         if stop > len(self._t):
             if stop > _MOST:
                 raise InputError(
-                    f"{stop} samples since {self._t[0]:g} s span less than {self.length:g} s: the"
+                    f"{arg(stop)} samples since {arg(self._t[0]):g} s span less than {arg(self.length):g} s: the"
                     " times stand still; give the time of each sample in s"
                 )
             self._t = np.concatenate([self._t[: self._filled], np.empty(2 * count + self._filled)])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.calibration.poses import PoseSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -86,14 +86,18 @@ class StillnessSettings:
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
             if value is not None and not (isfinite(value) and value > 0):
-                raise InputError(f"StillnessSettings.{name} must be positive and finite, not {value}")
+                raise InputError(
+                    f"StillnessSettings.{arg(name)} must be positive and finite, not {arg(value)}"
+                )
         if self.min_duration > self.max_duration:
             raise InputError(
-                f"StillnessSettings.min_duration, {self.min_duration} s, is above max_duration,"
-                f" {self.max_duration} s: lower the first or raise the second"
+                f"StillnessSettings.min_duration, {arg(self.min_duration)} s, is above max_duration,"
+                f" {arg(self.max_duration)} s: lower the first or raise the second"
             )
         if self.window < 6 * BLOCK:
-            raise InputError(f"StillnessSettings.window: {self.window} s; give {6 * BLOCK:.1f} s or more")
+            raise InputError(
+                f"StillnessSettings.window: {arg(self.window)} s; give {arg(6 * BLOCK):.1f} s or more"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +144,7 @@ class Capture:
         """
         R = self.R_WS if R_WS is None else np.asarray(R_WS, dtype=np.float64)
         if R is None:
-            raise InputError(f"to_pose: the capture at {self.start:.1f} s has no orientation: give R_WS")
+            raise InputError(f"to_pose: the capture at {arg(self.start):.1f} s has no orientation: give R_WS")
         return PoseSample(
             R, self.mean[:3], self.mean[3:], self.count, self.sd[:3], self.sd[3:],
             temperature, 0.5 * (self.start + self.stop), name,
@@ -191,14 +195,16 @@ def checked(
     """Return samples as arrays, or raise InputError; `latest` is the time before the first."""
     times, w = np.asarray(t, dtype=np.float64), np.ascontiguousarray(wrenches, dtype=np.float64)
     if w.ndim != 2 or w.shape[1] != 6:
-        raise InputError(f"wrenches: give rows of six numbers, force before torque, not shape {w.shape}")
+        raise InputError(f"wrenches: give rows of six numbers, force before torque, not shape {arg(w.shape)}")
     if times.shape != (len(w),):
-        raise InputError(f"times: give one for each of the {len(w)} samples, s, not shape {times.shape}")
+        raise InputError(
+            f"times: give one for each of the {arg(len(w))} samples, s, not shape {arg(times.shape)}"
+        )
     before = np.concatenate([[latest], times[:-1]])
     wrong = np.flatnonzero(~((times >= before) & (times < inf)))
     if len(wrong):
         at = int(wrong[0])
-        raise InputError(f"sample {at + 1}: {backwards(times[at], before[at])}")
+        raise InputError(f"sample {arg(at + 1)}: {arg(backwards(times[at], before[at]))}")
     return times, w, None if R_WS is None else orientation(R_WS, times.shape)
 
 
@@ -206,14 +212,14 @@ def orientation(R_WS: ArrayLike, many: tuple[int, ...]) -> Floats:
     """Return one orientation, or as many as there are samples, or raise InputError."""
     R = np.array(R_WS, dtype=np.float64)
     if R.shape not in {(3, 3), (*many, 3, 3)}:
-        raise InputError(f"R_WS: give (3, 3) or one (3, 3) for each sample, not shape {R.shape}")
+        raise InputError(f"R_WS: give (3, 3) or one (3, 3) for each sample, not shape {arg(R.shape)}")
     return R
 
 
 def backwards(t: float, before: float) -> str:
     """Say what is wrong with the time of a sample."""
-    return (
-        f"time {t} s after {before} s: times must be finite and must not decrease; sort the"
+    return message(
+        f"time {arg(t)} s after {arg(before)} s: times must be finite and must not decrease; sort the"
         " samples, or start a new detector after the clock restarts"
     )
 
@@ -238,12 +244,14 @@ def short(value: float | np.floating[Any]) -> str:
 def done_words(capture: Capture) -> str:
     """Say that a pose is captured."""
     force, torque = capture.standard_error[:3].max(), capture.standard_error[3:].max()
-    return (
-        f"Captured: {capture.duration:.1f} s averaged, ± {force:.1g} N and ± {1e3 * torque:.1g} mN·m."
+    return message(
+        f"Captured: {arg(capture.duration):.1f} s averaged, ± {arg(force):.1g} N and ± {arg(1e3 * torque):.1g} mN·m."
         " Go to the next pose."
     )
 
 
 def stale_words(silent: float) -> str:
     """Say that no samples have come for so many s."""
-    return f"Too few samples, or none, for {silent:.1f} s: check the sensor's plug, connection and rate."
+    return message(
+        f"Too few samples, or none, for {arg(silent):.1f} s: check the sensor's plug, connection and rate."
+    )

@@ -40,6 +40,7 @@ from contactbench.pipeline.calibration.stillness.captures import (
     stale_words,
 )
 from contactbench.pipeline.calibration.stillness.quiet import Yardstick
+from contactbench.pipeline.errors import arg, message
 
 _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
 _DECAY = 2.0  # s: what would take longer to decay is motion
@@ -89,7 +90,7 @@ class StillnessDetector:
         model: GravityModel | None = None,
     ) -> None:
         if rate_hz is not None and not (isfinite(rate_hz) and rate_hz > 0):
-            raise InputError(f"StillnessDetector.rate_hz must be positive and finite, not {rate_hz}")
+            raise InputError(f"StillnessDetector.rate_hz must be positive and finite, not {arg(rate_hz)}")
         self.settings = s = settings or StillnessSettings()
         self.model = model
         self.captures: list[Capture] = []
@@ -109,7 +110,14 @@ class StillnessDetector:
         unknown = np.full(6, np.nan)
         self._recommended = s.min_duration
         self._now = Stillness(
-            StillState.SETTLING, None, unknown, unknown, unknown, 0.0, s.min_duration, "Waiting for samples."
+            StillState.SETTLING,
+            None,
+            unknown,
+            unknown,
+            unknown,
+            0.0,
+            s.min_duration,
+            message("Waiting for samples."),
         )
         self._fresh: tuple[Capture | None, Rejected | None] = (None, None)
 
@@ -137,7 +145,7 @@ class StillnessDetector:
         """
         w = np.asarray(wrench, dtype=np.float64)
         if w.shape != (6,):
-            raise InputError(f"wrench: give six numbers, force before torque, not shape {w.shape}")
+            raise InputError(f"wrench: give six numbers, force before torque, not shape {arg(w.shape)}")
         R = None if R_WS is None else orientation(R_WS, ())
         if not self._intake.latest <= t < inf:
             raise InputError(backwards(t, self._intake.latest))
@@ -178,7 +186,7 @@ class StillnessDetector:
             self._take(last)
         if self._open:
             self._held, self._open = HeldCapture(self._open, "", self._intake.latest), []
-        self._release("the recording ended")
+        self._release(message("the recording ended"))
         return self._answer()
 
     def _answer(self) -> Stillness:
@@ -236,7 +244,9 @@ class StillnessDetector:
     def _interrupt(self, gap: float) -> None:
         """Begin anew after a pause in the samples."""
         if self._open:
-            reason = f"no samples for {gap:.2g} s after {self._duration(self._open):.1f} s of averaging"
+            reason = message(
+                f"no samples for {arg(gap):.2g} s after {arg(self._duration(self._open)):.1f} s of averaging"
+            )
             self._reject(self._open, StillState.STALE, reason)
         elif self._held:
             self._reject(self._held.blocks, StillState.BUMPED, self._held.reason)
@@ -259,7 +269,7 @@ class StillnessDetector:
             if old is self._done:
                 self._done = None
             scatter = size(old.sd, old.sd / loudest)
-            reason = f"withdrawn: it scattered by {scatter}, more than the still sensor does"
+            reason = message(f"withdrawn: it scattered by {arg(scatter)}, more than the still sensor does")
             span = old.start_index, old.stop_index, old.start, old.stop
             self._refuse(Rejected(*span, StillState.MOVING, reason))
 
@@ -271,7 +281,7 @@ class StillnessDetector:
         self._rearm(block, unrest)
         quiet = self._full and self._rule.quiet(window)
         if self._held and self._has_left(self._held, window, quiet, unrest):
-            self._release("the robot moved on")
+            self._release(message("the robot moved on"))
         if not quiet:
             self._touched = None
             self._say_unquiet(window, unrest, by)
@@ -325,23 +335,25 @@ class StillnessDetector:
     def _say_unquiet(self, window: Window, unrest: float, by: str) -> None:
         seconds = self._until_still(unrest)
         if self._held:
-            words = (
-                f"Bumped, or left too early: {self._held.reason}. The next capture starts once"
+            words = message(
+                f"Bumped, or left too early: {arg(self._held.reason)}. The next capture starts once"
                 " everything is still."
             )
             self._state(StillState.BUMPED, words, seconds, window)
             return
         if seconds is None:
-            self._state(StillState.MOVING, f"Moving: {by}.", None, window)
+            self._state(StillState.MOVING, message(f"Moving: {arg(by)}."), None, window)
             return
         # A slope of the window means something only once no motion is left in it.
         if self._full and max(self._unrests) <= 1:
             excess = self._rule.creep(window, self._rule.sigma)
             if excess.max() > 1:
-                words = f"Moving slowly, or drifting: {size(window.slope, excess)}/s."
+                words = message(f"Moving slowly, or drifting: {arg(size(window.slope, excess))}/s.")
                 self._state(StillState.MOVING, words, None, window)
                 return
-        self._state(StillState.SETTLING, f"Settling: still in about {seconds:.1f} s.", seconds, window)
+        self._state(
+            StillState.SETTLING, message(f"Settling: still in about {arg(seconds):.1f} s."), seconds, window
+        )
 
     def _until_still(self, unrest: float) -> float | None:
         """Return the s until the window can be quiet, by how the unrest decays; None while it does not."""
@@ -365,7 +377,9 @@ class StillnessDetector:
         elif self._done is None:
             self._touched = len(self.rejected)
             self._reject(window.blocks, StillState.TOUCHED, f"touched: {touch}")
-        words = f"Touched: {touch}. Remove whatever touches the probe. If nothing does, recalibrate."
+        words = message(
+            f"Touched: {arg(touch)}. Remove whatever touches the probe. If nothing does, recalibrate."
+        )
         self._state(StillState.TOUCHED, words, None, window)
 
     # ---- in a capture --------------------------------------------------------------------------
@@ -383,8 +397,8 @@ class StillnessDetector:
         self._blocks.clear()  # and is called still again only after a whole quiet window
         self._unrests.append(_UNREST)
         if turned:
-            self._release("the sensor turned")
-            self._state(StillState.MOVING, "Moving: the sensor turns.", None, window)
+            self._release(message("the sensor turned"))
+            self._state(StillState.MOVING, message("Moving: the sensor turns."), None, window)
         else:
             self._say_unquiet(window, 2 * _UNREST, reason)
 
@@ -397,13 +411,17 @@ class StillnessDetector:
             self._recommended = self._rule.duration(blocks)
         recommended = self._recommended
         if len(blocks) < 6 or averaged < recommended - 1e-6:
-            words = f"Still: {averaged:.1f} s of {recommended:.1f} s averaged.{self._blind(blocks[-1])}"
+            words = message(
+                f"Still: {arg(averaged):.1f} s of {arg(recommended):.1f} s averaged.{arg(self._blind(blocks[-1]))}"
+            )
             self._state(StillState.STILL, words, 0.0, window)
             return
         tail = 0 if self._trims == _TRIMS else self._rule.tail(blocks)
         if tail:
             self._trims, self._open = self._trims + 1, self._open[tail:]
-            words = f"Still, after settling late: {self._duration(blocks[tail:]):.1f} s averaged so far."
+            words = message(
+                f"Still, after settling late: {arg(self._duration(blocks[tail:])):.1f} s averaged so far."
+            )
             self._state(StillState.STILL, words, 0.0, window)
             return
         self._open = []
@@ -416,7 +434,7 @@ class StillnessDetector:
         if refused:
             self._blocks.clear()  # the same samples would be refused again
             self._reject(blocks, StillState.MOVING, refused)
-            self._state(StillState.MOVING, f"Not captured: {refused}.", None, window)
+            self._state(StillState.MOVING, message(f"Not captured: {arg(refused)}."), None, window)
             return
         error = np.sqrt(self._rule.noise(blocks).variance(self._duration(blocks)))
         self._rule.memory.add(whole.means)
@@ -443,7 +461,9 @@ class StillnessDetector:
             blocks = blocks[self._rule.tail(blocks) :]
         averaged, needed = self._duration(blocks), self.settings.min_duration
         if averaged < needed - 1e-6:
-            reason = f"{why} after {averaged:.1f} s of averaging; {needed:.1f} s are needed"
+            reason = message(
+                f"{arg(why)} after {arg(averaged):.1f} s of averaging; {arg(needed):.1f} s are needed"
+            )
             self._reject(blocks, StillState.MOVING, reason)
         else:
             self._complete(blocks, None)
@@ -454,5 +474,9 @@ class StillnessDetector:
     def _blind(self, block: SampleBlock) -> str:
         """Say why a steady touch would not be seen."""
         if self.model is None:
-            return " A steady touch cannot be detected before the first calibration."
-        return "" if block.R_WS is not None else " A steady touch cannot be detected without the orientation."
+            return message(" A steady touch cannot be detected before the first calibration.")
+        return (
+            ""
+            if block.R_WS is not None
+            else message(" A steady touch cannot be detected without the orientation.")
+        )

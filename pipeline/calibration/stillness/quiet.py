@@ -25,6 +25,7 @@ from contactbench.pipeline.calibration.stillness.captures import (
     size,
 )
 from contactbench.pipeline.calibration.stillness.noise import NoiseFloor, NoiseMemory, rounding_variance
+from contactbench.pipeline.errors import arg, message
 
 _FILLED = 0.6  # share of a window's samples that must have come
 _RISK = 1e-6  # that one axis of one clean block looks disturbed: some 200 are tested in a capture
@@ -140,12 +141,12 @@ class Yardstick:
         limit = self._s.scatter_ratio * self.floor * sqrt(by_chance(self._free(last.freedom), _RISK))
         scatter = np.sqrt(last.variance) / limit
         if len(window.blocks) < 2:
-            return float(scatter.max()), f"{size(np.sqrt(last.variance), scatter)} of scatter"
+            return float(scatter.max()), message(f"{arg(size(np.sqrt(last.variance), scatter))} of scatter")
         step = last.mean - window.blocks[-2].mean
         jump = np.abs(step) / (_JUMP * sqrt(2) * self.sigma + self._slopes * self._intake.length)
         if jump.max() >= scatter.max():
             return float(jump.max()), f"{size(step / self._intake.length, jump)}/s"
-        return float(scatter.max()), f"{size(np.sqrt(last.variance), scatter)} of scatter"
+        return float(scatter.max()), message(f"{arg(size(np.sqrt(last.variance), scatter))} of scatter")
 
     def disturbance(self, block: SampleBlock, before: Window, window: Window) -> str:
         """Return how a block departs from the capture `before` it, in words; empty if it does not."""
@@ -155,13 +156,15 @@ class Yardstick:
         late = block.centre - 0.5 * (before.blocks[0].centre + before.blocks[-1].centre)
         allowed = _JUMP * np.maximum(self.sigma, jitter) * sqrt(1 + 1 / n) + self._slopes * late
         if (np.abs(off) > allowed).any():
-            return f"the reading jumped by {size(off, np.abs(off) / allowed)}"
+            return message(f"the reading jumped by {arg(size(off, np.abs(off) / allowed))}")
         calm = np.maximum(before.variance, self._least**2)
         louder = block.variance / (calm * 1.2 * by_chance(self._free(block.freedom), _RISK))
         if (louder > 1).any():
-            return f"the reading shook by {size(np.sqrt(block.variance), louder)}"
+            return message(f"the reading shook by {arg(size(np.sqrt(block.variance), louder))}")
         excess = self.creep(window, np.maximum(self.sigma, window.scatter))
-        return f"the reading crept by {size(window.slope, excess)}/s" if (excess > 1).any() else ""
+        return (
+            message(f"the reading crept by {arg(size(window.slope, excess))}/s") if (excess > 1).any() else ""
+        )
 
     def noise(self, blocks: Sequence[SampleBlock]) -> NoiseFloor:
         """Return the noise behind the means of `blocks`."""
@@ -192,9 +195,11 @@ class Yardstick:
         count, spikes = whole.counts.sum(), sum(block.spikes for block in whole.blocks)
         if spikes > self._s.most_spikes * (count + spikes):
             share = 100 * spikes / (count + spikes)
-            return f"{share:.1f} % of the samples are spikes: check plug and cable"
+            return message(f"{arg(share):.1f} % of the samples are spikes: check plug and cable")
         excess = self.creep(whole, self.sigma)
-        return f"the reading crept by {size(whole.slope, excess)}/s" if (excess > 1).any() else ""
+        return (
+            message(f"the reading crept by {arg(size(whole.slope, excess))}/s") if (excess > 1).any() else ""
+        )
 
     def touch(self, window: Window, model: GravityModel | None) -> str:
         """Return in words what the load does not explain; empty if nothing, or if it cannot be told."""
@@ -207,4 +212,6 @@ class Yardstick:
         if residual @ np.linalg.solve(C, residual) <= chdtri(6, _TOUCH_RISK):
             return ""
         force, torque = np.linalg.norm(residual[:3]), np.linalg.norm(residual[3:])
-        return f"{short(force)} N and {short(1e3 * torque)} mN·m more than the load explains"
+        return message(
+            f"{arg(short(force))} N and {arg(short(1e3 * torque))} mN·m more than the load explains"
+        )

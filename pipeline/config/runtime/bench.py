@@ -38,6 +38,7 @@ from contactbench.pipeline.config.runtime.mounts import (
 )
 from contactbench.pipeline.contact.noise import WrenchNoise
 from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
@@ -181,9 +182,9 @@ def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
     said = []
     for role in ("calibration", "probe"):
         if role not in verified:
-            said.append(f"The verification does not state its {role}: verify again.")
+            said.append(message(f"The verification does not state its {arg(role)}: verify again."))
         elif verified[role] not in hashes:
-            said.append(f"The verification used another {role}: verify again.")
+            said.append(message(f"The verification used another {arg(role)}: verify again."))
     return said
 
 
@@ -192,9 +193,11 @@ def _read(file: Path) -> bytes:
         with file.open("rb") as stream:
             data = stream.read(_LARGEST_FILE + 1)
     except (OSError, ValueError) as error:
-        raise ConfigError(f"{file}: the file cannot be read ({error}): check the path.") from error
+        raise ConfigError(f"{arg(file)}: the file cannot be read ({arg(error)}): check the path.") from error
     if len(data) > _LARGEST_FILE:
-        raise ConfigError(f"{file}: the file is larger than {_LARGEST_FILE >> 20} MiB: choose another.")
+        raise ConfigError(
+            f"{arg(file)}: the file is larger than {arg(_LARGEST_FILE >> 20)} MiB: choose another."
+        )
     return data
 
 
@@ -231,8 +234,8 @@ def mesh_deviation(probe_file: ProbeFile) -> float:
             rms = -1.0
         if not 0 <= rms < inf:
             raise ConfigError(
-                f"{probe_file.probe.name}: step {number} of its history, simplify, states no result.deviation.rms_mm:"
-                " prepare the probe again."
+                f"{arg(probe_file.probe.name)}: step {arg(number)} of its history, simplify, states no"
+                " result.deviation.rms_mm: prepare the probe again."
             )
         total = hypot(total, rms / 1e3)
     return total
@@ -297,7 +300,9 @@ def export_from_session(
     if report is not None:
         stale += _doubts(session, report)
         if verification is not None and not set(report.action.inputs.values()) & verification.known_as:
-            stale.append(f"{report.title} belongs to another verification: create the report again.")
+            stale.append(
+                message(f"{arg(report.title)} belongs to another verification: create the report again.")
+            )
     folder = session.folder
     serials = {each.sensor for each in session.state.current_inputs.values() if each.sensor}
     serial = options.serial or (serials.pop() if len(serials) == 1 else None)
@@ -366,7 +371,7 @@ def _newest(session: SessionLike, kind: str, *, needed: bool = False) -> Any:
     found += [_brought(each) for each in session.state.current_inputs.values() if each.kind == kind]
     if needed and not found:
         raise ConfigError(
-            f"{session.folder}: there is no {kind}: add one, compute one with `contactbench"
+            f"{arg(session.folder)}: there is no {arg(kind)}: add one, compute one with `contactbench"
             " session compute`, or name the files."
         )
     return max(found, key=lambda each: each.number, default=None)
@@ -397,9 +402,12 @@ def _probe_of(folder: Path, result: Any) -> ProbeFile:
 
 
 def _doubts(session: SessionLike, result: Any) -> list[str]:
-    reasons = [f"{result.title}: {reason}"[:1000] for reason in session.stale().get(result.slot, ())]
+    reasons = [
+        message(f"{arg(result.title)}: {arg(reason)}")[:1000]
+        for reason in session.stale().get(result.slot, ())
+    ]
     if result.mark is not None and result.mark.mark == "rejected":
-        reasons.append(f"{result.title} was rejected. {result.mark.reason}"[:1000])
+        reasons.append(message(f"{arg(result.title)} was rejected. {arg(result.mark.reason)}")[:1000])
     return reasons
 
 
@@ -409,7 +417,10 @@ def _strangers(verification: Any, rested_on: tuple[Any, ...]) -> list[str]:
         return []
     used = set(verification.action.inputs.values())
     return [
-        f"{verification.title} was made with another {each.action.kind} than {each.action.name}: verify again."
+        message(
+            f"{arg(verification.title)} was made with another {arg(each.action.kind)} than"
+            f" {arg(each.action.name)}: verify again."
+        )
         for each in rested_on
         if not used & each.known_as
     ]

@@ -39,6 +39,7 @@ from contactbench.pipeline.contact.touch_model import TouchModel
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
 from contactbench.pipeline.devices.watch import SILENCE_S
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ _FRAMES = {
     "sensor": "S",
     "world": "W",
     "rotation": "R_WS: v_W = R_WS v_S",
-    "wrench": "what the tissue does to the probe, about the origin of S",
+    "wrench": message("what the tissue does to the probe, about the origin of S"),
 }
 
 
@@ -204,15 +205,17 @@ def build_config(
     try:
         checked = RuntimeModel.model_validate(content)
     except ValidationError as error:
-        raise ConfigError(f"the config cannot be made: {fault_of(error)}.") from None
+        raise ConfigError(f"the config cannot be made: {arg(fault_of(error))}.") from None
     probe = _painted(probe_file)
-    check_config(checked, probe, files, "the config cannot be made")
+    check_config(checked, probe, files, message("the config cannot be made"))
     return with_self_test(RuntimeConfig(checked, probe, MappingProxyType(files)))
 
 
 def calibration_refused(model: RuntimeModel) -> bool:
     """Tell whether a config, made for trials, has a calibration that must not be used: see `reasons_against`."""
-    return any(reason.startswith("The calibration was refused: ") for reason in model.provenance.stale)
+    return any(
+        reason.startswith(message("The calibration was refused: ")) for reason in model.provenance.stale
+    )
 
 
 def reasons_against(
@@ -224,16 +227,16 @@ def reasons_against(
     """Say why a config of these would not be verified; empty if it would."""
     reasons = []
     if calibration.verdict.level == "refuse":
-        reasons.append(f"The calibration was refused: {calibration.verdict.reasons[0]}"[:1000])
+        reasons.append(message(f"The calibration was refused: {arg(calibration.verdict.reasons[0])}")[:1000])
     if probe_file.frame != "S":
-        reasons.append("The probe is not aligned with the sensor (its frame is P): align it first.")
+        reasons.append(message("The probe is not aligned with the sensor (its frame is P): align it first."))
     health = probe_file.probe.health
     if not (health.watertight and health.outward):
-        reasons.append("The surface of the probe is open or inside out: prepare it again.")
+        reasons.append(message("The surface of the probe is open or inside out: prepare it again."))
     if verification is None:
-        reasons.append("Contacts have not been verified on markers: verify first.")
+        reasons.append(message("Contacts have not been verified on markers: verify first."))
     elif not verification.passed:
-        reasons.append(f"The verification failed: {verification.diagnosis}"[:1000])
+        reasons.append(message(f"The verification failed: {arg(verification.diagnosis)}")[:1000])
     reasons += failed_checks(checks).values()
     return tuple(reasons)
 
@@ -366,7 +369,7 @@ def _low_pass(location: LowPass | None) -> dict[str, Any] | None:
         return None
     if location.order > _MOST_ORDER:
         raise ConfigError(
-            f"filters.location.order is {location.order}: a runtime supports at most {_MOST_ORDER}."
+            f"filters.location.order is {arg(location.order)}: a runtime supports at most {arg(_MOST_ORDER)}."
         )
     return {
         "kind": "lowpass",
@@ -384,7 +387,7 @@ def _floats(values: ArrayLike) -> list[float]:
 
 def _seconds(field: str, time: datetime) -> str:
     if time.tzinfo is None:
-        raise ConfigError(f"{field} has no time zone: use datetime.now(UTC).")
+        raise ConfigError(f"{arg(field)} has no time zone: use datetime.now(UTC).")
     return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 

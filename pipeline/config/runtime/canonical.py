@@ -15,11 +15,12 @@ from pydantic import ValidationError
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.migrate import migrated
 from contactbench.pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_REMEDY = "export the config again."
+_REMEDY = message("export the config again.")
 _LONGEST = 60
 
 
@@ -35,7 +36,7 @@ def encode_json(content: Mapping[str, Any]) -> bytes:
     try:
         return _spelled(content)
     except ValueError as error:
-        raise ConfigError(f"the config cannot be written ({error}): {_REMEDY}") from error
+        raise ConfigError(f"the config cannot be written ({arg(error)}): {arg(_REMEDY)}") from error
 
 
 def decode_json(data: bytes, name: str) -> tuple[RuntimeModel, int]:
@@ -58,7 +59,7 @@ def decode_json(data: bytes, name: str) -> tuple[RuntimeModel, int]:
     try:
         return RuntimeModel.model_validate(migrated(written, name)), written["version"]
     except ValidationError as error:
-        raise ConfigError(f"{name}: {fault_of(error)}: {_REMEDY}") from None
+        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: {arg(_REMEDY)}") from None
 
 
 def json_schema() -> bytes:
@@ -77,12 +78,12 @@ def first_difference(one: bytes, other: bytes) -> int:
 def fault_of(error: ValidationError) -> str:
     """Return the first thing that a schema found wrong: the field, the value, and why."""
     fault = error.errors(include_url=False, include_context=False)[0]
-    where = ".".join(str(part) for part in fault["loc"]) or "the content"
+    where = ".".join(str(part) for part in fault["loc"]) or message("the content")
     value = fault["input"]
     shown = (
         "" if isinstance(value, dict | list) or fault["type"] == "missing" else f" is {value!a:.{_LONGEST}}"
     )
-    return f"{where}{shown}: {fault['msg']}"
+    return message(f"{arg(where)}{arg(shown)}: {arg(fault['msg'])}")
 
 
 def _parse(data: bytes, name: str) -> dict[str, Any]:
@@ -90,15 +91,15 @@ def _parse(data: bytes, name: str) -> dict[str, Any]:
         content = json.loads(data.decode())
         spelled = _spelled(content)
     except (ValueError, RecursionError) as error:
-        raise ConfigError(f"{name}: not valid JSON ({error!s:.200}): {_REMEDY}") from None
+        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(str(error)[:200])}): {arg(_REMEDY)}") from None
     if not isinstance(content, dict):
-        raise ConfigError(f"{name}: not a JSON object: {_REMEDY}")
+        raise ConfigError(f"{arg(name)}: not a JSON object: {arg(_REMEDY)}")
     # Readers differ in what they make of a key that occurs twice, of 1e999 or of a byte after the end.
     if spelled != data:
         raise ConfigError(
-            f"{name}: byte {first_difference(data, spelled)} differs from what contactbench writes"
+            f"{arg(name)}: byte {arg(first_difference(data, spelled))} differs from what contactbench writes"
             " (a space, a duplicate or misplaced key, or another spelling of a number or a text):"
-            f" {_REMEDY}"
+            f" {arg(_REMEDY)}"
         )
     return content
 
@@ -112,12 +113,16 @@ def _checked_kind(content: dict[str, Any], name: str) -> dict[str, Any]:
     schema, version = content.get("schema"), content.get("version")
     if schema != SCHEMA:
         raise ConfigError(
-            f"{name}: schema is {schema!a:.{_LONGEST}}, expected {SCHEMA!r}: choose a runtime config."
+            f"{arg(name)}: schema is {arg(ascii(schema)[:_LONGEST])}, expected {arg(SCHEMA)!r}: choose a runtime"
+            " config."
         )
     if isinstance(version, bool) or not isinstance(version, int):
-        raise ConfigError(f"{name}: version is {version!a:.{_LONGEST}}, not a whole number: {_REMEDY}")
+        raise ConfigError(
+            f"{arg(name)}: version is {arg(ascii(version)[:_LONGEST])}, not a whole number: {arg(_REMEDY)}"
+        )
     if version > VERSION:
         raise ConfigError(
-            f"{name}: version is {version}, but this contactbench reads up to {VERSION}: update contactbench."
+            f"{arg(name)}: version is {arg(version)}, but this contactbench reads up to {arg(VERSION)}:"
+            " update contactbench."
         )
     return content

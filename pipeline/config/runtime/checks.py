@@ -24,6 +24,7 @@ from contactbench.pipeline.config.runtime.model import (
 )
 from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,8 +33,8 @@ if TYPE_CHECKING:
 
 # Kind, as the schema and the session name it -> (how messages call it, what it rests on, its part of a config).
 _KINDS: dict[str, tuple[str, tuple[str, ...], type[KnownWeightPart | KnownTouchPart]]] = {
-    "known_weight": ("known weight", ("calibration",), KnownWeightPart),
-    "known_touch": ("known touch", ("calibration", "probe"), KnownTouchPart),
+    "known_weight": (message("known weight"), ("calibration",), KnownWeightPart),
+    "known_touch": (message("known touch"), ("calibration", "probe"), KnownTouchPart),
 }
 CHECK_KINDS = tuple(_KINDS)
 _VERSION = 1
@@ -64,7 +65,7 @@ def read_check(
         It is no check of this kind and version, or lacks a figure.
     """
     words, roles, part = _KINDS[kind]
-    again = f"check the {words} again"
+    again = message(f"check the {arg(words)} again")
     content = _content(data, name, f"contactbench.{kind}", words, again)
     try:
         taken = {field: content[field] for field in part.model_fields}
@@ -72,18 +73,22 @@ def read_check(
             taken["created"] = _seconds(created)
         return part.model_validate(taken), {role: content[f"{role}_sha256"] for role in roles}
     except ValidationError as error:
-        raise ConfigError(f"{name}: {fault_of(error)}: {again}.") from None
+        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: {arg(again)}.") from None
     except (KeyError, TypeError, ValueError) as error:
-        raise ConfigError(f"{name}: the {words} lacks a figure ({error!r:.100}): {again}.") from error
+        raise ConfigError(
+            f"{arg(name)}: the {arg(words)} lacks a figure ({arg(repr(error)[:100])}): {arg(again)}."
+        ) from error
 
 
 def _content(data: bytes, name: str, schema: str, words: str, again: str) -> dict[str, Any]:
     try:
         content = from_json(data, allow_inf_nan=False)
     except ValueError as error:
-        raise ConfigError(f"{name}: not valid JSON ({error!s:.100}): choose a {words}.") from None
+        raise ConfigError(
+            f"{arg(name)}: not valid JSON ({arg(str(error)[:100])}): choose a {arg(words)}."
+        ) from None
     if not isinstance(content, dict) or (content.get("schema"), content.get("version")) != (schema, _VERSION):
-        raise ConfigError(f"{name}: not a {schema} of version {_VERSION}: {again}.")
+        raise ConfigError(f"{arg(name)}: not a {arg(schema)} of version {arg(_VERSION)}: {arg(again)}.")
     return content
 
 
@@ -106,7 +111,7 @@ def made_with_others(kind: str, made_with: Mapping[str, str], hashes: Mapping[st
     """
     words, roles, _ = _KINDS[kind]
     return [
-        f"The {words} was checked with another {role}: check it again."
+        message(f"The {arg(words)} was checked with another {arg(role)}: check it again.")
         for role in roles
         if made_with.get(role) not in hashes[role]
     ]
@@ -116,18 +121,18 @@ def failed_checks(checks: ChecksPart) -> dict[str, str]:
     """Return kind -> a sentence about each check that failed."""
     failed = {}
     if (weight := checks.known_weight) is not None and weight.outcome == "failed":
-        failed["known_weight"] = (
-            f"The known weight of {weight.mass_kg:.4g} kg was measured as {weight.measured_kg:.4g} kg: find the wrong"
-            " sign, unit or scale, calibrate again, and check it again."
+        failed["known_weight"] = message(
+            f"The known weight of {arg(weight.mass_kg):.4g} kg was measured as {arg(weight.measured_kg):.4g}"
+            " kg: find the wrong sign, unit or scale, calibrate again, and check it again."
         )
     if (touch := checks.known_touch) is not None and touch.outcome == "failed":
         where = (
-            "was not located at all"
+            message("was not located at all")
             if touch.error_m is None
-            else f"was located {1e3 * touch.error_m:.3g} mm off"
+            else message(f"was located {arg(1e3 * touch.error_m):.3g} mm off")
         )
-        failed["known_touch"] = (
-            f"The known touch {where}: find the wrong sign, unit or mounting, calibrate again, and check it again."
+        failed["known_touch"] = message(
+            f"The known touch {arg(where)}: find the wrong sign, unit or mounting, calibrate again, and check it again."
         )
     return failed
 
@@ -138,11 +143,11 @@ def unchecked(checks: ChecksPart) -> str:
     if any(part.outcome != "undecided" for part in done):
         return ""
     if done:
-        return (
+        return message(
             "The check was inconclusive about sign, unit and scale of the sensor: use a heavier"
             " weight, or press the known point again."
         )
-    return (
+    return message(
         "Neither a known weight nor a known touch was checked: a wrong sign, unit or scale of the sensor would go"
         " unnoticed. Check one of them."
     )
@@ -152,7 +157,7 @@ def _seconds(created: Any) -> str:
     """Return a time with a zone as a config spells it; ValueError if it is none."""
     time = datetime.fromisoformat(created)
     if time.tzinfo is None:
-        raise ValueError("created has no time zone")
+        raise ValueError(message("created has no time zone"))
     return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
@@ -186,17 +191,21 @@ def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verifie
         It is no verification of this version, or none of its touches was accepted.
     """
     content = _content(
-        data, name, "contactbench.verification", "verification", "verify again with this contactbench"
+        data,
+        name,
+        "contactbench.verification",
+        "verification",
+        message("verify again with this contactbench"),
     )
     if content.get("overall") is None:
-        raise ConfigError(f"{name}: no touch was accepted, so there is nothing to export: verify again.")
+        raise ConfigError(f"{arg(name)}: no touch was accepted, so there is nothing to export: verify again.")
     try:
         return VerificationPart.model_validate(_summary(content)), _verified(content)
     except ValidationError as error:
-        raise ConfigError(f"{name}: {fault_of(error)}: verify again.") from None
+        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: verify again.") from None
     except (KeyError, TypeError, ValueError) as error:
         raise ConfigError(
-            f"{name}: the verification lacks a figure ({error!r:.100}): verify again."
+            f"{arg(name)}: the verification lacks a figure ({arg(repr(error)[:100])}): verify again."
         ) from error
 
 
@@ -216,15 +225,24 @@ def rate_reasons(verified: float | None, rate: float | None, filters: Filters | 
     said = []
     if verified is not None and rate is not None and abs(rate / verified - 1) > RATE_OFF:
         said.append(
-            f"Contacts were verified at {verified:.4g} readings per second, but the config is for"
-            f" {rate:.4g}: verify again at this rate."
+            message(
+                f"Contacts were verified at {arg(verified):.4g} readings per second, but the config is for"
+                f" {arg(rate):.4g}: verify again at this rate."
+            )
         )
     for what, made in (
         ("wrench", None if filters is None or filters.wrench is None else filters.wrench.rate),
-        ("contact point", None if filters is None or filters.location is None else filters.location.rate),
+        (
+            message("contact point"),
+            None if filters is None or filters.location is None else filters.location.rate,
+        ),
     ):
         if made is not None and rate is not None and abs(rate / made - 1) > RATE_OFF:
-            said.append(f"The filter of the {what} is for {made:.4g} Hz, but the config is for {rate:.4g}.")
+            said.append(
+                message(
+                    f"The filter of the {arg(what)} is for {arg(made):.4g} Hz, but the config is for {arg(rate):.4g}."
+                )
+            )
     return said
 
 
@@ -247,7 +265,9 @@ def _unsaid(content: Mapping[str, Any]) -> str:
     names = {"rate_Hz": "rate", "mount": "mounting", "filters": "filters", "gates": "gates"}
     missing = [name for key, name in names.items() if key not in content.get("settings", {})]
     return (
-        f"The verification does not state its {', '.join(missing)}: make sure they match." if missing else ""
+        message(f"The verification does not state its {arg(', '.join(missing))}: make sure they match.")
+        if missing
+        else ""
     )
 
 
@@ -257,7 +277,7 @@ def _left_out(content: Mapping[str, Any]) -> str:
     if not isinstance(left_out, dict) or not left_out:
         return ""
     said = ", ".join(f"{name} ({why})" for name, why in left_out.items())
-    return f"Skipped on purpose: {said}: contacts there are not verified."
+    return message(f"Skipped on purpose: {arg(said)}: contacts there are not verified.")
 
 
 def _summary(content: Mapping[str, Any]) -> dict[str, Any]:
@@ -273,5 +293,5 @@ def _summary(content: Mapping[str, Any]) -> dict[str, Any]:
         "limit_mean_m": content["limits"]["mean_m"],
         "limit_max_m": content["limits"]["max_m"],
         "passed": verdict["passed"],
-        "diagnosis": " ".join(words)[:_LONGEST],
+        "diagnosis": join(" ", words)[:_LONGEST],
     }

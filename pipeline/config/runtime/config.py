@@ -37,6 +37,7 @@ from contactbench.pipeline.config.runtime.pack import (
 from contactbench.pipeline.config.runtime.swap import write_folder
 from contactbench.pipeline.config.runtime.values import gravity_of
 from contactbench.pipeline.durable import make_folder, write_durably
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     import os
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.model import RuntimeModel
     from contactbench.pipeline.mesh import Probe
 
-_AGAIN = "copy or export the bundle again."
+_AGAIN = message("copy or export the bundle again.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +109,9 @@ class RuntimeConfig:
         for file, content in files.items():
             check_size(file, len(content), name)
         if files[CHECKSUM] != checksum(files[CONFIG]):
-            raise ConfigError(f"{name}: {CONFIG} was changed: its hash does not match {CHECKSUM}: {_AGAIN}")
+            raise ConfigError(
+                f"{arg(name)}: {arg(CONFIG)} was changed: its hash does not match {arg(CHECKSUM)}: {arg(_AGAIN)}"
+            )
         model, version = decode_json(files[CONFIG], f"{name}: {CONFIG}")
         others = {file: content for file, content in files.items() if file not in (CONFIG, CHECKSUM)}
         _check_hashes(model, others, name)
@@ -145,7 +148,7 @@ class RuntimeConfig:
             if isinstance(error, ConfigError):
                 raise
             raise ConfigError(
-                f"{target}: the bundle cannot be written ({error}): choose a location that is"
+                f"{arg(target)}: the bundle cannot be written ({arg(error)}): choose a location that is"
                 " writable and has space."
             ) from error
 
@@ -169,13 +172,13 @@ def _check_hashes(model: RuntimeModel, files: Mapping[str, bytes], name: str) ->
     listed = model.provenance.files
     if strangers := sorted(set(listed) ^ set(files)):
         where = (
-            "listed in provenance.files but missing"
+            message("listed in provenance.files but missing")
             if strangers[0] in listed
-            else "not listed in provenance.files"
+            else message("not listed in provenance.files")
         )
-        raise ConfigError(f"{name}: {strangers[0]} is {where}: {_AGAIN}")
+        raise ConfigError(f"{arg(name)}: {arg(strangers[0])} is {arg(where)}: {arg(_AGAIN)}")
     for file, content in files.items():
         if hashlib.sha256(content).hexdigest() != listed[file]:
             raise ConfigError(
-                f"{name}: {file} was changed: its hash does not match provenance.files: {_AGAIN}"
+                f"{arg(name)}: {arg(file)} was changed: its hash does not match provenance.files: {arg(_AGAIN)}"
             )

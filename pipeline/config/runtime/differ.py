@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import message
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -13,26 +15,26 @@ if TYPE_CHECKING:
 _ABSENT = "(absent)"
 # The longest that fits first; fields that are not here mean what they say.
 _MEANINGS = {
-    "gravity.covariance": "how certain the calibration is",
-    "gravity": "the correction of every reading: every contact moves",
-    "noise": "the stated uncertainty of a contact, and which rivals count",
-    "touch": "the model error: torsion, drift, the mesh",
-    "filters.wrench": "lag and noise of the wrench",
-    "filters.location": "lag and noise of the contact point",
-    "gates": "which touches get an answer",
-    "frames.quaternion_ES": "how the sensor sits on the flange: every contact moves",
-    "world": "how the robot is mounted: where down is",
-    "zero": "how old the bias is, and how fast it drifted",
-    "checks": "whether sign, units and scale were checked with a known weight or touch",
-    "sensor": "another sensor: the calibration belongs to one only",
-    "probe": "another surface",
-    "regions": "the preference among candidates",
-    "planes": "the planes for controllers with their own loop",
-    "controller": "how the robot answers a touch",
-    "limits": "the limits of the robot",
-    "verification": "the results on markers",
-    "verified": "whether contacts were verified",
-    "provenance": "its origin",
+    "gravity.covariance": message("how certain the calibration is"),
+    "gravity": message("the correction of every reading: every contact moves"),
+    "noise": message("the stated uncertainty of a contact, and which rivals count"),
+    "touch": message("the model error: torsion, drift, the mesh"),
+    "filters.wrench": message("lag and noise of the wrench"),
+    "filters.location": message("lag and noise of the contact point"),
+    "gates": message("which touches get an answer"),
+    "frames.quaternion_ES": message("how the sensor sits on the flange: every contact moves"),
+    "world": message("how the robot is mounted: where down is"),
+    "zero": message("how old the bias is, and how fast it drifted"),
+    "checks": message("whether sign, units and scale were checked with a known weight or touch"),
+    "sensor": message("another sensor: the calibration belongs to one only"),
+    "probe": message("another surface"),
+    "regions": message("the preference among candidates"),
+    "planes": message("the planes for controllers with their own loop"),
+    "controller": message("how the robot answers a touch"),
+    "limits": message("the limits of the robot"),
+    "verification": message("the results on markers"),
+    "verified": message("whether contacts were verified"),
+    "provenance": message("its origin"),
 }
 
 

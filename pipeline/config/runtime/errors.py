@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, join, message
 
 
 class ConfigError(InputError):
@@ -25,8 +25,8 @@ class UnverifiedError(ConfigError):
 
     def __init__(self, reasons: tuple[str, ...]) -> None:
         super().__init__(
-            "the config is not verified and was not written: "
-            + " ".join(reasons)
-            + " Correct that, or export it as unverified, for trials without a person."
+            message("the config is not verified and was not written: ")
+            + join(" ", reasons)
+            + message(" Correct that, or export it as unverified, for trials without a person.")
         )
         self.reasons = reasons

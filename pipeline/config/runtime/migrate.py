@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +28,7 @@ def _from_1(content: dict[str, Any]) -> dict[str, Any]:
     if old is None:
         return content
     if set(old) != _OLD_GAINS:
-        raise ValueError(f"controller: not the fields {', '.join(sorted(_OLD_GAINS))}")
+        raise ValueError(message(f"controller: not the fields {arg(', '.join(sorted(_OLD_GAINS)))}"))
     # What was left open is what contactbench took by itself at that time; the C++ loader has the same numbers.
     controller = {
         "variant": "aware",
@@ -105,7 +106,7 @@ def _from_2(content: dict[str, Any]) -> dict[str, Any]:
         or _GATES.keys() & gates.keys()
         or any(new & each.keys() for each in regions)
     ):
-        raise ValueError("touch, streams, self_test, gates or regions: fields of version 3")
+        raise ValueError(message("touch, streams, self_test, gates or regions: fields of version 3"))
     last = len(_REGION_ODDS) - 1
     regions = [
         {**region, "odds": _REGION_ODDS[min(index, last)], "untouchable": False}
@@ -119,9 +120,9 @@ def _from_3(content: dict[str, Any]) -> dict[str, Any]:
     """Version 3 took -z of W for down, and held neither the age of the zero nor checks."""
     frames, noise = content["frames"], content["noise"]
     if frames["world"] != "W, z up":
-        raise ValueError(f"frames.world is {frames['world']!r:.40}, not 'W, z up'")
+        raise ValueError(message(f"frames.world is {arg(repr(frames['world'])[:40])}, not 'W, z up'"))
     if {"world", "zero", "checks"} & content.keys() or "orientation_rad" in noise:
-        raise ValueError("world, zero, checks or noise.orientation_rad: fields of version 4")
+        raise ValueError(message("world, zero, checks or noise.orientation_rad: fields of version 4"))
     return {
         **content,
         "frames": {**frames, "world": "W"},
@@ -156,12 +157,12 @@ def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:
         version = content["version"]
         step = STEPS.get(version)
         if step is None:
-            raise ConfigError(f"{name}: there is no version {version}: export the config again.")
+            raise ConfigError(f"{arg(name)}: there is no version {arg(version)}: export the config again.")
         try:
             content = {**step(content), "version": version + 1}
         except (KeyError, TypeError, ValueError) as error:
             raise ConfigError(
-                f"{name}: this config of version {version} cannot be migrated ({error!r:.100}):"
+                f"{arg(name)}: this config of version {arg(version)} cannot be migrated ({arg(repr(error)[:100])}):"
                 " export it again."
             ) from error
     return content

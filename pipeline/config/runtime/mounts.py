@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -59,13 +61,13 @@ def mount_reasons(
         None: the verification does not tell.
     """
     return [
-        (
-            f"The {what} was made with the mounting {_degrees(other)}, but the config has"
-            f" {_degrees(mount)}: {remedy}."
+        message(
+            f"The {arg(what)} was made with the mounting {arg(_degrees(other))}, but the config has"
+            f" {arg(_degrees(mount))}: {arg(remedy)}."
         )
         for what, other, remedy in (
-            ("calibration", calibrated, "calibrate again, or leave out --mount"),
-            ("verification", verified, "verify again with the mounting of the calibration"),
+            ("calibration", calibrated, message("calibrate again, or leave out --mount")),
+            ("verification", verified, message("verify again with the mounting of the calibration")),
         )
         if other is not None and _apart(mount, other) > _SAME_RAD
     ]
@@ -85,4 +87,4 @@ def _degrees(quaternion: Quaternion | None) -> str:
     if quaternion is None:
         return "none"
     vector = np.degrees(_rotation(quaternion).as_rotvec())
-    return f"({', '.join(f'{each:.3g}' for each in vector + 0.0)}) degrees as a rotation vector"
+    return message(f"({arg(', '.join(f'{each:.3g}' for each in vector + 0.0))}) degrees as a rotation vector")

@@ -11,6 +11,7 @@ from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 from contactbench.pipeline.config.runtime.mounts import mount_of_angles
 from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.gates import Gates, GateSettings
@@ -41,7 +42,9 @@ class ExportOptions(ExportKnobs):
             return cls.model_validate(dict(values))
         except ValidationError as error:
             where, what = first_fault(error)
-            raise ConfigError(f"--{where.replace('_', '-')} ({KIND}.{where}): {what}: correct it.") from None
+            raise ConfigError(
+                f"--{arg(where.replace('_', '-'))} ({arg(KIND)}.{arg(where)}): {arg(what)}: correct it."
+            ) from None
 
     @classmethod
     def stored(cls, settings: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> Self:

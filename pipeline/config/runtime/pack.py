@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.swap import put_aside
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -34,7 +35,7 @@ LARGEST_RATIO = 200
 _LARGEST_ZIP = 500 * 2**20
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest that a zip file can hold
 _METHODS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
-_AGAIN = "copy or export the bundle again."
+_AGAIN = message("copy or export the bundle again.")
 _MOST_TRIES, _PAUSE_S = 50, 0.005
 # No link, and no waiting for whoever writes to a pipe.
 _READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
@@ -60,13 +61,15 @@ def read_bundle(path: Path) -> dict[str, bytes]:
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         if isinstance(error, ConfigError):
             raise
-        raise ConfigError(f"{path}: the bundle cannot be read ({error}): {_AGAIN}") from error
+        raise ConfigError(f"{arg(path)}: the bundle cannot be read ({arg(error)}): {arg(_AGAIN)}") from error
 
 
 def read_zip(stream: BinaryIO, name: str) -> dict[str, bytes]:
     """Read all files of a zipped bundle; ConfigError as `read_bundle`."""
     if stream.seek(0, io.SEEK_END) > _LARGEST_ZIP:
-        raise ConfigError(f"{name}: the file is larger than {_LARGEST_ZIP >> 20} MiB: not a bundle.")
+        raise ConfigError(
+            f"{arg(name)}: the file is larger than {arg(_LARGEST_ZIP >> 20)} MiB: not a bundle."
+        )
     try:
         with zipfile.ZipFile(stream) as packed:
             members = packed.infolist()
@@ -75,16 +78,20 @@ def read_zip(stream: BinaryIO, name: str) -> dict[str, bytes]:
                 _check_member(member, name)
             if sum(member.file_size for member in members) > _LARGEST_ZIP:
                 raise ConfigError(
-                    f"{name}: the files are larger than {_LARGEST_ZIP >> 20} MiB: not a bundle."
+                    f"{arg(name)}: the files are larger than {arg(_LARGEST_ZIP >> 20)} MiB: not a bundle."
                 )
             return {member.filename: _unpacked(packed, member, name) for member in members}
     # What the zipfile module lets through of damaged files.
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError) as error:
-        raise ConfigError(f"{name}: not an intact zip file ({error!s:.200}): {_AGAIN}") from error
+        raise ConfigError(
+            f"{arg(name)}: not an intact zip file ({arg(str(error)[:200])}): {arg(_AGAIN)}"
+        ) from error
     except ValueError as error:
         if isinstance(error, ConfigError):
             raise
-        raise ConfigError(f"{name}: not an intact zip file ({error!s:.200}): {_AGAIN}") from error
+        raise ConfigError(
+            f"{arg(name)}: not an intact zip file ({arg(str(error)[:200])}): {arg(_AGAIN)}"
+        ) from error
 
 
 def encode_zip(files: Mapping[str, bytes]) -> bytes:
@@ -101,22 +108,28 @@ def encode_zip(files: Mapping[str, bytes]) -> bytes:
 def check_names(names: list[str], where: str) -> None:
     """Refuse names that are not those of a bundle's files, each once, none missing; ConfigError names the first."""
     if len(names) > MOST_FILES:
-        raise ConfigError(f"{where}: there are {len(names)} files, more than {MOST_FILES}: not a bundle.")
+        raise ConfigError(
+            f"{arg(where)}: there are {arg(len(names))} files, more than {arg(MOST_FILES)}: not a bundle."
+        )
     for name in names:
         if name not in KNOWN:
-            raise ConfigError(f"{where}: the file {name!a:.120} does not belong in a bundle: remove it.")
+            raise ConfigError(
+                f"{arg(where)}: the file {arg(ascii(name)[:120])} does not belong in a bundle: remove it."
+            )
         if names.count(name) > 1:
-            raise ConfigError(f"{where}: the file {name} appears twice: {_AGAIN}")
+            raise ConfigError(f"{arg(where)}: the file {arg(name)} appears twice: {arg(_AGAIN)}")
     missing = [name for name in NEEDED if name not in names]
     if missing:
-        raise ConfigError(f"{where}: the file {missing[0]} is missing: {_AGAIN}")
+        raise ConfigError(f"{arg(where)}: the file {arg(missing[0])} is missing: {arg(_AGAIN)}")
 
 
 def check_size(name: str, size: int, where: str) -> None:
     """Refuse a file that is larger than any of a bundle; ConfigError."""
     largest = LARGEST_CONFIG if name == CONFIG else LARGEST_FILE
     if size > largest:
-        raise ConfigError(f"{where}: {name} has {size} bytes, more than {largest >> 20} MiB: {_AGAIN}")
+        raise ConfigError(
+            f"{arg(where)}: {arg(name)} has {arg(size)} bytes, more than {arg(largest >> 20)} MiB: {arg(_AGAIN)}"
+        )
 
 
 def _read_settled(path: Path) -> dict[str, bytes]:
@@ -146,7 +159,7 @@ def _read_now(path: Path) -> dict[str, bytes]:
     if path.is_dir():
         return _read_folder(path)
     if not path.is_file():
-        raise ConfigError(f"{path}: there is no such folder or zip file: check the path.")
+        raise ConfigError(f"{arg(path)}: there is no such folder or zip file: check the path.")
     with path.open("rb") as stream:
         return read_zip(stream, str(path))
 
@@ -170,7 +183,9 @@ def _read_files(folder: Path, descriptor: int | None) -> dict[str, bytes]:
         place = str(folder / name) if descriptor is None else name
         status = os.stat(place, dir_fd=descriptor, follow_symlinks=False)
         if not stat.S_ISREG(status.st_mode):
-            raise ConfigError(f"{folder}: {name} is a link, folder or device, not a file: {_AGAIN}")
+            raise ConfigError(
+                f"{arg(folder)}: {arg(name)} is a link, folder or device, not a file: {arg(_AGAIN)}"
+            )
         check_size(name, status.st_size, str(folder))
         with os.fdopen(os.open(place, _READ, dir_fd=descriptor), "rb") as stream:
             files[name] = stream.read(LARGEST_FILE + 1)
@@ -182,16 +197,16 @@ def _check_member(member: zipfile.ZipInfo, where: str) -> None:
     what = ""
     kind = stat.S_IFMT(member.external_attr >> 16)
     if member.flag_bits & 0x1:
-        what = "is encrypted"
+        what = message("is encrypted")
     elif member.compress_type not in _METHODS:
-        what = "is compressed in an unusual way"
+        what = message("is compressed in an unusual way")
     elif kind not in (0, stat.S_IFREG) or member.filename != member.orig_filename:
-        what = "is a link or device, not a file"
+        what = message("is a link or device, not a file")
     elif member.file_size > LARGEST_RATIO * max(member.compress_size, 1):
-        what = f"expands more than {LARGEST_RATIO} times when unpacked"
+        what = message(f"expands more than {arg(LARGEST_RATIO)} times when unpacked")
     if what:
         raise ConfigError(
-            f"{where}: {member.filename} {what}: pack the bundle's files with a common program."
+            f"{arg(where)}: {arg(member.filename)} {arg(what)}: pack the bundle's files with a common program."
         )
     check_size(member.filename, member.file_size, where)
 
@@ -200,5 +215,7 @@ def _unpacked(packed: zipfile.ZipFile, member: zipfile.ZipInfo, where: str) -> b
     with packed.open(member) as stream:
         content = stream.read(member.file_size + 1)
     if len(content) != member.file_size:
-        raise ConfigError(f"{where}: {member.filename} does not have its declared length: {_AGAIN}")
+        raise ConfigError(
+            f"{arg(where)}: {arg(member.filename)} does not have its declared length: {arg(_AGAIN)}"
+        )
     return content

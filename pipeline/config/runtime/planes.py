@@ -17,6 +17,7 @@ import numpy as np
 from contactbench.pipeline.config.runtime.canonical import first_difference
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.pack import PROBE
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,7 +58,9 @@ def check_planes(data: bytes, probe: Probe, name: str) -> None:
     wanted = encode_planes(probe)
     if data != wanted:
         line = wanted.count(b"\n", 0, first_difference(data, wanted)) + 1
-        raise ConfigError(f"{name}: line {line} does not match the mesh in {PROBE}: export the config again.")
+        raise ConfigError(
+            f"{arg(name)}: line {arg(line)} does not match the mesh in {arg(PROBE)}: export the config again."
+        )
 
 
 def _order(probe: Probe) -> NDArray[np.int64]:

@@ -19,6 +19,7 @@ from contactbench.pipeline.config.runtime.model import SelfTestPart
 from contactbench.pipeline.config.runtime.pack import SELF_TEST
 from contactbench.pipeline.config.runtime.synthetic import Row, StreamPose, StreamSample, synthetic_stream
 from contactbench.pipeline.config.runtime.values import make_runtime
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 SAMPLES: Final = 300
 _TOLERANCE = 1e-9  # other processors and libraries round otherwise
 _DECIMALS = 12
-_AGAIN = "Export the config again."
+_AGAIN = message("Export the config again.")
 _MOST_FLAGS = 255
 _LARGEST = 4 * 2**20
 
@@ -71,7 +72,9 @@ def check_self_test(model: RuntimeModel, files: Mapping[str, bytes]) -> None:
     """Refuse a model that says something else of test vectors than the files; ConfigError."""
     told = None if model.self_test is None else model.self_test.file
     if told != (SELF_TEST if SELF_TEST in files else None):
-        raise ConfigError(f"self_test.file is {told!r}, and that is not what the bundle holds. {_AGAIN}")
+        raise ConfigError(
+            f"self_test.file is {arg(told)!r}, and that is not what the bundle holds. {arg(_AGAIN)}"
+        )
 
 
 def replay(config: RuntimeConfig, name: str) -> int | None:
@@ -103,7 +106,8 @@ def replay(config: RuntimeConfig, name: str) -> int | None:
     samples = sum(isinstance(row, StreamSample) for row in rows)
     if samples != part.samples:
         raise ConfigError(
-            f"{where}: there are {samples} samples, but self_test.samples is {part.samples}. {_AGAIN}"
+            f"{arg(where)}: there are {arg(samples)} samples, but self_test.samples is {arg(part.samples)}."
+            f" {arg(_AGAIN)}"
         )
     for (line, cells), contact in zip(lines, _answers(config, rows), strict=True):
         if contact is not None:
@@ -170,12 +174,12 @@ def _cell(value: float) -> str:
 def _lines_of(data: bytes, where: str) -> list[tuple[int, list[str]]]:
     """Return line numbers and cells."""
     if len(data) > _LARGEST:
-        raise ConfigError(f"{where}: the file is larger than {_LARGEST >> 20} MiB. {_AGAIN}")
+        raise ConfigError(f"{arg(where)}: the file is larger than {arg(_LARGEST >> 20)} MiB. {arg(_AGAIN)}")
     if not data.isascii() or not data.endswith(b"\n"):
-        raise ConfigError(f"{where}: this is not ASCII, or its last line has no end. {_AGAIN}")
+        raise ConfigError(f"{arg(where)}: this is not ASCII, or its last line has no end. {arg(_AGAIN)}")
     lines = data.decode("ascii").split("\n")[:-1]
     if tuple(lines[:2]) != _HEAD:
-        raise ConfigError(f"{where}: the first two lines are not those of test vectors. {_AGAIN}")
+        raise ConfigError(f"{arg(where)}: the first two lines are not those of test vectors. {arg(_AGAIN)}")
     return [(number, line.split(",")) for number, line in enumerate(lines[2:], 3)]
 
 
@@ -183,7 +187,7 @@ def _row_of(cells: list[str], where: str, line: int) -> Row:
     kinds = {"pose": _POSE, "sample": _SAMPLE}
     columns = kinds.get(cells[0])
     if columns is None or len(cells) != len(columns):
-        raise ConfigError(f"{where}: line {line} is neither a pose nor a sample. {_AGAIN}")
+        raise ConfigError(f"{arg(where)}: line {arg(line)} is neither a pose nor a sample. {arg(_AGAIN)}")
     try:
         if columns is _POSE:
             time, *numbers = (_number(cell) for cell in cells[1:])
@@ -196,7 +200,8 @@ def _row_of(cells: list[str], where: str, line: int) -> Row:
         )
     except ValueError as error:
         raise ConfigError(
-            f"{where}: line {line} holds something other than a number ({error!s:.60}). {_AGAIN}"
+            f"{arg(where)}: line {arg(line)} holds something other than a number ({arg(str(error)[:60])})."
+            f" {arg(_AGAIN)}"
         ) from None
 
 
@@ -229,8 +234,8 @@ def _compare(cells: list[str], contact: kernel.RuntimeContact, where: str, line:
 
 def _differ(cell: str, told: str, here: str) -> ConfigError:
     return ConfigError(
-        f"{cell} is {told or 'empty':.40}, but this runtime says {here or 'nothing'}: the bundle was edited, or is for"
-        " another runtime. Export the config again with this contactbench."
+        f"{arg(cell)} is {arg(told or 'empty'):.40}, but this runtime says {arg(here or 'nothing')}: the"
+        " bundle was edited, or is for another runtime. Export the config again with this contactbench."
     )
 
 

@@ -23,7 +23,7 @@ from contactbench.pipeline.config.runtime.model import (
     LimitsPart,
 )
 from contactbench.pipeline.config.runtime.values import kalman_of
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.gates import Gates
 
@@ -73,9 +73,9 @@ def with_file(options: ExportOptions, data: bytes, name: str) -> ExportOptions:
     try:
         return options.having(_parts(given, options.gates), _filters(given.filters))
     except ValidationError as error:  # of the gates, once they are whole
-        raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
+        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: correct it.") from None
     except InputError as error:
-        raise ConfigError(f"{name}: {error}") from None
+        raise ConfigError(f"{arg(name)}: {arg(error)}") from None
 
 
 def controller_in(data: bytes, name: str) -> ControllerPart:
@@ -94,19 +94,19 @@ def controller_in(data: bytes, name: str) -> ControllerPart:
     """
     given = _read(data, name)
     if given.controller is None:
-        raise ConfigError(f"{name}: it contains no controller: choose the gains.json of control tune.")
+        raise ConfigError(f"{arg(name)}: it contains no controller: choose the gains.json of control tune.")
     return given.controller
 
 
 def _read(data: bytes, name: str) -> _Settings:
     if len(data) > _LARGEST:
-        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a settings file.")
+        raise ConfigError(f"{arg(name)}: larger than {arg(_LARGEST >> 20)} MiB: choose a settings file.")
     try:
         return _Settings.model_validate(from_json(data, allow_inf_nan=False))
     except ValidationError as error:
-        raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
+        raise ConfigError(f"{arg(name)}: {arg(fault_of(error))}: correct it.") from None
     except ValueError as error:
-        raise ConfigError(f"{name}: not valid JSON ({error!s:.100}): correct it.") from None
+        raise ConfigError(f"{arg(name)}: not valid JSON ({arg(str(error)[:100])}): correct it.") from None
 
 
 def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:

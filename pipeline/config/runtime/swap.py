@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -112,11 +113,13 @@ def _refuse_others(folder: Path, known: Collection[str]) -> None:
     if not os.path.lexists(folder):
         return
     if folder.is_symlink() or not folder.is_dir():
-        raise ConfigError(f"{folder}: a file or a link has this name: choose another folder, or a .zip name.")
+        raise ConfigError(
+            f"{arg(folder)}: a file or a link has this name: choose another folder, or a .zip name."
+        )
     strangers = sorted(file.name for file in folder.iterdir() if file.name not in known)
     if strangers:
         raise ConfigError(
-            f"{folder}: the folder contains {strangers[0]!a:.120}, which belongs to no bundle:"
+            f"{arg(folder)}: the folder contains {arg(ascii(strangers[0])[:120])}, which belongs to no bundle:"
             " choose a new or empty folder."
         )
 

@@ -16,6 +16,7 @@ from xml.parsers import expat
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
 from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor
 from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.url import DeviceAddress
@@ -52,7 +53,7 @@ class CountScale:
         for value in (self.per_newton, self.per_newton_metre):
             if not (math.isfinite(value) and value > 0):
                 raise ProtocolError(
-                    f"RDT: counts per unit must be finite and above 0, not {value!r}: "
+                    f"RDT: counts per unit must be finite and above 0, not {arg(value)!r}: "
                     "read them from the sensor's configuration page."
                 )
 
@@ -121,7 +122,7 @@ def scale_for(address: DeviceAddress, port: int = 80) -> CountScale:
     return CountScale(force or told.counts_per_newton, torque or told.counts_per_newton_metre)
 
 
-def parse_scale(page: bytes, where: str = "ATI sensor") -> AtiScale:
+def parse_scale(page: bytes, where: str = message("ATI sensor")) -> AtiScale:
     """
     Read the page.
 
@@ -150,13 +151,14 @@ def _counts(found: dict[str, str], name: str, unit_name: str, units: dict[str, f
     factor = unit_factor(units, unit)
     if factor is None:
         raise ScaleError(
-            f"{where}: {PAGE}: {unit_name}: unknown unit {unit!r}: set the sensor to N and N-m, or"
+            f"{arg(where)}: {arg(PAGE)}: {arg(unit_name)}: unknown unit {arg(unit)!r}: set the sensor to N and N-m, or"
             " give cpf and cpt in the address."
         )
     value = float(number) if _NUMBER.fullmatch(number) else math.nan
     if not _FEWEST <= value <= _MOST:  # also what is not a number
         raise ScaleError(
-            f"{where}: {PAGE}: {name}: {number!r} is not a valid number: give cpf and cpt in the address."
+            f"{arg(where)}: {arg(PAGE)}: {arg(name)}: {arg(number)!r} is not a valid number: give cpf and"
+            " cpt in the address."
         )
     return value / factor
 
@@ -164,7 +166,8 @@ def _counts(found: dict[str, str], name: str, unit_name: str, units: dict[str, f
 def _present(found: dict[str, str], name: str, where: str) -> str:
     if name not in found:
         raise ScaleError(
-            f"{where}: {PAGE}: {name} is missing: check that it is an ATI sensor, or give cpf and cpt in the address."
+            f"{arg(where)}: {arg(PAGE)}: {arg(name)} is missing: check that it is an ATI sensor, or give cpf"
+            " and cpt in the address."
         )
     return found[name]
 
@@ -172,7 +175,9 @@ def _present(found: dict[str, str], name: str, where: str) -> str:
 def _texts(page: bytes, where: str) -> dict[str, str]:
     """Return the text of each element that is asked for."""
     if len(page) > MOST_BYTES:
-        raise ScaleError(f"{where}: {PAGE} is longer than {MOST_BYTES} bytes: check the address.")
+        raise ScaleError(
+            f"{arg(where)}: {arg(PAGE)} is longer than {arg(MOST_BYTES)} bytes: check the address."
+        )
     reader = _Reader(where)
     parser = expat.ParserCreate()
     parser.buffer_text = True
@@ -187,7 +192,8 @@ def _texts(page: bytes, where: str) -> dict[str, str]:
         if isinstance(error, ScaleError):
             raise
         raise ScaleError(
-            f"{where}: {PAGE} is not XML ({error}): check that it is an ATI sensor, or give cpf and cpt in the address."
+            f"{arg(where)}: {arg(PAGE)} is not XML ({arg(error)}): check that it is an ATI sensor, or give"
+            " cpf and cpt in the address."
         ) from error
     return {name: text.strip() for name, text in reader.found.items()}
 
@@ -202,7 +208,9 @@ class _Reader:
 
     def begin(self, name: str, _attributes: dict[str, str]) -> None:
         if name in _NAMES and name in self.found:
-            raise ScaleError(f"{self._where}: {PAGE}: {name} appears twice: give cpf and cpt in the address.")
+            raise ScaleError(
+                f"{arg(self._where)}: {arg(PAGE)}: {arg(name)} appears twice: give cpf and cpt in the address."
+            )
         self._name = name if name in _NAMES else None
         if self._name is not None:
             self.found[self._name] = ""
@@ -217,5 +225,5 @@ class _Reader:
     def refuse(self, *_declaration: Any) -> None:
         # Without a document type there are no entities, so nothing is expanded and nothing fetched.
         raise ScaleError(
-            f"{self._where}: {PAGE} has a document type, which no sensor page has: check the address."
+            f"{arg(self._where)}: {arg(PAGE)} has a document type, which no sensor page has: check the address."
         )

@@ -31,6 +31,7 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import DeviceClock
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -73,7 +74,7 @@ class BotaParser(FrameParser):
 
     def __init__(self, rate_hz: float | None = None) -> None:
         if rate_hz is not None and not (math.isfinite(rate_hz) and rate_hz > 0):
-            raise ProtocolError(f"Bota: the rate must be finite and above 0 Hz, not {rate_hz!r}.")
+            raise ProtocolError(f"Bota: the rate must be finite and above 0 Hz, not {arg(rate_hz)!r}.")
         self._rate = rate_hz
         super().__init__(FrameScanner(b"\xaa", FRAME_BYTES, _intact))
         self._clock = DeviceClock(32, 1e-6)
@@ -121,7 +122,9 @@ def start_commands(rate_hz: float, *, baud: int = DEFAULT_BAUD) -> tuple[Command
     check_rate("Bota", rate_hz, LOWEST_RATE, HIGHEST_RATE)
     if baud not in _BAUD_CODES:
         known = ", ".join(map(str, _BAUD_CODES))
-        raise ProtocolError(f"Bota: {baud} is not a baud rate of the sensor: choose one of {known}.")
+        raise ProtocolError(
+            f"Bota: {arg(baud)} is not a baud rate of the sensor: choose one of {arg(known)}."
+        )
     check_line("Bota", rate_hz, baud, FRAME_BYTES)
     readings = round(1 / (rate_hz * _READING))
     return (

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.errors import arg
 
 # A start bit, eight data bits and a stop bit (8N1).
 _BITS_PER_BYTE = 10
@@ -61,7 +62,9 @@ def check_rate(device: str, rate_hz: float, low: float, high: float) -> float:
         It is not finite or outside low .. high, Hz.
     """
     if not (math.isfinite(rate_hz) and low <= rate_hz <= high):
-        raise ProtocolError(f"{device}: the rate must be between {low:g} and {high:g} Hz, not {rate_hz:g}.")
+        raise ProtocolError(
+            f"{arg(device)}: the rate must be between {arg(low):g} and {arg(high):g} Hz, not {arg(rate_hz):g}."
+        )
     return rate_hz
 
 
@@ -77,11 +80,11 @@ def check_line(device: str, rate_hz: float, baud: int | None, frame_bytes: int) 
     if baud is None:
         return
     if baud <= 0:
-        raise ProtocolError(f"{device}: the baud rate must be above 0, not {baud}.")
+        raise ProtocolError(f"{arg(device)}: the baud rate must be above 0, not {arg(baud)}.")
     ceiling = highest_rate(baud, frame_bytes)
     if rate_hz > ceiling:
         raise ProtocolError(
-            f"{device}: {rate_hz:g} Hz is too fast for {baud} baud, which carries"
-            f" {math.floor(ceiling)} frames of {frame_bytes} bytes per second: lower the rate or"
+            f"{arg(device)}: {arg(rate_hz):g} Hz is too fast for {arg(baud)} baud, which carries"
+            f" {arg(math.floor(ceiling))} frames of {arg(frame_bytes)} bytes per second: lower the rate or"
             " raise the baud rate."
         )

@@ -9,6 +9,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -102,7 +103,7 @@ class Model(ABC):
 
     def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
         if rate is not None and not 0.01 <= rate <= 100_000:
-            raise EmulatorError(f"rate {rate}: give a number of frames per second from 0.01 to 100000.")
+            raise EmulatorError(f"rate {arg(rate)}: give a number of frames per second from 0.01 to 100000.")
         self.quirks = self._checked(quirks)
         self.commands: deque[bytes] = deque(maxlen=_KEPT)
         self.refused: deque[bytes] = deque(maxlen=_KEPT)
@@ -177,10 +178,12 @@ class Model(ABC):
         named = frozenset(quirks)
         for quirk in named - self.possible_quirks:
             there = ", ".join(sorted(self.possible_quirks)) or "none"
-            raise EmulatorError(f"quirk {str(quirk)!r}: not available for {self.name}. Choose from: {there}.")
+            raise EmulatorError(
+                f"quirk {arg(str(quirk))!r}: not available for {arg(self.name)}. Choose from: {arg(there)}."
+            )
         return frozenset(map(Quirk, named))
 
     def _now(self) -> tuple[SensorReading, FrameMoment]:
         if self.answer is None:
-            raise EmulatorError(f"{self.name}: not running yet: start the emulator first.")
+            raise EmulatorError(f"{arg(self.name)}: not running yet: start the emulator first.")
         return self.answer()

@@ -19,6 +19,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -128,18 +129,18 @@ def read_position(reply: Reply) -> tuple[float, ...]:
         It answers something else, is a failure, or a value is missing or not a finite number.
     """
     if reply.kind is ReplyKind.UNKNOWN_COMMAND:
-        raise ElfinError(f"Elfin: the controller does not know {_POSITION}. Use another query.")
+        raise ElfinError(f"Elfin: the controller does not know {arg(_POSITION)}. Use another query.")
     if reply.command != _POSITION:
-        raise ElfinError(f"Elfin: asked for {_POSITION}, received {reply.command!r}. Reconnect.")
+        raise ElfinError(f"Elfin: asked for {arg(_POSITION)}, received {arg(reply.command)!r}. Reconnect.")
     if reply.kind is ReplyKind.FAIL:
         code = reply.values[0] if reply.values else "none"
         raise ElfinError(
-            f"Elfin: the controller refused {_POSITION} with error code {code}. Look it up on the"
+            f"Elfin: the controller refused {arg(_POSITION)} with error code {arg(code)}. Look it up on the"
             " robot's panel."
         )
     if len(reply.values) < _NUMBERS:
         raise ElfinError(
-            f"Elfin: {_POSITION} returned {len(reply.values)} values instead of {_NUMBERS}: this"
+            f"Elfin: {arg(_POSITION)} returned {arg(len(reply.values))} values instead of {arg(_NUMBERS)}: this"
             " controller's software is not supported."
         )
     return tuple(map(_finite, reply.values[:_NUMBERS]))
@@ -162,7 +163,9 @@ def _reply(piece: bytes) -> Reply | None:
 def _finite(text: str) -> float:
     number = float(text) if _DECIMAL.fullmatch(text) else math.nan
     if not math.isfinite(number):
-        raise ElfinError(f"Elfin: {text[:40]!r} is not a finite number: the controller has no position yet.")
+        raise ElfinError(
+            f"Elfin: {arg(text[:40])!r} is not a finite number: the controller has no position yet."
+        )
     return number
 
 

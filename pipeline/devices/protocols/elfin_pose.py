@@ -28,6 +28,7 @@ from contactbench.pipeline.devices.reconnecting_stream import READ_S, Reconnecti
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg, join, message
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,13 +106,19 @@ def resolve_order(numbers: Sequence[float], robot: Robot) -> OrderFit:
         return good[0]
     if good:
         raise ElfinError("Elfin: joints and pose look the same here. Move the arm and try again.")
-    found = " and ".join(
-        f"{fit.rotation_deg:.1f}° and {np.linalg.norm(fit.tool) * 1e3:.0f} mm ({fit.order.name.lower()})"
-        for fit in fits
+    found = join(
+        message(" and "),
+        (
+            message(
+                f"{arg(fit.rotation_deg):.1f}° and {arg(np.linalg.norm(fit.tool) * 1e3):.0f} mm"
+                f" ({arg(fit.order.name.lower())})"
+            )
+            for fit in fits
+        ),
     )
     raise ElfinError(
-        f"Elfin: joints and pose do not match: the tool frame is {found} from the flange of"
-        f" {robot.description.name}. Choose a tool frame without rotation, and check the robot"
+        f"Elfin: joints and pose do not match: the tool frame is {arg(found)} from the flange of"
+        f" {arg(robot.description.name)}. Choose a tool frame without rotation, and check the robot"
         " model."
     )
 
@@ -158,7 +165,7 @@ def _split(
     values = np.asarray(numbers, dtype=np.float64)
     # NaN fails the comparison too.
     if values.shape != (_NUMBERS,) or not (np.abs(values) < _ABSURD).all():
-        raise ElfinError(f"Elfin: {tuple(numbers)!r} are not six angles and a pose: reconnect.")
+        raise ElfinError(f"Elfin: {arg(tuple(numbers))!r} are not six angles and a pose: reconnect.")
     joints, pose = values[:6], values[6:]
     if order is FieldOrder.POSE_FIRST:
         joints, pose = pose, joints
@@ -232,7 +239,7 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
             self._asked = None
         elif waited > _UNANSWERED_S:
             raise LineLost(
-                f"{self._line.name}: no answer for {_UNANSWERED_S:g} s: check that the controller"
+                f"{arg(self._line.name)}: no answer for {arg(_UNANSWERED_S):g} s: check that the controller"
                 " is not busy. Reconnecting."
             )
 
@@ -277,9 +284,9 @@ class ElfinPoses(ReconnectingStream[FlangeSample]):
     def _troubles(self) -> dict[str, str]:
         found = {"answer": self._trouble} if self._trouble else {}
         if time.monotonic() - self._late_at < _SHOWN_S:
-            found["late"] = (
-                f"{self._late} answers of the robot were dropped because they took longer than"
-                f" {1e3 * _LATEST_S:.0f} ms; the last took {1e3 * self._lateness:.0f} ms: check"
+            found["late"] = message(
+                f"{arg(self._late)} answers of the robot were dropped because they took longer than"
+                f" {arg(1e3 * _LATEST_S):.0f} ms; the last took {arg(1e3 * self._lateness):.0f} ms: check"
                 " network and controller, or choose a lower rate."
             )
         return found

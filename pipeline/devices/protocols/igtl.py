@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.protocols.checksums import crc64_ecma
 from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -92,13 +93,15 @@ def pack(kind: str, device: str, stamp_ns: int, content: bytes) -> bytes:
         names = kind.encode("ascii"), device.encode("ascii")
         seconds, rest = divmod(stamp_ns, 1_000_000_000)
         if len(names[0]) > 12 or len(names[1]) > LONGEST_NAME:
-            raise IgtlError(f"OpenIGTLink: the name {device!r} is too long: {LONGEST_NAME} letters at most.")
+            raise IgtlError(
+                f"OpenIGTLink: the name {arg(device)!r} is too long: {arg(LONGEST_NAME)} letters at most."
+            )
         head = _HEADER.pack(
             1, *names, seconds, (rest << 32) // 1_000_000_000, len(content), crc64_ecma(content)
         )
     except (UnicodeError, struct.error) as error:
         raise IgtlError(
-            f"OpenIGTLink: {kind} of {device!r} cannot be written ({error}): use ASCII names."
+            f"OpenIGTLink: {arg(kind)} of {arg(device)!r} cannot be written ({arg(error)}): use ASCII names."
         ) from error
     return head + content
 
@@ -257,7 +260,7 @@ def _content(version: int, body: bytes) -> bytes | None:
 # ---- read --------------------------------------------------------------------------------------
 
 
-def poses_of(message: Message) -> list[BodyPose]:
+def poses_of(packet: Message) -> list[BodyPose]:
     """
     Return the poses in a TRANSFORM, POSITION, QTDATA or TDATA.
 
@@ -266,31 +269,33 @@ def poses_of(message: Message) -> list[BodyPose]:
     IgtlError
         Its length is wrong, a number is not finite or absurd, or a rotation is none.
     """
-    form = _POSES[message.kind]
-    if message.kind not in _LISTS:
-        if len(message.content) != form.size:
+    form = _POSES[packet.kind]
+    if packet.kind not in _LISTS:
+        if len(packet.content) != form.size:
             raise IgtlError(
-                f"{message.kind} of {message.device!r} has {len(message.content)} bytes instead of {form.size}: a"
-                " pose needs position and orientation."
+                f"{arg(packet.kind)} of {arg(packet.device)!r} has {arg(len(packet.content))} bytes instead"
+                f" of {arg(form.size)}: a pose needs position and orientation."
             )
-        return [_pose(message.kind, message.device, form.unpack(message.content))]
+        return [_pose(packet.kind, packet.device, form.unpack(packet.content))]
     step = _BODY_HEAD.size + form.size
-    if len(message.content) % step:
-        raise IgtlError(f"{message.kind} has {len(message.content)} bytes: each body takes {step}.")
+    if len(packet.content) % step:
+        raise IgtlError(
+            f"{arg(packet.kind)} has {arg(len(packet.content))} bytes: each body takes {arg(step)}."
+        )
     return [
         _pose(
-            message.kind,
-            _text(message.content[begin : begin + LONGEST_NAME]),
-            form.unpack_from(message.content, begin + _BODY_HEAD.size),
+            packet.kind,
+            _text(packet.content[begin : begin + LONGEST_NAME]),
+            form.unpack_from(packet.content, begin + _BODY_HEAD.size),
         )
-        for begin in range(0, len(message.content), step)
+        for begin in range(0, len(packet.content), step)
     ]
 
 
 def _pose(kind: str, body: str, numbers: tuple[float, ...]) -> BodyPose:
     values = np.array(numbers)
     if not np.isfinite(values).all():
-        raise IgtlError(f"{kind} of {body!r}: a number is not finite: check the tracker.")
+        raise IgtlError(f"{arg(kind)} of {arg(body)!r}: a number is not finite: check the tracker.")
     if _POSES[kind] is _MATRIX:
         R, p = values[:9].reshape(3, 3).T, values[9:] * _MM
         good = bool(np.abs(R @ R.T - np.eye(3)).max() <= _UNIT and np.linalg.det(R) > 0)
@@ -300,9 +305,12 @@ def _pose(kind: str, body: str, numbers: tuple[float, ...]) -> BodyPose:
         good = bool(abs(np.linalg.norm(values[3:]) - 1) <= _UNIT)
         R_TB = Rotation.from_quat(values[3:]).as_matrix() if good else np.eye(3)
     if not good:
-        raise IgtlError(f"{kind} of {body!r}: its orientation is no rotation: bring the body in sight.")
+        raise IgtlError(
+            f"{arg(kind)} of {arg(body)!r}: its orientation is no rotation: bring the body in sight."
+        )
     if not (np.abs(p) <= _FARTHEST_M).all():
         raise IgtlError(
-            f"{kind} of {body!r}: it is more than {_FARTHEST_M:g} m away: check that the tracker sends mm."
+            f"{arg(kind)} of {arg(body)!r}: it is more than {arg(_FARTHEST_M):g} m away: check that the"
+            " tracker sends mm."
         )
     return BodyPose(body, R_TB, p)

@@ -18,6 +18,7 @@ from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReade
 from contactbench.pipeline.devices.protocols.parser import Counters, Parser
 from contactbench.pipeline.devices.robot_poses import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -99,9 +100,9 @@ class BodyStream(Parser[FlangeSample]):
             The server has several bodies, and none was chosen.
         """
         samples: list[FlangeSample] = []
-        for message in self._reader.feed(data):
+        for packet in self._reader.feed(data):
             try:
-                poses = igtl.poses_of(message)
+                poses = igtl.poses_of(packet)
             except IgtlError as error:
                 self._trouble = str(error)
                 self._refused += 1
@@ -110,11 +111,11 @@ class BodyStream(Parser[FlangeSample]):
                 if not self._is_wanted(pose.body):
                     continue
                 self._trouble = ""
-                if message.time is not None and message.time == self._stamp:
+                if packet.time is not None and packet.time == self._stamp:
                     self._repeated += 1
                     continue
-                self._stamp = message.time
-                samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=message.time))
+                self._stamp = packet.time
+                samples.append(FlangeSample(time, pose.R_TB, pose.p_TB_T, device_time=packet.time))
         return samples
 
     def troubles(self) -> dict[str, str]:
@@ -124,9 +125,9 @@ class BodyStream(Parser[FlangeSample]):
         if self._body is None or not self.names or self._body in self.names:
             return {}
         return {
-            "body": (
-                f"The server sends no body {self._body!r}, only {', '.join(self.names)}: correct ?device= in the"
-                " address, or bring the body in sight."
+            "body": message(
+                f"The server sends no body {arg(self._body)!r}, only {arg(', '.join(self.names))}: correct"
+                " ?device= in the address, or bring the body in sight."
             )
         }
 
@@ -135,7 +136,7 @@ class BodyStream(Parser[FlangeSample]):
             self.names.append(name)
         if self._body is None and len(self.names) > 1:
             raise IgtlError(
-                f"OpenIGTLink: the server sends several bodies ({', '.join(self.names)}): add ?device=NAME to the"
+                f"OpenIGTLink: the server sends several bodies ({arg(', '.join(self.names))}): add ?device=NAME to the"
                 " address."
             )
         return self._body in (None, name)
@@ -185,24 +186,24 @@ class IgtlModel(Model):
         if whole is None:
             return []
         kind, size = whole
-        message = self._take(size)
+        packet = self._take(size)
         if kind == igtl.START_QTDATA and size == len(igtl.start_qtdata(1.0)):
-            self.rate = 1e3 / max(1, struct.unpack_from(">i", message, size - 36)[0])
+            self.rate = 1e3 / max(1, struct.unpack_from(">i", packet, size - 36)[0])
             self._lists = True
-            self._obey(message)
+            self._obey(packet)
             return [igtl.pack(igtl.ANSWER_QTDATA, "Tracker", 0, b"\0")]
         if kind == igtl.STOP_QTDATA:
             self._lists = False
-            self._obey(message)
+            self._obey(packet)
             return []
-        self._refuse(message)
+        self._refuse(packet)
         return []
 
 
 class IgtlDriver(Driver):
     """A tracker that serves OpenIGTLink."""
 
-    scheme, title = "igtl", "OpenIGTLink tracker"
+    scheme, title = "igtl", message("OpenIGTLink tracker")
     ways = (Way(Carrier.TCP, port=18_944),)
     options: ClassVar[Mapping[str, Option]] = {
         "device": Option("Name of the tracked body, where the server sends several.", read_name)

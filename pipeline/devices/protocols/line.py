@@ -44,6 +44,7 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.robot_poses import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -120,7 +121,7 @@ class LineParser(Parser[Sample], Generic[Sample]):
     def troubles(self) -> dict[str, str]:
         """As `Parser`: why lines were dropped of late."""
         return {
-            why: f"Lines dropped: {count}, because {why}."
+            why: message(f"Lines dropped: {arg(count)}, because {arg(why)}.")
             for why, (count, last) in tuple(self._reasons.items())  # the thread that feeds may add one
             if self._now - last < _SHOWN_S
         }
@@ -216,7 +217,7 @@ class LineParser(Parser[Sample], Generic[Sample]):
         if separator is None:
             used = [each for each in _SEPARATORS if each in text]
             if len(used) > 1:
-                return (
+                return message(
                     "they have more than one of comma, semicolon and tab: send decimal points, or name the"
                     " separator with the option separator"
                 )
@@ -413,7 +414,7 @@ def _nested(pairs: Sequence[tuple[str, object]]) -> Any:
 class LineDriver(Driver):
     """Anything that sends lines."""
 
-    scheme, title = "line", "Text or JSON lines"
+    scheme, title = "line", message("Text or JSON lines")
     ways = (
         Way(Carrier.UDP, port=5005),
         Way(Carrier.TCP, port=5005),
@@ -440,7 +441,7 @@ class LineDriver(Driver):
         """As `Driver`."""
         layout = Layout.of(address.options)
         if not layout.gives_wrenches:
-            raise AddressError(f"address {str(address)!r}: fields: give fx,fy,fz,mx,my,mz of a sensor.")
+            raise AddressError(f"address {arg(str(address))!r}: fields: give fx,fy,fz,mx,my,mz of a sensor.")
         start, stop = _talk(address)
         parser = LineWrenches(layout, datagrams=address.carrier is Carrier.UDP)
         return SensorDriver(
@@ -459,7 +460,7 @@ class LineDriver(Driver):
         layout = Layout.of(address.options)
         if not layout.gives_poses:
             raise AddressError(
-                f"address {str(address)!r}: fields: give qw,qx,qy,qz, rx,ry,rz or q1,q2,... of a robot."
+                f"address {arg(str(address))!r}: fields: give qw,qx,qy,qz, rx,ry,rz or q1,q2,... of a robot."
             )
         parser: LineParser[FlangeSample] = LineParser(
             layout, pose_maker(layout), datagrams=address.carrier is Carrier.UDP
@@ -477,7 +478,7 @@ class LineDriver(Driver):
             whole = with_file(options)
             layout = Layout.of(whole)
         except ValueError as error:
-            raise EmulatorError(f"line: {error}.") from error
+            raise EmulatorError(f"line: {arg(error)}.") from error
         kind = LineModel if layout.gives_wrenches else LinePoseModel
         return kind(layout, rate, quirks, unescaped(whole["start"])), whole
 

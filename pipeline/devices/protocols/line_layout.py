@@ -19,6 +19,7 @@ from contactbench.pipeline.devices.protocols.units import (
     TORQUES,
     unit_factor,
 )
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -45,23 +46,25 @@ Fields = tuple[tuple[str, str], ...]
 def _read_fields(text: str) -> Fields:
     entries = [entry.strip() for entry in text.split(",")]
     if len(entries) > _MOST_FIELDS:
-        raise ValueError(f"give at most {_MOST_FIELDS}")
+        raise ValueError(message(f"give at most {arg(_MOST_FIELDS)}"))
     pairs = tuple((role, path) for role, _, path in (entry.partition(":") for entry in entries))
     if len({":" in entry for entry in entries}) > 1:
-        raise ValueError("give names alone for columns, or a key after each, as in fx:force.x, for JSON")
+        raise ValueError(
+            message("give names alone for columns, or a key after each, as in fx:force.x, for JSON")
+        )
     is_json = ":" in entries[0]
     allowed = ROLES if is_json else (*ROLES, IGNORED, REST)
     for role, path in pairs:
         if role not in allowed:
-            raise ValueError(f"{role!r} is unknown: choose from {', '.join(allowed)}")
+            raise ValueError(message(f"{arg(role)!r} is unknown: choose from {arg(', '.join(allowed))}"))
         if is_json and not (0 < len(path) <= _LONGEST_PATH and path.isprintable()):
-            raise ValueError(f"{role}: give its key, as in {role}:data.{role}")
+            raise ValueError(message(f"{arg(role)}: give its key, as in {arg(role)}:data.{arg(role)}"))
     used = [role for role, _ in pairs if role != IGNORED]
     twice = next((role for role in used if used.count(role) > 1), None)
     if twice is not None:
-        raise ValueError(f"{twice} appears twice")
+        raise ValueError(message(f"{arg(twice)} appears twice"))
     if REST in used[:-1] or (used[-1:] == [REST] and pairs[-1][0] != REST):
-        raise ValueError(f"{REST} stands for all columns that follow: put it last")
+        raise ValueError(message(f"{arg(REST)} stands for all columns that follow: put it last"))
     return pairs
 
 
@@ -75,7 +78,10 @@ def _unit(units: dict[str, float], what: str) -> Callable[[str], str]:
     def read(text: str) -> str:
         if _factor(units, text) is None:
             raise ValueError(
-                f"give a unit ({', '.join(units)}) or how many {what} one is, such as -1 to change the sign"
+                message(
+                    f"give a unit ({arg(', '.join(units))}) or how many {arg(what)} one is, such as -1 to"
+                    " change the sign"
+                )
             )
         return text
 
@@ -96,13 +102,15 @@ def _factor(units: dict[str, float], text: str) -> float | None:
 def _flipped(text: str) -> tuple[str, ...]:
     names = tuple(part.strip() for part in text.split(","))
     if not set(names) <= set(WRENCH):
-        raise ValueError(f"give some of {', '.join(WRENCH)}")
+        raise ValueError(message(f"give some of {arg(', '.join(WRENCH))}"))
     return names
 
 
 def _words(text: str) -> str:
     if not 0 < len(text) <= _LONGEST_WORDS or not (text.isascii() and text.isprintable()):
-        raise ValueError(f"give at most {_LONGEST_WORDS} printable characters; \\r and \\n end a line")
+        raise ValueError(
+            message(f"give at most {arg(_LONGEST_WORDS)} printable characters; \\r and \\n end a line")
+        )
     return text
 
 
@@ -115,19 +123,19 @@ OPTIONS: Mapping[str, Option] = {
     ),
     "layout": Option("TOML or JSON file with these options.", name),
     "separator": Option("Between columns: auto, comma, semicolon, tab or space.", choice(*SEPARATORS)),
-    "force": Option("Unit of fx, fy, fz (N), or how many newtons one is.", _unit(FORCES, "newtons")),
+    "force": Option("Unit of fx, fy, fz (N), or how many newtons one is.", _unit(FORCES, message("newtons"))),
     "torque": Option(
-        "Unit of mx, my, mz (Nm), or how many newton metres one is.", _unit(TORQUES, "newton metres")
+        "Unit of mx, my, mz (Nm), or how many newton metres one is.", _unit(TORQUES, message("newton metres"))
     ),
     "flip": Option("Channels with the opposite sign, such as fx,fy,fz.", _flipped),
-    "time": Option("Unit of t (s), or how many seconds one is.", _unit(TIMES, "seconds")),
+    "time": Option("Unit of t (s), or how many seconds one is.", _unit(TIMES, message("seconds"))),
     "bits": Option(
         "Width of the count n: it runs round after so many bits (32).",
         whole(1, 53, "give a whole number from 1 to 53"),
     ),
     "ok": Option("What status is when all is well (0).", name),
-    "length": Option("Unit of x, y, z (m), or how many metres one is.", _unit(LENGTHS, "metres")),
-    "angle": Option("Unit of angles (rad), or how many radians one is.", _unit(ANGLES, "radians")),
+    "length": Option("Unit of x, y, z (m), or how many metres one is.", _unit(LENGTHS, message("metres"))),
+    "angle": Option("Unit of angles (rad), or how many radians one is.", _unit(ANGLES, message("radians"))),
     "rotation": Option(
         "What rx, ry, rz are: vector (axis times angle) or rpy (turns about the fixed x, then y, then z axis).",
         choice("vector", "rpy"),
@@ -160,25 +168,33 @@ def with_file(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def _read_file(where: str) -> dict[str, Any]:
     if not Path(where).is_file():  # a pipe would wait for its writer
-        raise ValueError(f"layout {where!r}: there is no such file: give a TOML or JSON file")
+        raise ValueError(message(f"layout {arg(where)!r}: there is no such file: give a TOML or JSON file"))
     try:
         with Path(where).open("rb") as file:
             data = file.read(_LARGEST_FILE + 1)
         if len(data) > _LARGEST_FILE:
-            raise ValueError(f"layout {where!r}: more than {_LARGEST_FILE} bytes: choose another file")
+            raise ValueError(
+                message(f"layout {arg(where)!r}: more than {arg(_LARGEST_FILE)} bytes: choose another file")
+            )
         text = data.decode("utf-8")
         found: Any = json.loads(text) if where.endswith(".json") else tomllib.loads(text)
     except (OSError, UnicodeDecodeError, json.JSONDecodeError, tomllib.TOMLDecodeError) as error:
-        raise ValueError(f"layout {where!r}: {error}: give a TOML or JSON file") from error
+        raise ValueError(message(f"layout {arg(where)!r}: {arg(error)}: give a TOML or JSON file")) from error
     read = {}
     for key, value in (found if isinstance(found, dict) else {}).items():
         if key not in OPTIONS or key == "layout":
-            raise ValueError(f"layout {where!r}: unknown option {key[:80]!r}. Possible: {', '.join(OPTIONS)}")
+            raise ValueError(
+                message(
+                    f"layout {arg(where)!r}: unknown option {arg(key[:80])!r}. Possible: {arg(', '.join(OPTIONS))}"
+                )
+            )
         text = ",".join(map(str, value)) if isinstance(value, list) else str(value)
         try:
             read[key] = OPTIONS[key].read(text)
         except ValueError as error:
-            raise ValueError(f"layout {where!r}: {key} {text[:80]!r}: {error}") from error
+            raise ValueError(
+                message(f"layout {arg(where)!r}: {arg(key)} {arg(text[:80])!r}: {arg(error)}")
+            ) from error
     return read
 
 
@@ -213,8 +229,10 @@ class Layout:
         fields: Fields | None = options["fields"]
         if not fields:
             raise ValueError(
-                "fields: say what the columns are, as in fields=t,fx,fy,fz,mx,my,mz, or name a file"
-                " that does with layout"
+                message(
+                    "fields: say what the columns are, as in fields=t,fx,fy,fz,mx,my,mz, or name a file"
+                    " that does with layout"
+                )
             )
         units = {
             "force": _factor(FORCES, options["force"] or "N"),
@@ -272,16 +290,20 @@ class Layout:
         for group in (WRENCH, POSITION, QUATERNION, TURN):
             missing = [role for role in group if role not in roles]
             if missing and len(missing) < len(group):
-                raise ValueError(f"fields: {', '.join(missing)} missing: give all of {', '.join(group)}")
+                raise ValueError(
+                    message(f"fields: {arg(', '.join(missing))} missing: give all of {arg(', '.join(group))}")
+                )
         if not (self.gives_wrenches or self.gives_poses):
             raise ValueError(
-                "fields: give fx,fy,fz,mx,my,mz of a sensor, or of a robot qw,qx,qy,qz, rx,ry,rz or q1,q2,..."
+                message(
+                    "fields: give fx,fy,fz,mx,my,mz of a sensor, or of a robot qw,qx,qy,qz, rx,ry,rz or q1,q2,..."
+                )
             )
         if sum((roles.issuperset(QUATERNION), roles.issuperset(TURN), bool(self.joints))) > 1:
-            raise ValueError("fields: give one of a quaternion, rx,ry,rz and joints")
+            raise ValueError(message("fields: give one of a quaternion, rx,ry,rz and joints"))
         if roles.issuperset(TURN) != (self.rotation is not None):
-            raise ValueError("rotation: give vector or rpy with rx,ry,rz, and only with these")
+            raise ValueError(message("rotation: give vector or rpy with rx,ry,rz, and only with these"))
         if self.joints != JOINTS[: len(self.joints)]:
-            raise ValueError("fields: joints begin at q1, without a gap")
+            raise ValueError(message("fields: joints begin at q1, without a gap"))
         if bool(self.joints) != (self.robot is not None):
-            raise ValueError("robot: name the robot of q1,q2,..., and only with these")
+            raise ValueError(message("robot: name the robot of q1,q2,..., and only with these"))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.protocols.line_layout import POSITION, QUATERNION, TURN, Layout
 from contactbench.pipeline.devices.sample import FlangeSample, Status
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -50,9 +50,9 @@ def pose_maker(layout: Layout) -> Made[FlangeSample]:
 
 def _unit_doubt(layout: Layout) -> str:
     return (
-        "check the option angle of the address"
+        message("check the option angle of the address")
         if layout.angle_declared
-        else "if they are degrees, set the option angle of the address to deg"
+        else message("if they are degrees, set the option angle of the address to deg")
     )
 
 
@@ -61,7 +61,7 @@ def _by_rotation(layout: Layout) -> Callable[[Numbers], Turned | str]:
     from scipy.spatial.transform import Rotation  # a third of a second to import
 
     positioned = layout.roles.issuperset(POSITION)
-    too_far = f"their angles are more than one turn in radians: {_unit_doubt(layout)}"
+    too_far = message(f"their angles are more than one turn in radians: {arg(_unit_doubt(layout))}")
 
     def turned(numbers: Numbers) -> Turned | str:
         position = np.array([numbers[role] if positioned else math.nan for role in POSITION])
@@ -96,12 +96,14 @@ def _by_joints(layout: Layout) -> Callable[[Numbers], Turned | str]:
     robot = Robot.named(layout.robot or "")
     if len(layout.joints) != len(robot.lower):
         raise InputError(
-            f"robot {robot.description.name}: it has {len(robot.lower)} joints, and the lines have"
-            f" {len(layout.joints)}: declare q1 to q{len(robot.lower)}."
+            f"robot {arg(robot.description.name)}: it has {arg(len(robot.lower))} joints, and the lines have"
+            f" {arg(len(layout.joints))}: declare q1 to q{arg(len(robot.lower))}."
         )
     robot.flange_pose(np.zeros(len(robot.lower)))  # says at once where MuJoCo is missing
 
-    beyond = f"their joints are beyond the limits of {robot.description.name}: {_unit_doubt(layout)}"
+    beyond = message(
+        f"their joints are beyond the limits of {arg(robot.description.name)}: {arg(_unit_doubt(layout))}"
+    )
 
     def turned(numbers: Numbers) -> Turned | str:
         joints = np.array([numbers[role] for role in layout.joints])

@@ -28,7 +28,7 @@ from contactbench.pipeline.devices.protocols.parser import (
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -165,9 +165,9 @@ def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
         parser.scale = ati_scale.scale_for(address)
     except InputError as error:
         scale = parser.scale
-        return (
-            f"The sensor did not report its counts per newton ({error}) {scale.per_newton:g} per N"
-            f" and {scale.per_newton_metre:g} per N·m are assumed: compare with its calibration"
+        return message(
+            f"The sensor did not report its counts per newton ({arg(error)}) {arg(scale.per_newton):g} per N"
+            f" and {arg(scale.per_newton_metre):g} per N·m are assumed: compare with its calibration"
             " sheet, and give cpf and cpt in the address."
         )
     return ""
@@ -222,7 +222,7 @@ class RdtModel(Model):
         super().__init__(rate, quirks)
         self._left: int | None = None
         if profile not in SCALES:
-            raise EmulatorError(f"profile {profile!r}: choose one of {', '.join(SCALES)}.")
+            raise EmulatorError(f"profile {arg(profile)!r}: choose one of {arg(', '.join(SCALES))}.")
         self.scale = SCALES[profile]
         self.onrobot = profile == "onrobot"
 
@@ -268,12 +268,12 @@ class RdtModel(Model):
 class RdtDriver(Driver):
     """A box that speaks RDT."""
 
-    scheme, title = "rdt", "ATI or OnRobot (RDT)"
+    scheme, title = "rdt", message("ATI or OnRobot (RDT)")
     ways = (Way(Carrier.UDP, port=PORT),)
     options: ClassVar[Mapping[str, Option]] = {
         "profile": Option("Maker of the box: ati or onrobot.", choice(*SCALES), "ati"),
-        "cpf": Option("Counts per N; an ATI box is asked for them.", number("counts per N")),
-        "cpt": Option("Counts per N·m; an ATI box is asked for them.", number("counts per N·m")),
+        "cpf": Option("Counts per N; an ATI box is asked for them.", number(message("counts per N"))),
+        "cpt": Option("Counts per N·m; an ATI box is asked for them.", number(message("counts per N·m"))),
     }
     emulated = RdtModel
 

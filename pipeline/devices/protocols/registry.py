@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.driver import AddressError, Driver, fault_of
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.protocols.parser import SensorDriver
@@ -94,7 +94,7 @@ def driver_for(address: DeviceAddress) -> SensorDriver:
     known = driver_of(address.protocol)
     if known is None:
         raise AddressError(
-            f"address {str(address)!r}: not a force/torque sensor. Give the address of a sensor."
+            f"address {arg(str(address))!r}: not a force/torque sensor. Give the address of a sensor."
         )
     try:
         return known.sensor(address)
@@ -102,7 +102,7 @@ def driver_for(address: DeviceAddress) -> SensorDriver:
         raise
     except Exception as error:
         raise ProtocolError(
-            f"address {str(address)!r}: the driver of {known.title} failed: {error!r}. Update the"
+            f"address {arg(str(address))!r}: the driver of {arg(known.title)} failed: {arg(error)!r}. Update the"
             " package that it comes from."
         ) from error
 
@@ -122,16 +122,16 @@ def _plug_ins() -> tuple[dict[str, Driver], tuple[LeftOut, ...]]:
     for entry in found:
         why = ""
         if entry.name in _BUILT_IN:
-            why = "contactbench has a driver of that scheme itself"
+            why = message("contactbench has a driver of that scheme itself")
         elif often[entry.name] > 1:
-            why = "another plug-in has the same scheme"
+            why = message("another plug-in has the same scheme")
         else:
             try:
                 with redirect_stdout(sys.stderr):  # a command's own is one JSON object
                     made = _load(entry)
                 why = fault_of(made) or _misnamed(entry, made)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a foreign module does
-                why = f"it cannot be imported: {error!r}"
+                why = message(f"it cannot be imported: {arg(error)!r}")
         if why:
             wrong.append(LeftOut(entry.name, _sentence(entry, why)))
         else:
@@ -143,13 +143,13 @@ def _misnamed(entry: EntryPoint, made: Driver) -> str:
     return (
         ""
         if made.scheme == entry.name
-        else f"its entry point is named otherwise than its scheme {made.scheme!r}"
+        else message(f"its entry point is named otherwise than its scheme {arg(made.scheme)!r}")
     )
 
 
 def _sentence(entry: EntryPoint, why: str) -> str:
-    package = entry.dist.name if entry.dist is not None else "an installed package"
-    return (
-        f"the plug-in {entry.name} ({entry.value}) of {package} is left out: {why}: repair or"
+    package = entry.dist.name if entry.dist is not None else message("an installed package")
+    return message(
+        f"the plug-in {arg(entry.name)} ({arg(entry.value)}) of {arg(package)} is left out: {arg(why)}: repair or"
         " uninstall that package"
     )

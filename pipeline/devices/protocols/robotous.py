@@ -24,6 +24,7 @@ from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, 
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.errors import message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -118,9 +119,11 @@ class RobotousDriver(Driver):
     scheme, title = "robotous", "Robotous RFT"
     ways = (Way(Carrier.SERIAL, baud=115_200, frame=FRAME_BYTES),)
     options: ClassVar[Mapping[str, Option]] = {
-        "cpf": Option("Counts per N, by the data sheet.", number("counts per N"), PER_NEWTON),
+        "cpf": Option("Counts per N, by the data sheet.", number(message("counts per N")), PER_NEWTON),
         "cpt": Option(
-            "Counts per N·m, by the data sheet: 2000 or 1000.", number("counts per N·m"), PER_NEWTON_METRE
+            "Counts per N·m, by the data sheet: 2000 or 1000.",
+            number(message("counts per N·m")),
+            PER_NEWTON_METRE,
         ),
     }
     emulated = RobotousModel

@@ -33,6 +33,7 @@ from contactbench.pipeline.devices.protocols.parser import (
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -80,7 +81,7 @@ class Layout:
     def __post_init__(self) -> None:
         if not 1 <= self.points <= MOST_POINTS:
             raise ProtocolError(
-                f"SRI: points per packet must be between 1 and {MOST_POINTS}, not {self.points}."
+                f"SRI: points per packet must be between 1 and {arg(MOST_POINTS)}, not {arg(self.points)}."
             )
 
     @property
@@ -235,7 +236,7 @@ def _troubles(parser: SriParser) -> dict[str, str]:
     if parser.trailer is Trailer.SUM:
         return {}
     return {
-        "trailer": (
+        "trailer": message(
             "The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, which is checked instead."
         )
     }

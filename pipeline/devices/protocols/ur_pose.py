@@ -32,6 +32,7 @@ from contactbench.pipeline.devices.reconnecting_stream import ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.watch import Watch
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -88,7 +89,7 @@ class UrStream:
         self._rate = check_rate("UR", rate_hz, ur_rtde.LOWEST_RATE, ur_rtde.HIGHEST_RATE)
         self._tool = None if tool is None else tuple(tool)
         if self._tool is not None and (len(self._tool) != 6 or not np.isfinite(self._tool).all()):
-            raise RtdeError(f"UR: a tool frame has six finite numbers, not {tool!r}.")
+            raise RtdeError(f"UR: a tool frame has six finite numbers, not {arg(tool)!r}.")
         self._reader = PacketReader()
         self._recipe: OutputRecipe | None = None
         self._variables: tuple[str, ...] = _WITH_TOOL
@@ -205,10 +206,10 @@ def flange_sample(
         raise RtdeError("UR: data must hold a clock, six joints and a pose of six: reconnect.")
     pose = np.asarray(values[POSE], dtype=np.float64)
     if not (np.abs(pose) < _ABSURD).all():
-        raise RtdeError(f"UR: {tuple(pose)!r} is not a pose: reconnect.")
+        raise RtdeError(f"UR: {arg(tuple(pose))!r} is not a pose: reconnect.")
     R_BE, p_BE_B = Rotation.from_rotvec(pose[3:]), np.full(3, np.nan)
     if tool is not None and (len(tool) != 6 or not (np.abs(tool) < _ABSURD).all()):
-        raise RtdeError(f"UR: {tuple(tool)!r} is not a tool frame: reconnect.")
+        raise RtdeError(f"UR: {arg(tuple(tool))!r} is not a tool frame: reconnect.")
     if tool is not None:
         R_BE = R_BE * Rotation.from_rotvec(tool[3:]).inv()
         p_BE_B = pose[:3] - R_BE.apply(tool[:3])
@@ -264,7 +265,7 @@ class UrPoses(ReconnectingStream[FlangeSample]):
         if self._talk.stage is not UrStage.STREAMING or self._talk.knows_flange:
             return {}
         return {
-            "tool": (
+            "tool": message(
                 "The controller does not report the tool set on the pendant, so the orientation is"
                 " that of the tool frame. Add ?tool=x,y,z,rx,ry,rz (m, rad) to the address, as set on"
                 " the pendant."
@@ -349,7 +350,7 @@ class UrModel(Model):
     ) -> None:
         super().__init__(rate, quirks)
         if len(tool) != 6 or not all(map(math.isfinite, tool)):
-            raise EmulatorError(f"tool {tool}: give six finite numbers, m and rad.")
+            raise EmulatorError(f"tool {arg(tool)}: give six finite numbers, m and rad.")
         self._tool = tool
         self._R_ET = Rotation.from_rotvec(tool[3:]).as_matrix()
         self._agreed = False

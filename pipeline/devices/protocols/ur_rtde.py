@@ -14,6 +14,7 @@ from enum import IntEnum
 
 from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.errors import arg, message
 
 PORT = 30004
 _VERSION = 2
@@ -83,10 +84,10 @@ def outputs_request(rate_hz: float, names: tuple[str, ...]) -> bytes:
     """
     check_rate("UR", rate_hz, LOWEST_RATE, HIGHEST_RATE)
     if not names or not all(name.isascii() and name.isidentifier() for name in names):
-        raise RtdeError(f"UR: variables need plain names, not {names!r}.")
+        raise RtdeError(f"UR: variables need plain names, not {arg(names)!r}.")
     payload = struct.pack(">d", rate_hz) + ",".join(names).encode("ascii")
     if _HEADER.size + len(payload) > _LONGEST_PACKET:
-        raise RtdeError(f"UR: {len(names)} variables are too many for one packet: ask for fewer.")
+        raise RtdeError(f"UR: {arg(len(names))} variables are too many for one packet: ask for fewer.")
     return packet(PacketKind.OUTPUTS, payload)
 
 
@@ -110,10 +111,10 @@ def check_accepted(reply: Packet, kind: PacketKind) -> None:
         It is another kind of packet, or says no.
     """
     if reply.kind is not kind or len(reply.payload) != 1:
-        raise RtdeError(f"UR: asked for {kind.name.lower()}, received {_shown(reply)}. Reconnect.")
+        raise RtdeError(f"UR: asked for {arg(kind.name.lower())}, received {arg(_shown(reply))}. Reconnect.")
     if reply.payload != b"\x01":
         raise RtdeError(
-            f"UR: the controller refused the {kind.name.lower()} request. Its software may be"
+            f"UR: the controller refused the {arg(kind.name.lower())} request. Its software may be"
             " older than 3.10 or 5.4, or another RTDE client may hold the same variables."
         )
 
@@ -138,14 +139,16 @@ class OutputRecipe:
             A variable is not there or is in use, the types are unknown, or it is another answer.
         """
         if reply.kind is not PacketKind.OUTPUTS or len(reply.payload) < 1:
-            raise RtdeError(f"UR: asked for variables, received {_shown(reply)}. Reconnect.")
+            raise RtdeError(f"UR: asked for variables, received {arg(_shown(reply))}. Reconnect.")
         types = tuple(reply.payload[1:].decode("ascii", "replace").split(","))
         if len(types) != len(names):
-            raise RtdeError(f"UR: asked for {len(names)} variables, received {len(types)}. Reconnect.")
+            raise RtdeError(
+                f"UR: asked for {arg(len(names))} variables, received {arg(len(types))}. Reconnect."
+            )
         for name, kind in zip(names, types, strict=True):
             if kind not in _FORMATS:
                 raise RtdeError(
-                    f"UR: the variable {name} is {kind[:40]!r}: the controller's software is too"
+                    f"UR: the variable {arg(name)} is {arg(kind[:40])!r}: the controller's software is too"
                     " old, or another client holds it."
                 )
         return cls(reply.payload[0], names, types)
@@ -171,11 +174,13 @@ class OutputRecipe:
         """
         if data.kind is not PacketKind.DATA or len(data.payload) != self.payload_bytes:
             raise RtdeError(
-                f"UR: received {_shown(data)} instead of {self.payload_bytes} bytes of data. Reconnect."
+                f"UR: received {arg(_shown(data))} instead of {arg(self.payload_bytes)} bytes of data. Reconnect."
             )
         number, *flat = self._layout.unpack(data.payload)
         if number != self.number:
-            raise RtdeError(f"UR: received data of recipe {number} instead of {self.number}. Reconnect.")
+            raise RtdeError(
+                f"UR: received data of recipe {arg(number)} instead of {arg(self.number)}. Reconnect."
+            )
         if not all(map(math.isfinite, flat)):
             raise RtdeError("UR: a value is not finite: the robot may not be powered.")
         fields: dict[str, tuple[float, ...]] = {}
@@ -243,4 +248,4 @@ class PacketReader:
 
 
 def _shown(reply: Packet) -> str:
-    return f"a {reply.kind.name.lower()} packet of {len(reply.payload)} bytes"
+    return message(f"a {arg(reply.kind.name.lower())} packet of {arg(len(reply.payload))} bytes")

@@ -11,6 +11,7 @@ from http.client import HTTPException, HTTPResponse
 from typing import cast
 
 from contactbench.pipeline.devices.transport.line import LineError
+from contactbench.pipeline.errors import arg, message
 
 TIMEOUT_S = 2.0
 MOST_BYTES = 65_536
@@ -58,11 +59,13 @@ def http_get(host: str, path: str, port: int = 80, *, timeout: float = TIMEOUT_S
             data = _receive(opened, deadline)
     except TimeoutError as error:
         raise page.error(
-            f"no complete answer within {timeout:g} s", "check cable, address and power"
+            message(f"no complete answer within {arg(timeout):g} s"),
+            message("check cable, address and power"),
         ) from error
     except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
         raise page.error(
-            f"no connection ({error})", "check that the device is on, and on this network"
+            message(f"no connection ({arg(error)})"),
+            message("check that the device is on, and on this network"),
         ) from error
     return page.body(data)
 
@@ -78,13 +81,15 @@ class _Page:
         if not (self.path.startswith("/") and f"{self.host}{self.path}".isascii()) or any(
             character.isspace() or not character.isprintable() for character in self.host + self.path
         ):
-            raise self.error("not the address of a page", "give a host, and a path that begins with /")
+            raise self.error(
+                message("not the address of a page"), message("give a host, and a path that begins with /")
+            )
         if not 1 <= self.port <= 65_535:
-            raise self.error("not a port", "give a whole number from 1 to 65535")
+            raise self.error(message("not a port"), message("give a whole number from 1 to 65535"))
 
     def error(self, what: str, remedy: str) -> PageError:
         where = f"http://{self.host}:{self.port}{self.path}"
-        return PageError(f"{where!r}: {what}: {remedy}.")
+        return PageError(f"{arg(where)!r}: {arg(what)}: {arg(remedy)}.")
 
     def request(self) -> bytes:
         name = f"[{self.host}]" if ":" in self.host else self.host
@@ -106,19 +111,28 @@ class _Page:
             body = answer.read(MOST_BYTES + 1)
             missing = answer.length
         except (HTTPException, ValueError, OSError) as error:
-            raise self.error(f"the answer is not HTTP ({error!r})", "check the address") from error
+            raise self.error(
+                message(f"the answer is not HTTP ({arg(error)!r})"), message("check the address")
+            ) from error
         if answer.status in _REDIRECTS:
-            raise self.error(f"the device points elsewhere ({answer.status})", "check the address")
+            raise self.error(
+                message(f"the device points elsewhere ({arg(answer.status)})"), message("check the address")
+            )
         if answer.status != _OK:
-            raise self.error(f"the device answers {answer.status}", "check address and kind of the device")
+            raise self.error(
+                message(f"the device answers {arg(answer.status)}"),
+                message("check address and kind of the device"),
+            )
         if len(body) > MOST_BYTES:
             raise self.too_long()
         if missing:
-            raise self.error(f"{missing} bytes of the answer are missing", "try again")
+            raise self.error(message(f"{arg(missing)} bytes of the answer are missing"), message("try again"))
         return body
 
     def too_long(self) -> PageError:
-        return self.error(f"the answer is longer than {MOST_BYTES} bytes", "check the address")
+        return self.error(
+            message(f"the answer is longer than {arg(MOST_BYTES)} bytes"), message("check the address")
+        )
 
 
 class _Received:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.transport.serial_line import SerialLine
 from contactbench.pipeline.devices.transport.sockets import TcpLine, UdpLine
+from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.transport.line import Line
@@ -27,4 +28,4 @@ def line_to(address: DeviceAddress) -> Line:
         return TcpLine(address.host, address.port)
     if address.carrier is Carrier.UDP and address.port is not None:
         return UdpLine(address.host, address.port, address.options.get("listen"))
-    raise AddressError(f"address {str(address)!r} has no line: give the address of a device.")
+    raise AddressError(f"address {arg(str(address))!r} has no line: give the address of a device.")

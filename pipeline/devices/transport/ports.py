@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from contactbench.pipeline.devices.protocols.registry import drivers
+from contactbench.pipeline.errors import arg, message
 
 
 @dataclass(frozen=True)
@@ -31,14 +32,14 @@ def list_ports() -> list[SerialPort]:
         words = [port.description, port.manufacturer, port.product]
         text = ", ".join(dict.fromkeys(str(word) for word in words if word and word != "n/a"))
         ports.append(
-            SerialPort(port.device, text or "no description", port.serial_number, guess_device(text))
+            SerialPort(port.device, text or message("no description"), port.serial_number, guess_device(text))
         )
     return sorted(ports, key=lambda port: (port.guess is None, port.path))
 
 
 def guess_device(description: str) -> str | None:
     """Guess from what USB says of a port the scheme of its device; None: it does not say."""
-    text = f"{description.lower()} "
+    text = message(f"{arg(description.lower())} ")
     return next(
         (name for name, known in drivers().items() if any(word in text for word in known.usb_words)), None
     )

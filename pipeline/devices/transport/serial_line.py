@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+from contactbench.pipeline.errors import arg, message
 
 try:
     import termios
@@ -21,10 +22,12 @@ else:
 _OPENING_ERRORS: tuple[type[Exception], ...] = (*_ERRORS, ValueError)
 _WRITE_TIMEOUT_S = 1.0
 _REMEDIES = {
-    errno.ENOENT: "plug in the device, or choose another of the listed ports",
-    errno.EACCES: "get permission to use serial ports (on Linux: the group dialout), or close the other program",
-    errno.EAGAIN: "another program is using it: close that program",
-    errno.EBUSY: "another program is using it: close that program",
+    errno.ENOENT: message("plug in the device, or choose another of the listed ports"),
+    errno.EACCES: message(
+        "get permission to use serial ports (on Linux: the group dialout), or close the other program"
+    ),
+    errno.EAGAIN: message("another program is using it: close that program"),
+    errno.EBUSY: message("another program is using it: close that program"),
 }
 
 
@@ -58,9 +61,11 @@ class SerialLine:
         except _OPENING_ERRORS as error:
             number = getattr(error, "errno", None)
             remedy = _REMEDIES.get(
-                number or 0, "check the path and the speed, and that the device is plugged in"
+                number or 0, message("check the path and the speed, and that the device is plugged in")
             )
-            raise LineUnavailable(f"{self.name}: the port cannot be opened ({error}): {remedy}.") from error
+            raise LineUnavailable(
+                f"{arg(self.name)}: the port cannot be opened ({arg(error)}): {arg(remedy)}."
+            ) from error
 
     def read(self, timeout: float) -> Chunk:
         """Return what is there; see `Line.read`."""
@@ -92,9 +97,9 @@ class SerialLine:
 
     def _opened(self) -> Any:
         if self._port is None:
-            raise LineLost(f"{self.name}: the port is not open: open it first.")
+            raise LineLost(f"{arg(self.name)}: the port is not open: open it first.")
         return self._port
 
     def _lost(self, error: Exception) -> LineLost:
         self.close()
-        return LineLost(f"{self.name}: connection lost ({error}): check the plug, then reconnect.")
+        return LineLost(f"{arg(self.name)}: connection lost ({arg(error)}): check the plug, then reconnect.")

@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+from contactbench.pipeline.errors import arg, message
 
 if TYPE_CHECKING:
     from typing import Any
@@ -73,16 +74,18 @@ class _SocketLine:
 
     def _opened(self) -> socket.socket:
         if self._socket is None:
-            raise LineLost(f"{self.name}: the line is not open: open it first.")
+            raise LineLost(f"{arg(self.name)}: the line is not open: open it first.")
         return self._socket
 
     def _lost(self, why: str) -> LineLost:
         self.close()
-        return LineLost(f"{self.name}: connection lost ({why}): check cable and device, then reconnect.")
+        return LineLost(
+            f"{arg(self.name)}: connection lost ({arg(why)}): check cable and device, then reconnect."
+        )
 
     def _unavailable(self, error: Exception) -> LineUnavailable:
         return LineUnavailable(
-            f"{self.name}: no connection ({error}): check that the device is on, in this network,"
+            f"{arg(self.name)}: no connection ({arg(error)}): check that the device is on, in this network,"
             " and not in use."
         )
 
@@ -105,7 +108,7 @@ class TcpLine(_SocketLine):
     def open(self) -> None:
         """Connect within 3 s; see `Line.open`."""
         self.close()
-        refused: OSError = OSError("the name has no address")
+        refused: OSError = OSError(message("the name has no address"))
         for found in self._addresses(socket.SOCK_STREAM):
             try:
                 self._socket = self._connected(found)
@@ -140,9 +143,9 @@ class TcpLine(_SocketLine):
         deadline = time.monotonic() + _CONNECT_S
         while state in _UNDER_WAY:
             if self._interrupted.is_set():
-                raise OSError("it was interrupted")
+                raise OSError(message("it was interrupted"))
             if time.monotonic() > deadline:
-                raise TimeoutError("timed out")
+                raise TimeoutError(message("timed out"))
             _, ready, failed = select.select([], [opened], [opened], _LOOK_S)
             if ready or failed:
                 state = opened.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
@@ -154,7 +157,7 @@ class TcpLine(_SocketLine):
         data = self._receive(timeout, _TCP_READ)
         arrived = time.monotonic()
         if data == b"":
-            raise self._lost("the device closed the connection")
+            raise self._lost(message("the device closed the connection"))
         return Chunk(data or b"", arrived)
 
 
@@ -216,10 +219,10 @@ class UdpLine(_SocketLine):
         if time.monotonic() - self._other_at >= _SHOWN_S or self._sender is None:
             return {}
         return {
-            "foreign": (
-                f"Datagrams left out: {self.foreign}, the last one from {self._other[0]}, port {self._other[1]}. Only"
-                f" port {self._sender[1]} of {self._sender[0]} is listened to: stop the other sender, or give"
-                " each a port of this computer."
+            "foreign": message(
+                f"Datagrams left out: {arg(self.foreign)}, the last one from {arg(self._other[0])}, port"
+                f" {arg(self._other[1])}. Only port {arg(self._sender[1])} of {arg(self._sender[0])} is"
+                " listened to: stop the other sender, or give each a port of this computer."
             )
         }
 

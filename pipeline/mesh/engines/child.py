@@ -15,6 +15,7 @@ import time
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.installation import module_command
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
 from contactbench.pipeline.mesh.engines.libraries import Library
@@ -190,7 +191,7 @@ class Child:
         except OSError as error:
             self._discard()
             raise EngineError(
-                f"{self.library} cannot be started ({error}): check that {sys.executable} can be run."
+                f"{arg(self.library)} cannot be started ({arg(error)}): check that {arg(sys.executable)} can be run."
             ) from error
 
         _widen(self._process)
@@ -219,8 +220,9 @@ class Child:
         thread.join()
         if answer.kind == "failed":
             raise EngineError(
-                f"{self.library} refused '{request.kind}': {answer.fields.get('reason', 'no reason given')}. "
-                "Repair the mesh first, or use another engine."
+                f"{arg(self.library)} refused '{arg(request.kind)}':"
+                f" {arg(answer.fields.get('reason', message('no reason given')))}. Repair the mesh first, or use"
+                " another engine."
             )
         watch.report(_DONE)
         return answer
@@ -235,7 +237,7 @@ class Child:
             watch.check(self.library)
             if deadline is not None and time.monotonic() > deadline:
                 raise EngineError(
-                    f"{self.library} took longer than {watch.timeout_s:g} s for '{request.kind}'"
+                    f"{arg(self.library)} took longer than {arg(watch.timeout_s):g} s for '{arg(request.kind)}'"
                     " and was stopped. Allow more time, or start with fewer facets."
                 )
             with contextlib.suppress(queue.Empty):
@@ -255,7 +257,7 @@ class Child:
 
     def _missing(self, answer: WireMessage) -> EngineError:
         return EngineError(
-            f"{self.library} cannot be loaded ({answer.fields.get('reason')}): {self.library.install}."
+            f"{arg(self.library)} cannot be loaded ({arg(answer.fields.get('reason'))}): {arg(self.library.install)}."
         )
 
     def _death(self, request: WireMessage) -> EngineError:
@@ -265,13 +267,13 @@ class Child:
         try:
             code = process.wait(timeout=1)
         except subprocess.TimeoutExpired:
-            how = "returned a nonsensical answer"
+            how = message("returned a nonsensical answer")
         else:
-            how = f"died ({_cause(code)})"
+            how = message(f"died ({arg(_cause(code))})")
         facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
         return EngineError(
-            f"{self.library} {how} on '{request.kind}' of {facets} facets; nothing else was"
-            f" affected.{self._last_words()} The usual causes are facets without area, duplicates"
+            f"{arg(self.library)} {arg(how)} on '{arg(request.kind)}' of {arg(facets)} facets; nothing else was"
+            f" affected.{arg(self._last_words())} The usual causes are facets without area, duplicates"
             " and holes: repair the mesh first, or use another engine."
         )
 
@@ -281,7 +283,7 @@ class Child:
         self._noise.seek(0)
         lines = self._noise.read()[-_LAST_WORDS:].decode(errors="replace").split("\n")
         words = next((line.strip() for line in reversed(lines) if line.strip()), "")
-        return f" Last output: {words}." if words else ""
+        return message(f" Last output: {arg(words)}.") if words else ""
 
     def _discard(self) -> None:
         process, noise = self._process, self._noise
@@ -311,9 +313,9 @@ def _converse(
             if greeting is None or greeting.kind != "ready":
                 return
         write_message(cast("BinaryIO", process.stdin), request)
-        while (message := read_message(results)) is not None:
-            events.put(message)
-            if message.kind in ("done", "failed"):
+        while (packet := read_message(results)) is not None:
+            events.put(packet)
+            if packet.kind in ("done", "failed"):
                 return
     events.put(None)
 
@@ -339,9 +341,9 @@ def _environment() -> dict[str, str]:
 
 def _cause(code: int) -> str:
     if code >= 0:
-        return f"exit code {code}"
+        return message(f"exit code {arg(code)}")
     name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
-    return f"{name}, possibly out of memory" if name == "SIGKILL" else name
+    return message(f"{arg(name)}, possibly out of memory") if name == "SIGKILL" else name
 
 
 def _widen(process: subprocess.Popen[bytes]) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.installation import remedy
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ class Library(StrEnum):
 class Operation(StrEnum):
     """What an engine can do; the functions of this package say what each takes and gives."""
 
-    ALPHA_WRAP = "alpha wrap"
-    CUT = "cut along crossings"
+    ALPHA_WRAP = message("alpha wrap")
+    CUT = message("cut along crossings")
 
     @property
     def library(self) -> Library:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.errors import EngineError
 from contactbench.pipeline.mesh.engines.libraries import Library, Operation
@@ -110,7 +111,7 @@ def cut_along_crossings(
     right = born is not None and born.dtype == np.int32 and born.shape == (len(new_faces),)
     if born is None or not right or born.min() < 0 or born.max() >= len(arrays["faces"]):
         raise EngineError(
-            f"{Library.CGAL} did not report which original facets its facets come from: use another mesh."
+            f"{arg(Library.CGAL)} did not report which original facets its facets come from: use another mesh."
         )
     return new_vertices, new_faces, born
 
@@ -124,7 +125,7 @@ def _refuse_unless_positive(**lengths: float) -> None:
     for name, value in lengths.items():
         # not >, so that NaN is refused too.
         if not 0 < value < float("inf"):
-            raise EngineError(f"{name} is {value:g}: give a length above 0.")
+            raise EngineError(f"{arg(name)} is {arg(value):g}: give a length above 0.")
 
 
 def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
@@ -138,6 +139,6 @@ def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
             if right and count and triangles.min() >= 0 and triangles.max() < len(points):
                 return points, triangles
     raise EngineError(
-        f"{operation.library} produced no usable mesh from '{operation}': repair the mesh first,"
+        f"{arg(operation.library)} produced no usable mesh from '{arg(operation)}': repair the mesh first,"
         " or use another engine."
     )

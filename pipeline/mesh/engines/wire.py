@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.engines.errors import WireError
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class WireMessage:
     arrays: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
 
 
-def write_message(stream: BinaryIO, message: WireMessage) -> None:
+def write_message(stream: BinaryIO, packet: WireMessage) -> None:
     """
     Write a message and flush.
 
@@ -61,10 +62,10 @@ def write_message(stream: BinaryIO, message: WireMessage) -> None:
     OSError, ValueError
         The pipe is broken or closed.
     """
-    arrays = {name: _portable(name, array) for name, array in message.arrays.items()}
+    arrays = {name: _portable(name, array) for name, array in packet.arrays.items()}
     header = {
-        "kind": message.kind,
-        "fields": message.fields,
+        "kind": packet.kind,
+        "fields": packet.fields,
         "arrays": [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()],
     }
     text = json.dumps(header, allow_nan=False).encode()
@@ -103,11 +104,11 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage 
     start = first + _exactly(stream, 7)
     length = int.from_bytes(start[4:], "little")
     if start[:4] != _MAGIC or not 0 < length <= _LONGEST_HEADER:
-        raise WireError("the bytes are not the start of a message")
+        raise WireError(message("the bytes are not the start of a message"))
     kind, fields, layout = _parse_header(_exactly(stream, length))
     total = sum(dtype.itemsize * math.prod(shape) for dtype, shape in layout.values())
     if total > most_bytes:
-        raise WireError(f"the header announces {total} bytes, more than {most_bytes}")
+        raise WireError(message(f"the header announces {arg(total)} bytes, more than {arg(most_bytes)}"))
     arrays = {name: _read_array(stream, dtype, shape) for name, (dtype, shape) in layout.items()}
     return WireMessage(kind, fields, arrays)
 
@@ -116,7 +117,7 @@ def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     if array.dtype == np.bool_:
         array = array.view(np.uint8)
     if array.dtype.newbyteorder("<").str not in _DTYPES:
-        raise WireError(f"array {name!r} is {array.dtype}: send float64, int32 or bool")
+        raise WireError(message(f"array {arg(name)!r} is {arg(array.dtype)}: send float64, int32 or bool"))
     return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
 
 
@@ -126,11 +127,11 @@ def _parse_header(
     try:
         header = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise WireError("the header is not JSON") from error
+        raise WireError(message("the header is not JSON")) from error
     match header:
         case {"kind": str(kind), "fields": dict(fields), "arrays": list(rows)} if len(rows) <= _MOST_ARRAYS:
             return kind, fields, _layout(rows)
-    raise WireError("the header lacks its kind, fields or arrays")
+    raise WireError(message("the header lacks its kind, fields or arrays"))
 
 
 def _layout(rows: list[Any]) -> dict[str, tuple[np.dtype[Any], tuple[int, ...]]]:
@@ -140,12 +141,12 @@ def _layout(rows: list[Any]) -> dict[str, tuple[np.dtype[Any], tuple[int, ...]]]
             case [str(name), str(dtype), [*shape]] if dtype in _DTYPES and 1 <= len(shape) <= 2:
                 # bool is an int to Python, and True would pass for a length of 1.
                 if not all(type(length) is int and 0 <= length < 2**31 for length in shape):
-                    raise WireError(f"array {name!r} has an impossible shape")
+                    raise WireError(message(f"array {arg(name)!r} has an impossible shape"))
                 layout[name] = (_DTYPES[dtype], tuple(shape))
             case _:
-                raise WireError("the header describes an array wrongly")
+                raise WireError(message("the header describes an array wrongly"))
     if len(layout) != len(rows):
-        raise WireError("the header names an array twice")
+        raise WireError(message("the header names an array twice"))
     return layout
 
 
@@ -156,7 +157,7 @@ def _read_array(stream: BinaryIO, dtype: np.dtype[Any], shape: tuple[int, ...]) 
     while done < len(view):
         count = stream.readinto(view[done:])  # type: ignore[attr-defined]
         if not count:
-            raise WireError("the message is cut short")
+            raise WireError(message("the message is cut short"))
         done += count
     if dtype == np.uint8:
         # Any byte but 0 and 1 would be a bool that equals neither.
@@ -167,5 +168,5 @@ def _read_array(stream: BinaryIO, dtype: np.dtype[Any], shape: tuple[int, ...]) 
 def _exactly(stream: BinaryIO, count: int) -> bytes:
     data = stream.read(count)
     if len(data) != count:
-        raise WireError("the message is cut short")
+        raise WireError(message("the message is cut short"))
     return data

@@ -16,6 +16,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.installation import component_folders
 from contactbench.pipeline.mesh.engines.errors import WireError
 from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
@@ -77,7 +78,7 @@ def _answer(module: Any, call: WireMessage) -> WireMessage:
     try:
         arrays = perform(module, Operation(call.kind), call.arrays, call.fields)
     except MemoryError:
-        return WireMessage("failed", {"reason": "it ran out of memory"})
+        return WireMessage("failed", {"reason": message("it ran out of memory")})
     except REFUSALS as error:
         return WireMessage("failed", {"reason": _in_one_line(error)})
     # pymeshlab's own exception is known only through the module.

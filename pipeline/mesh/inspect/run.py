@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File, as_file
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
@@ -74,7 +75,7 @@ def inspect(
         As asked for.
     """
     if samples < 100:
-        raise MeshError(f"samples={samples} are too few to detect hidden surfaces: give at least 100.")
+        raise MeshError(f"samples={arg(samples)} are too few to detect hidden surfaces: give at least 100.")
     work = _Work(progress or (lambda _: None), cancelled or (lambda: False))
     work.reach(0.0)
     if isinstance(source, Probe):
@@ -160,7 +161,7 @@ class _Work:
 
     def reach(self, share: float) -> None:
         if self.cancelled():
-            raise Cancelled("the inspection was cancelled")
+            raise Cancelled(message("the inspection was cancelled"))
         self._progress(share)
 
     def between(self, low: float, high: float) -> Callable[[float], None]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.triangles import directions
@@ -139,7 +140,7 @@ def look(
     front, back = (np.empty(len(chosen.points)) for _ in range(2))
     for start in range(0, len(chosen.points), _CHUNK):
         if cancelled():
-            raise Cancelled("the inspection was cancelled")
+            raise Cancelled(message("the inspection was cancelled"))
         piece = slice(start, start + _CHUNK)
         for side, out in ((1.0, front), (-1.0, back)):
             out[piece] = _sky(index, chosen.points[piece], side * chosen.normals[piece], lift)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
+from contactbench.pipeline.errors import arg, capitalised, join, message
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -12,8 +14,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.inspect.report import Inspection
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
 
-_SHELL = "Make the outer shell before use."
-_IF_CAVITY = "Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes."
+_SHELL = message("Make the outer shell before use.")
+_IF_CAVITY = message(
+    "Make the outer shell: it closes the mouths of cavities, but keeps grooves and through holes."
+)
 
 # Shares are counted on some thousand points; less than this is a groove or chance.
 _SOME = 0.005
@@ -29,6 +33,17 @@ _NAMED = 3
 
 # A wall thinner than this share of the size is a copy of the surface: 0.01 mm on a probe of 100 mm.
 _COPY = 1e-4
+# One and several of what is counted.
+_HANDLES = message("handle"), message("handles")
+_VERTICES = message("vertex"), message("vertices")
+_HOLES = message("hole"), message("holes")
+_EDGES = message("edge"), message("edges")
+_WHOLE_PARTS = message("whole part"), message("whole parts")
+_CLOSED_PARTS = message("closed part lies"), message("closed parts lie")
+_DUPLICATES = message("facet is a duplicate"), message("facets are duplicates")
+_STANDING = message("facet stands"), message("facets stand")
+_FACETS = message("facet"), message("facets")
+_FOLDED = message("thin facet folds"), message("thin facets fold")
 
 
 Level = Literal["fault", "doubt", "note"]
@@ -55,17 +70,27 @@ def facts(found: Inspection) -> tuple[str, ...]:
     """Say how large the mesh is and what it consists of."""
     x, y, z = (1e3 * extent for extent in found.extents_m)
     edges = found.edges
-    lengths = f"{_length(edges.shortest_m)} to {_length(edges.longest_m)}"
+    lengths = message(f"{arg(_length(edges.shortest_m))} to {arg(_length(edges.longest_m))}")
     said = [
-        f"{found.name}: {found.facets:,} facets, {found.vertices:,} vertices, {_parts(found.part_count)}.",
-        f"It measures {x:.1f} x {y:.1f} x {z:.1f} mm, with an area of {found.area_m2 * 1e4:.1f} cm²"
-        + (f" and a volume of {found.volume_m3 * 1e6:.1f} cm³." if found.volume_m3 else "."),
-        f"Edges are {lengths} long; half of them are shorter than {_length(edges.median_m)}.",
+        message(
+            f"{arg(found.name)}: {arg(found.facets):,} facets, {arg(found.vertices):,} vertices,"
+            f" {arg(_parts(found.part_count))}."
+        ),
+        message(
+            f"It measures {arg(x):.1f} x {arg(y):.1f} x {arg(z):.1f} mm, with an area of"
+            f" {arg(found.area_m2 * 1e4):.1f} cm²"
+        )
+        + (message(f" and a volume of {arg(found.volume_m3 * 1e6):.1f} cm³.") if found.volume_m3 else "."),
+        message(
+            f"Edges are {arg(lengths)} long; half of them are shorter than {arg(_length(edges.median_m))}."
+        ),
     ]
     if found.unit is not None and found.unit.certain:
-        said.append(f"Units: {found.unit.units}. {found.unit.reason}")
+        said.append(message(f"Units: {arg(found.unit.units)}. {arg(found.unit.reason)}"))
     if found.genus:
-        said.append(f"The surface has {_count(found.genus, 'handle')}: openings that go right through.")
+        said.append(
+            message(f"The surface has {arg(_count(found.genus, _HANDLES))}: openings that go right through.")
+        )
     return tuple(said)
 
 
@@ -93,24 +118,32 @@ def _openings(found: Inspection) -> Iterator[MeshFinding]:
     if found.seam_vertices:
         yield MeshFinding(
             "doubt",
-            f"Seams are not joined: {_count(found.seam_vertices, 'vertex', 'vertices')} of open"
-            " edges lie right beside another edge. The surface looks closed there but counts as"
-            " open. Export again with a finer tolerance, or make the outer shell.",
+            message(
+                f"Seams are not joined: {arg(_count(found.seam_vertices, _VERTICES))} of open"
+                " edges lie right beside another edge. The surface looks closed there but counts as"
+                " open. Export again with a finer tolerance, or make the outer shell."
+            ),
         )
     if found.hole_count:
         holes = found.holes[:_NAMED]
         widths = ", ".join(_length(hole.widest_m) for hole in holes)
-        which = "It is" if found.hole_count == 1 else f"The {len(holes)} widest are"
+        which = message("It is") if found.hole_count == 1 else message(f"The {arg(len(holes))} widest are")
         yield MeshFinding(
             "fault",
-            f"The surface has {_count(found.hole_count, 'hole')}. {which} {widths} wide. A line of force can pass"
-            f" through a hole and end on an inner wall, far from the true contact. {_SHELL}",
+            message(
+                f"The surface has {arg(_count(found.hole_count, _HOLES))}. {arg(which)} {arg(widths)} wide."
+                " A line of force can pass through a hole and end on an inner wall, far from the true"
+                f" contact. {arg(_SHELL)}"
+            ),
         )
     if found.joined_edges:
         yield MeshFinding(
             "fault",
-            f"More than two facets meet at {_count(found.joined_edges, 'edge')}, so inside and outside cannot be told"
-            f" apart there: walls are joined, or bodies touch along an edge. {_SHELL}",
+            message(
+                f"More than two facets meet at {arg(_count(found.joined_edges, _EDGES))}, so inside and"
+                " outside cannot be told apart there: walls are joined, or bodies touch along an edge."
+                f" {arg(_SHELL)}"
+            ),
         )
 
 
@@ -122,43 +155,51 @@ def _sides(found: Inspection) -> Iterator[MeshFinding]:
     if _inside_out(found):
         yield MeshFinding(
             "fault",
-            "The mesh is inside out: its facets face inwards, so contacts would be found on the"
-            " far side of the probe. Flip all normals in the CAD program, or make the outer"
-            " shell, which flips them.",
+            message(
+                "The mesh is inside out: its facets face inwards, so contacts would be found on the"
+                " far side of the probe. Flip all normals in the CAD program, or make the outer"
+                " shell, which flips them."
+            ),
         )
     elif seen.turned_share > _SOME:
         turned = sum(1 for part in found.parts if (part.turned_share or 0) > 0.5)
-        whole = f", {_count(turned, 'whole part')} among them" if turned else ""
+        whole = message(f", {arg(_count(turned, _WHOLE_PARTS))} among them") if turned else ""
         yield MeshFinding(
             "fault",
-            f"Facets with {_percent(seen.turned_share)} of the area show their back to the outside{whole}."
-            " Contacts there are missed, or found on the far side. Make the normals consistent in the CAD"
-            " program, or make the outer shell.",
+            message(
+                f"Facets with {arg(_percent(seen.turned_share))} of the area show their back to the"
+                f" outside{arg(whole)}. Contacts there are missed, or found on the far side. Make the"
+                " normals consistent in the CAD program, or make the outer shell."
+            ),
         )
     if not found.health.winding_consistent:
         yield MeshFinding(
             "fault",
-            "Neighbouring facets disagree about which side is outside. "
+            message("Neighbouring facets disagree about which side is outside. ")
             + (
                 ""
                 if sheet
-                else "All visible facets face outwards; only hidden ones disagree. "
+                else message("All visible facets face outwards; only hidden ones disagree. ")
                 if seen.turned_share <= _SOME
-                else "Contacts on flipped facets are missed. "
+                else message("Contacts on flipped facets are missed. ")
             )
-            + "Make the normals consistent in the CAD program, or make the outer shell.",
+            + message("Make the normals consistent in the CAD program, or make the outer shell."),
         )
     if sheet:
         yield MeshFinding(
             "fault",
-            f"The mesh is an open sheet: {_percent(seen.two_sided_share)} of the area can be seen from both sides, so"
-            " it has no inside. Export the whole part as a solid.",
+            message(
+                f"The mesh is an open sheet: {arg(_percent(seen.two_sided_share))} of the area can be seen"
+                " from both sides, so it has no inside. Export the whole part as a solid."
+            ),
         )
     elif seen.two_sided_share > _OPEN:
         yield MeshFinding(
             "doubt",
-            f"{_share(seen.two_sided_share)} of the area can be seen from both sides, like a sheet or an open"
-            " bowl: it has no thickness. Check that the whole housing was exported, as a solid.",
+            message(
+                f"{arg(_share(seen.two_sided_share))} of the area can be seen from both sides, like a sheet or an open"
+                " bowl: it has no thickness. Check that the whole housing was exported, as a solid."
+            ),
         )
 
 
@@ -174,28 +215,33 @@ def _insides(found: Inspection) -> Iterator[MeshFinding]:
         if little > _DEEP:
             yield MeshFinding(
                 "note",
-                f"{_share(little)} of the area has little or no view of the outside: grooves,"
-                " bores and gaps, which the outer shell keeps. A finger hardly reaches there.",
+                message(
+                    f"{arg(_share(little))} of the area has little or no view of the outside: grooves,"
+                    " bores and gaps, which the outer shell keeps. A finger hardly reaches there."
+                ),
             )
     else:
         yield from _recesses(found)
     if found.part_count > 1:
-        sizes = ", ".join(_size(part) for part in found.parts[:_NAMED])
-        more = ", and others" if found.part_count > _NAMED else ""
-        said = f"The mesh has {found.part_count} separate parts ({sizes}{more})"
+        sizes = join(", ", (_size(part) for part in found.parts[:_NAMED]))
+        more = message(", and others") if found.part_count > _NAMED else ""
+        said = message(f"The mesh has {arg(found.part_count)} separate parts ({arg(sizes)}{arg(more)})")
         speck = found.parts[1].area_m2 < _SPECK * found.parts[0].area_m2
         if not found.soundness.sound:
-            yield MeshFinding("doubt", f"{said}. Simplification treats each by itself.")
+            yield MeshFinding("doubt", message(f"{arg(said)}. Simplification treats each by itself."))
         elif speck:
             yield MeshFinding(
-                "note", f"{said}. All but the largest are specks, which the preparation leaves out."
+                "note",
+                message(f"{arg(said)}. All but the largest are specks, which the preparation leaves out."),
             )
         else:
             yield MeshFinding(
                 "doubt",
-                f"{said}; none lies inside another. The preparation needs a single body: delete"
-                " everything that is not the probe in the CAD program, or bridge a narrow gap"
-                " with a larger --gap.",
+                message(
+                    f"{arg(said)}; none lies inside another. The preparation needs a single body: delete"
+                    " everything that is not the probe in the CAD program, or bridge a narrow gap"
+                    " with a larger --gap."
+                ),
             )
 
 
@@ -205,42 +251,53 @@ def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
     if found.overlapping_parts:
         yield MeshFinding(
             "fault",
-            f"{found.overlapping_parts} of the {found.part_count} parts overlap, so walls of one"
-            " lie inside another. Merge them in the CAD program, or make the outer shell before"
-            " use.",
+            message(
+                f"{arg(found.overlapping_parts)} of the {arg(found.part_count)} parts overlap, so walls of one"
+                " lie inside another. Merge them in the CAD program, or make the outer shell before"
+                " use."
+            ),
         )
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
-        whole = f" ({parts} of the {found.part_count} parts entirely)" if parts else ""
+        whole = message(f" ({arg(parts)} of the {arg(found.part_count)} parts entirely)") if parts else ""
         yield MeshFinding(
             "fault",
-            f"{_share(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner"
-            f" walls or parts that cannot be touched, but that a line of force can hit. {_SHELL}",
+            message(
+                f"{arg(_share(seen.hidden_share))} of the area cannot be seen from outside{arg(whole)}: inner"
+                f" walls or parts that cannot be touched, but that a line of force can hit. {arg(_SHELL)}"
+            ),
         )
     elif nested:
         yield MeshFinding(
             "fault",
-            f"{_count(nested, 'closed part lies', 'closed parts lie')} inside the body. They"
-            f" cannot be touched, but a line of force can hit them. {_SHELL}",
+            message(
+                f"{arg(_count(nested, _CLOSED_PARTS))} inside the body. They"
+                f" cannot be touched, but a line of force can hit them. {arg(_SHELL)}"
+            ),
         )
     if seen.sheltered_share > _DEEP:
         yield MeshFinding(
             "doubt",
-            f"{_share(seen.sheltered_share)} of the area is visible from outside only through"
-            " narrow openings, or lies deep in grooves. If these are inner walls behind a hole,"
-            f" contacts can be placed on them. {_SHELL}",
+            message(
+                f"{arg(_share(seen.sheltered_share))} of the area is visible from outside only through"
+                " narrow openings, or lies deep in grooves. If these are inner walls behind a hole,"
+                f" contacts can be placed on them. {arg(_SHELL)}"
+            ),
         )
     if seen.double_wall_share > _DEEP and seen.wall_m is not None:
         if seen.wall_m < _COPY * found.size_m:
             yield MeshFinding(
                 "fault",
-                f"The surface is doubled: behind {_percent(seen.double_wall_share)} of the outside"
-                f" lies a second surface, typically {_length(seen.wall_m)} away. A force meets two"
-                f" surfaces at once. {_SHELL}",
+                message(
+                    f"The surface is doubled: behind {arg(_percent(seen.double_wall_share))} of the outside"
+                    f" lies a second surface, typically {arg(_length(seen.wall_m))} away. A force meets two"
+                    f" surfaces at once. {arg(_SHELL)}"
+                ),
             )
         else:
             yield MeshFinding(
-                "fault" if seen.double_wall_share > _HOLLOW else "doubt", f"{_hollow(seen)} {_SHELL}"
+                "fault" if seen.double_wall_share > _HOLLOW else "doubt",
+                message(f"{arg(_hollow(seen))} {arg(_SHELL)}"),
             )
 
 
@@ -254,28 +311,28 @@ def _recesses(found: Inspection) -> Iterator[MeshFinding]:
     bottle = hollow and found.genus == 0
     yield MeshFinding(
         "fault" if bottle else "doubt",
-        (f"{_hollow(seen)} " if hollow else "")
-        + " ".join(_unseen(seen))
-        + ("" if hollow else " If these are inner walls, contacts can be placed on them.")
-        + f" {_SHELL if bottle else _IF_CAVITY}",
+        (message(f"{arg(_hollow(seen))} ") if hollow else "")
+        + join(" ", _unseen(seen))
+        + ("" if hollow else message(" If these are inner walls, contacts can be placed on them."))
+        + message(f" {arg(_SHELL if bottle else _IF_CAVITY)}"),
     )
 
 
 def _unseen(seen: Visibility) -> Iterator[str]:
     if seen.hidden_share > _NONE:
-        yield f"{_share(seen.hidden_share)} of the area cannot be seen from outside."
+        yield message(f"{arg(_share(seen.hidden_share))} of the area cannot be seen from outside.")
     if seen.sheltered_share > _NONE:
-        yield (
-            f"{_share(seen.sheltered_share)} of the area has a view of the outside only through"
+        yield message(
+            f"{arg(_share(seen.sheltered_share))} of the area has a view of the outside only through"
             " narrow openings or from deep grooves."
         )
 
 
 def _hollow(seen: Visibility) -> str:
-    return (
-        f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall,"
-        f" typically {_length(seen.wall_m or 0.0)} thick, with a space behind it that can hardly be seen from outside."
-        " Contacts can be placed on the inner side of the wall, and facets are wasted on it."
+    return message(
+        f"The probe is hollow: {arg(_percent(seen.double_wall_share))} of the outside is a wall, typically"
+        f" {arg(_length(seen.wall_m or 0.0))} thick, with a space behind it that can hardly be seen from"
+        " outside. Contacts can be placed on the inner side of the wall, and facets are wasted on it."
     )
 
 
@@ -284,35 +341,43 @@ def _facets(found: Inspection) -> Iterator[MeshFinding]:
     if health.duplicate_facets:
         yield MeshFinding(
             "fault",
-            f"{_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates')}"
-            " of another, with the same corners and the same side. They give double answers and"
-            " slow the search. Remove duplicates in the CAD program, or make the outer shell.",
+            message(
+                f"{arg(_count(health.duplicate_facets, _DUPLICATES))}"
+                " of another, with the same corners and the same side. They give double answers and"
+                " slow the search. Remove duplicates in the CAD program, or make the outer shell."
+            ),
         )
     if found.back_to_back:
         yield MeshFinding(
             "fault",
-            f"{_count(found.back_to_back, 'facet stands', 'facets stand')} back to back with another that has the same"
-            " corners: a doubled surface or sheet that shows its front on both sides, or parts that touch. A force"
-            f" meets two surfaces at once. {_SHELL}",
+            message(
+                f"{arg(_count(found.back_to_back, _STANDING))} back to back with"
+                " another that has the same corners: a doubled surface or sheet that shows its front on"
+                f" both sides, or parts that touch. A force meets two surfaces at once. {arg(_SHELL)}"
+            ),
         )
     if slivers.count:
         share = slivers.count / found.facets
         yield MeshFinding(
             "doubt" if share > 0.1 and not found.shell_made else "note",
-            f"{_count(slivers.count, 'facet')} ({_percent(share)}) are slivers with an angle under"
-            f" 1°; the worst is {slivers.worst_aspect:,.0f} times longer than high. They are"
-            " common in CAD exports, make normals uncertain and simplification worse."
+            message(
+                f"{arg(_count(slivers.count, _FACETS))} ({arg(_percent(share))}) are slivers with an angle under"
+                f" 1°; the worst is {arg(slivers.worst_aspect):,.0f} times longer than high. They are"
+                " common in CAD exports, make normals uncertain and simplification worse."
+            )
             + (
                 ""
                 if found.shell_made
-                else " Simplify the mesh, or export it with a limit on the aspect ratio."
+                else message(" Simplify the mesh, or export it with a limit on the aspect ratio.")
             ),
         )
     if health.dropped_facets:
         yield MeshFinding(
             "note",
-            f"{_count(health.dropped_facets, 'facet')} without area were left out. They cannot be touched, but may"
-            " have closed a seam.",
+            message(
+                f"{arg(_count(health.dropped_facets, _FACETS))} without area were left out. They cannot be"
+                " touched, but may have closed a seam."
+            ),
         )
 
 
@@ -325,9 +390,11 @@ def _rest(found: Inspection) -> Iterator[MeshFinding]:
     if len(sound.folded_facets):
         yield MeshFinding(
             "fault",
-            f"{_count(len(sound.folded_facets), 'thin facet folds', 'thin facets fold')} back onto a neighbour."
-            " Contacts there are missed or found on the far side. "
-            + ("Prepare the mesh again with more facets." if found.shell_made else _SHELL),
+            message(
+                f"{arg(_count(len(sound.folded_facets), _FOLDED))} back onto"
+                " a neighbour. Contacts there are missed or found on the far side. "
+            )
+            + (message("Prepare the mesh again with more facets.") if found.shell_made else _SHELL),
         )
     rest = replace(
         sound,
@@ -347,41 +414,45 @@ def _vertices(found: Inspection) -> Iterator[MeshFinding]:
     if file is not None and file.shared and file.surplus_vertices:
         yield MeshFinding(
             "note",
-            f"{_count(file.surplus_vertices, 'vertex', 'vertices')} in the file were double or unused and have been"
-            " merged or left out.",
+            message(
+                f"{arg(_count(file.surplus_vertices, _VERTICES))} in the file were double or"
+                " unused and have been merged or left out."
+            ),
         )
     # Where the surface is closed they are there on purpose: bodies that touch in a point or an edge.
     if found.coincident_vertices and found.hole_count:
         yield MeshFinding(
             "doubt",
-            f"{_count(found.coincident_vertices, 'vertex', 'vertices')} lie exactly on another but"
-            " are not merged, so the surface falls apart there. Save the mesh to a file and read"
-            " it again to merge them.",
+            message(
+                f"{arg(_count(found.coincident_vertices, _VERTICES))} lie exactly on another but"
+                " are not merged, so the surface falls apart there. Save the mesh to a file and read"
+                " it again to merge them."
+            ),
         )
 
 
 def _parts(count: int) -> str:
-    return "one part" if count == 1 else f"{count} separate parts"
+    return message("one part") if count == 1 else message(f"{arg(count)} separate parts")
 
 
 def _size(part: MeshPart) -> str:
     return " x ".join(f"{1e3 * extent:.3g}" for extent in part.extents_m) + " mm"
 
 
-def _count(number: int, one: str, many: str | None = None) -> str:
-    return f"{number:,} {one if number == 1 else many or one + 's'}"
+def _count(number: int, things: tuple[str, str]) -> str:
+    one, many = things
+    return message(f"{arg(number):,} {arg(one if number == 1 else many)}")
 
 
 def _percent(share: float) -> str:
     if share >= 0.995:
-        return "nearly all" if share < 1 else "all"
+        return message("nearly all") if share < 1 else message("all")
     return f"{100 * share:.0f} %" if share >= 0.095 else f"{100 * share:.1f} %"
 
 
 def _share(share: float) -> str:
     """Give the same at the beginning of a sentence."""
-    said = _percent(share)
-    return said[0].upper() + said[1:]
+    return capitalised(_percent(share))
 
 
 def _length(metres: float) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.regions.errors import RegionError
 
@@ -120,12 +121,12 @@ def _same_facets(old: Mesh, new: Mesh, vertex_map: npt.ArrayLike) -> npt.NDArray
     count = len(old[0])
     if mapping.shape != (len(new[0]),) or mapping.dtype.kind not in "iu":
         raise RegionError(
-            f"the vertex map is {mapping.dtype} of shape {mapping.shape}, but the new mesh has {len(new[0])}"
-            " vertices: give one old vertex number each, -1 for none."
+            f"the vertex map is {arg(mapping.dtype)} of shape {arg(mapping.shape)}, but the new mesh has"
+            f" {arg(len(new[0]))} vertices: give one old vertex number each, -1 for none."
         )
     if mapping.size and (mapping.min() < -1 or mapping.max() >= count):
         raise RegionError(
-            f"the vertex map names vertex {int(mapping.max())} or one below -1, but the old mesh has {count}"
+            f"the vertex map names vertex {arg(int(mapping.max()))} or one below -1, but the old mesh has {arg(count)}"
             " vertices: it belongs to another mesh."
         )
     ours, theirs = np.sort(old[1].astype(np.int64)), np.sort(mapping.astype(np.int64)[new[1]])

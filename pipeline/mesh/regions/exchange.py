@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
@@ -27,9 +28,9 @@ SIZE_LIMIT = 64 * 2**20  # bytes; half a million scattered facets take a tenth o
 
 _CSV = Wording(
     header="face,region",
-    rows="facets and regions",
-    meaning="the facet, counted from 0, and the rank of its region, 0 for none",
-    not_finite="write the number of a facet or region.",
+    rows=message("facets and regions"),
+    meaning=message("the facet, counted from 0, and the rank of its region, 0 for none"),
+    not_finite=message("write the number of a facet or region."),
     error=RegionError,
 )
 
@@ -85,12 +86,14 @@ def decode_json(data: bytes, probe: Probe) -> RegionSet:
     version = _of(document, "version", int)
     if version != VERSION:
         raise RegionError(
-            f"these regions have the format {version}, not {VERSION}: use a newer contactbench."
+            f"these regions have the format {arg(version)}, not {arg(VERSION)}: use a newer contactbench."
         )
     _check_mesh(_of(document, "mesh", dict), probe)
     entries = _of(document, "regions", list)
     if len(entries) > MOST_REGIONS:
-        raise RegionError(f"the file holds {len(entries)} regions, more than {MOST_REGIONS}: merge some.")
+        raise RegionError(
+            f"the file holds {arg(len(entries))} regions, more than {arg(MOST_REGIONS)}: merge some."
+        )
     labels = np.zeros(len(probe.faces), dtype=np.int32)
     listed = []
     for rank, entry in enumerate(entries, 1):
@@ -104,7 +107,7 @@ def parse_json(data: bytes) -> dict[str, Any]:
     try:
         document = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_once, parse_constant=_no_constant)
     except (ValueError, RecursionError) as error:  # UnicodeDecodeError and JSONDecodeError are ValueErrors
-        raise RegionError(f"this is not a JSON file ({error}): copy or export it again.") from error
+        raise RegionError(f"this is not a JSON file ({arg(error)}): copy or export it again.") from error
     if not isinstance(document, dict):
         raise RegionError("the JSON file does not hold one object in {}: choose another file.")
     return document
@@ -119,7 +122,7 @@ def write_region(region: Region) -> dict[str, Any]:
 def read_region(entry: object, rank: int) -> Region:
     """Return one region of a file, its facets apart; RegionError without a name or colour, or for another mark."""
     if not isinstance(entry, dict):
-        raise RegionError(f"region {rank} of the file is not an object with a name and a colour.")
+        raise RegionError(f"region {arg(rank)} of the file is not an object with a name and a colour.")
     untouchable = "untouchable" in entry and _of(entry, "untouchable", bool)
     return Region(_of(entry, "name", str), _of(entry, "colour", str), untouchable)
 
@@ -151,20 +154,23 @@ def decode_csv(source: File | io.BytesIO, facet_count: int) -> npt.NDArray[np.in
         reader.select(("face", "region"))
 
     rows = read_table(source, select, _CSV, row_limit=facet_count)
-    name = source if isinstance(source, File) else "the table"
+    name = source if isinstance(source, File) else message("the table")
     for column, limit in (("face", facet_count - 1), ("region", MOST_REGIONS)):
         values = rows.column(column)
         bad = (values != np.floor(values)) | (values < 0) | (values > limit)
         if bad.any():
             row = int(np.argmax(bad))
             raise RegionError(
-                f"{name}: line {rows.lines[row]}: {column} is {values[row]:g}, not a whole number from 0 to {limit}."
+                f"{arg(name)}: line {arg(rows.lines[row])}: {arg(column)} is {arg(values[row]):g}, not a"
+                f" whole number from 0 to {arg(limit)}."
             )
     face = rows.column("face").astype(np.int64)
     _, first = np.unique(face, return_index=True)
     if len(first) < len(face):
         row = int(np.setdiff1d(np.arange(len(face)), first)[0])
-        raise RegionError(f"{name}: line {rows.lines[row]}: facet {face[row]} occurs twice: keep one row.")
+        raise RegionError(
+            f"{arg(name)}: line {arg(rows.lines[row])}: facet {arg(face[row])} occurs twice: keep one row."
+        )
     labels = np.zeros(facet_count, dtype=np.int32)
     labels[face] = rows.column("region").astype(np.int32)
     return labels
@@ -174,13 +180,13 @@ def save_regions(regions: RegionSet, probe: Probe, file: Path) -> None:
     """Write .json or .csv, in one step; RegionError for another suffix or where that fails."""
     suffix = file.suffix.lower()
     if suffix not in {".json", ".csv"}:
-        raise RegionError(f"{file}: regions are written as .json or .csv: end the name in one of them.")
+        raise RegionError(f"{arg(file)}: regions are written as .json or .csv: end the name in one of them.")
     data = encode_json(regions, probe) if suffix == ".json" else encode_csv(regions)
     try:
         write_durably(file, data)
     except (OSError, ValueError) as error:
         raise RegionError(
-            f"{file}: the regions cannot be written ({error}): choose another location."
+            f"{arg(file)}: the regions cannot be written ({arg(error)}): choose another location."
         ) from error
 
 
@@ -190,11 +196,11 @@ def load_regions(file: File, probe: Probe) -> RegionSet:
     if suffix == ".csv":
         return RegionSet.from_labels(decode_csv(file, len(probe.faces)))
     if suffix != ".json":
-        raise RegionError(f"{file}: regions are read from .json or .csv: choose one of them.")
+        raise RegionError(f"{arg(file)}: regions are read from .json or .csv: choose one of them.")
     try:
         return decode_json(read_limited(file), probe)
     except RegionError as error:
-        raise RegionError(f"{file}: {error}") from error
+        raise RegionError(f"{arg(file)}: {arg(error)}") from error
 
 
 def read_limited(file: File) -> bytes:
@@ -203,10 +209,10 @@ def read_limited(file: File) -> bytes:
         with file.open("rb") as stream:
             data = stream.read(SIZE_LIMIT + 1)
     except (OSError, ValueError) as error:
-        raise RegionError(f"the file cannot be read ({error}): check the path.") from error
+        raise RegionError(f"the file cannot be read ({arg(error)}): check the path.") from error
     if len(data) > SIZE_LIMIT:
         raise RegionError(
-            f"the file is larger than {SIZE_LIMIT // 2**20} MiB, too large for regions: choose another."
+            f"the file is larger than {arg(SIZE_LIMIT // 2**20)} MiB, too large for regions: choose another."
         )
     return data
 
@@ -223,41 +229,43 @@ def _fill(labels: npt.NDArray[np.int32], rank: int, runs: list[Any], name: str) 
     for number, run in enumerate(runs):
         if not (isinstance(run, list) and len(run) == 2 and all(type(value) is int for value in run)):
             raise RegionError(
-                f"region {name!r}: facets[{number}] is not a run [first, count] of two integers."
+                f"region {arg(name)!r}: facets[{arg(number)}] is not a run [first, count] of two integers."
             )
         first, count = run
         if not (first >= 0 and 0 < count <= len(labels) - first):
             raise RegionError(
-                f"region {name!r}: facets[{number}] is {str(run)[:60]}, but facets run from 0 to {len(labels) - 1}."
+                f"region {arg(name)!r}: facets[{arg(number)}] is {arg(str(run)[:60])}, but facets run from 0"
+                f" to {arg(len(labels) - 1)}."
             )
         part = labels[first : first + count]
         if part.any():
             face = first + int(np.argmax(part != 0))
             raise RegionError(
-                f"region {name!r}: facet {face} is listed twice: a facet has at most one region."
+                f"region {arg(name)!r}: facet {arg(face)} is listed twice: a facet has at most one region."
             )
         part[:] = rank
 
 
 def _check_mesh(mesh: dict[str, Any], probe: Probe) -> None:
     facets = _of(mesh, "facets", int)
-    remedy = "Transfer them from their own mesh instead (contactbench probe regions transfer)."
+    remedy = message("Transfer them from their own mesh instead (contactbench probe regions transfer).")
     if facets != len(probe.faces):
         raise RegionError(
-            f"the regions are for a mesh of {str(facets)[:20]} facets, this one has {len(probe.faces)}. {remedy}"
+            f"the regions are for a mesh of {arg(str(facets)[:20])} facets, this one has"
+            f" {arg(len(probe.faces))}. {arg(remedy)}"
         )
     if _of(mesh, "sha256", str) != mesh_hash(probe):
         raise RegionError(
-            f"the regions are for another mesh of {facets} facets: its vertices or faces differ. {remedy}"
+            f"the regions are for another mesh of {arg(facets)} facets: its vertices or faces differ. {arg(remedy)}"
         )
 
 
 def _of(part: dict[str, Any], key: str, kind: type[Any]) -> Any:
     value = part.get(key)
     if type(value) is not kind:  # True is an int to isinstance
-        found = "is missing" if key not in part else f"is {type(value).__name__}"
+        found = message("is missing") if key not in part else f"is {type(value).__name__}"
         raise RegionError(
-            f"{key!r} {found} in the JSON file, where {kind.__name__} belongs: export it again."
+            f"{arg(key)!r} {arg(found)} in the JSON file, where {arg(kind.__name__)} belongs: export it again."
         )
     return value
 
@@ -267,9 +275,9 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(result) < len(pairs):
         names = [name for name, _ in pairs]
         twice = next(name for name, count in Counter(names).items() if count > 1)
-        raise RegionError(f"the key {twice[:40]!r} occurs twice in one object: keep one.")
+        raise RegionError(f"the key {arg(twice[:40])!r} occurs twice in one object: keep one.")
     return result
 
 
 def _no_constant(text: str) -> float:
-    raise RegionError(f"{text} is not a valid JSON number: export the file again.")
+    raise RegionError(f"{arg(text)} is not a valid JSON number: export the file again.")

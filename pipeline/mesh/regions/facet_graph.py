@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
 from contactbench.pipeline.mesh.regions.errors import RegionError
 
@@ -103,8 +104,8 @@ class FacetGraph:
             far = int(np.argmin(distances <= within))
             place = ", ".join(f"{1e3 * value:g}" for value in rows[far])
             raise RegionError(
-                f"the point {place} mm is {1e3 * distances[far]:.3g} mm from the surface, more"
-                f" than {1e3 * within:.3g} mm: give a point on the surface, in mm and in the"
+                f"the point {arg(place)} mm is {arg(1e3 * distances[far]):.3g} mm from the surface, more"
+                f" than {arg(1e3 * within):.3g} mm: give a point on the surface, in mm and in the"
                 " probe's frame."
             )
         return faces, nearest
@@ -120,5 +121,7 @@ class FacetGraph:
     def check_face(self, face: int) -> int:
         """Return the facet number; RegionError if the mesh has no such facet."""
         if not 0 <= face < self.facet_count:
-            raise RegionError(f"facet {face} does not exist: they run from 0 to {self.facet_count - 1}.")
+            raise RegionError(
+                f"facet {arg(face)} does not exist: they run from 0 to {arg(self.facet_count - 1)}."
+            )
         return int(face)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.selections import unit, vector
 
@@ -43,10 +44,10 @@ class Mirrored:
         """How well it went."""
         found = int(np.count_nonzero(self.mask))
         if len(self.unmatched) == 0:
-            return f"{found} facets mirrored; every one has a counterpart."
-        return (
-            f"{found} facets mirrored; {len(self.unmatched)} have no counterpart within"
-            f" {1e3 * self.tolerance:.3g} mm: the surface is not symmetric there."
+            return message(f"{arg(found)} facets mirrored; every one has a counterpart.")
+        return message(
+            f"{arg(found)} facets mirrored; {arg(len(self.unmatched))} have no counterpart within"
+            f" {arg(1e3 * self.tolerance):.3g} mm: the surface is not symmetric there."
         )
 
 
@@ -85,7 +86,7 @@ def mirror(
     n, p = unit(normal, "normal"), vector(point, "point")
     reach = _edge(graph) if tolerance is None else float(tolerance)
     if not (math.isfinite(reach) and reach > 0):
-        raise RegionError(f"a tolerance of {tolerance} m is not valid: give a length above 0.")
+        raise RegionError(f"a tolerance of {arg(tolerance)} m is not valid: give a length above 0.")
     centres, normals = graph.centroids, graph.probe.normals
     images = centres - 2 * np.outer((centres - p) @ n, n)
     turned = normals - 2 * np.outer(normals @ n, n)

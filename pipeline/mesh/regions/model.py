@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.history import RegionEdit, RegionHistory, RegionSteps
 from contactbench.pipeline.mesh.regions.region import (
@@ -139,14 +140,14 @@ class RegionModel:
         """Put the regions in another order: `order` lists all present ranks, first priority first."""
         if sorted(order) != list(range(1, len(self._regions) + 1)):
             raise RegionError(
-                f"{list(order)} is not an order of {len(self._regions)} regions: name every rank once."
+                f"{arg(list(order))} is not an order of {arg(len(self._regions))} regions: name every rank once."
             )
         table = np.zeros(len(order) + 1, dtype=np.int32)
         table[list(order)] = np.arange(1, len(order) + 1)
         if list(order) == sorted(order):
             return
         regions = tuple(self._regions[rank - 1] for rank in order)
-        self._do(self._step("reorder regions", regions, table, _NO_FACES, _NO_FACES))
+        self._do(self._step(message("reorder regions"), regions, table, _NO_FACES, _NO_FACES))
 
     def move(self, rank: int, to: int) -> None:
         """Give a region another rank; those between move by one."""
@@ -184,7 +185,7 @@ class RegionModel:
         old = self._labels[chosen]
         changed: Ints = chosen[(old != rank) & ((old == 0) | (not protect))]
         new = np.full(len(changed), rank, dtype=np.int32)
-        self._do(self._step(text or f"assign to {name}", self._regions, None, changed, new))
+        self._do(self._step(text or message(f"assign to {arg(name)}"), self._regions, None, changed, new))
         return changed
 
     def set_region(
@@ -222,12 +223,12 @@ class RegionModel:
         name = self._region(rank).name
         return self.set_region(rank, self._labels == 0, text=f"invert {name}")
 
-    def replace_all(self, other: RegionSet, *, text: str = "import regions") -> None:
+    def replace_all(self, other: RegionSet, *, text: str = message("import regions")) -> None:
         """Take over other regions of the same mesh, as one step."""
         if len(other.labels) != len(self._labels):
             raise RegionError(
-                f"these regions are for a mesh of {len(other.labels)} facets, this one has {len(self._labels)}:"
-                " transfer them from their mesh instead."
+                f"these regions are for a mesh of {arg(len(other.labels))} facets, this one has"
+                f" {arg(len(self._labels))}: transfer them from their mesh instead."
             )
         table = np.zeros(len(self._regions) + 1, dtype=np.int32)
         faces = np.flatnonzero(self._labels | other.labels).astype(np.int32)
@@ -239,7 +240,8 @@ class RegionModel:
         self._region(rank)
         if graph.facet_count != len(self._labels):
             raise RegionError(
-                f"the mesh has {graph.facet_count} facets, but the regions {len(self._labels)}: load both again."
+                f"the mesh has {arg(graph.facet_count)} facets, but the regions {arg(len(self._labels))}:"
+                " load both again."
             )
         self._stroke = Stroke(graph, brush, rank, self._labels, self._emit_faces, self._end_stroke)
         return self._stroke
@@ -319,7 +321,7 @@ class RegionModel:
     def _region(self, rank: int) -> Region:
         if not 1 <= rank <= len(self._regions):
             raise RegionError(
-                f"there is no region of rank {rank}: there are {len(self._regions)}, numbered from 1."
+                f"there is no region of rank {arg(rank)}: there are {arg(len(self._regions))}, numbered from 1."
             )
         return self._regions[rank - 1]
 
@@ -337,7 +339,7 @@ class RegionModel:
             table.shape == (ranks[0] + 1,) and table.min() >= 0 and table.max() <= ranks[1]
         )
         if side != regions or not (known and renumbers):
-            raise RegionError(f"the step {step.text!r} does not belong to these regions.")
+            raise RegionError(f"the step {arg(step.text)!r} does not belong to these regions.")
 
     def _with(self, rank: int, region: Region) -> tuple[Region, ...]:
         return (*self._regions[: rank - 1], region, *self._regions[rank:])
@@ -351,11 +353,11 @@ class RegionModel:
             return _NO_FACES
         if array.ndim != 1 or array.dtype.kind not in "iu":
             raise RegionError(
-                f"facets are {array.dtype} of shape {array.shape}: give their numbers, or one bool per facet."
+                f"facets are {arg(array.dtype)} of shape {arg(array.shape)}: give their numbers, or one bool per facet."
             )
         if array.min() < 0 or array.max() >= count:
             bad = int(array.min() if array.min() < 0 else array.max())
-            raise RegionError(f"facet {bad} does not exist: they run from 0 to {count - 1}.")
+            raise RegionError(f"facet {arg(bad)} does not exist: they run from 0 to {arg(count - 1)}.")
         return np.unique(array).astype(np.int32)
 
     def _step(

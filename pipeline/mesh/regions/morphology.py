@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, diags_array
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.selections import component_labels
 
@@ -163,5 +164,5 @@ def _check_amount(rings: int, distance: float) -> None:
     if not (0 <= rings <= _MOST_RINGS and distance >= 0 and math.isfinite(distance)):
         what = f"{rings} rings" if rings else f"{distance} m"
         raise RegionError(
-            f"{what} is not a valid distance: give 1 to {_MOST_RINGS} rings, or a length above 0."
+            f"{arg(what)} is not a valid distance: give 1 to {arg(_MOST_RINGS)} rings, or a length above 0."
         )

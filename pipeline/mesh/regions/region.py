@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.colours import PALETTE
 from contactbench.pipeline.mesh.probe import check_region
 from contactbench.pipeline.mesh.regions.errors import RegionError
@@ -54,7 +55,7 @@ class Region:
         colour = self.colour.lower()
         if not _COLOUR.fullmatch(colour):
             raise RegionError(
-                f"region {self.name!r}: {self.colour[:40]!r} is not a colour: write it as #rrggbb."
+                f"region {arg(self.name)!r}: {arg(self.colour[:40])!r} is not a colour: write it as #rrggbb."
             )
         object.__setattr__(self, "colour", colour)
 
@@ -63,12 +64,12 @@ def _checked_name(name: str) -> str:
     text = unicodedata.normalize("NFC", name).strip()
     if not text or len(text) > LONGEST_NAME:
         raise RegionError(
-            f"a region is called {name[:LONGEST_NAME]!r} ({len(text)} characters): give it a name of 1 to"
-            f" {LONGEST_NAME} characters."
+            f"a region is called {arg(name[:LONGEST_NAME])!r} ({arg(len(text))} characters): give it a name of 1 to"
+            f" {arg(LONGEST_NAME)} characters."
         )
     if not text.isprintable():
         raise RegionError(
-            f"the region name {text!r} contains characters that cannot be displayed: leave them out."
+            f"the region name {arg(text)!r} contains characters that cannot be displayed: leave them out."
         )
     return text
 
@@ -103,8 +104,8 @@ class RegionSet:
         if highest > len(self.regions):
             face = int(np.argmax(labels > len(self.regions)))
             raise RegionError(
-                f"facet {face} has the region {labels[face]}, but there are {len(self.regions)} regions: add"
-                " the missing ones, or use ranks from 0."
+                f"facet {arg(face)} has the region {arg(labels[face])}, but there are"
+                f" {arg(len(self.regions))} regions: add the missing ones, or use ranks from 0."
             )
         labels.flags.writeable = False
         object.__setattr__(self, "labels", labels)
@@ -144,7 +145,8 @@ class RegionSet:
         highest = int(ranks.max(initial=0))
         if highest > MOST_REGIONS:
             raise RegionError(
-                f"a facet has the region {highest}, but there may be at most {MOST_REGIONS}: number them from 1."
+                f"a facet has the region {arg(highest)}, but there may be at most {arg(MOST_REGIONS)}:"
+                " number them from 1."
             )
         known = list(regions)
         while len(known) < highest:
@@ -180,11 +182,13 @@ def check_list(regions: Sequence[Region]) -> None:
         More than 255, or a name that occurs twice.
     """
     if len(regions) > MOST_REGIONS:
-        raise RegionError(f"{len(regions)} regions, more than {MOST_REGIONS}: merge or remove some.")
+        raise RegionError(
+            f"{arg(len(regions))} regions, more than {arg(MOST_REGIONS)}: merge or remove some."
+        )
     names = [region.name for region in regions]
     if len(set(names)) < len(names):
         twice = next(name for name, count in Counter(names).items() if count > 1)
-        raise RegionError(f"two regions are called {twice!r}: rename one.")
+        raise RegionError(f"two regions are called {arg(twice)!r}: rename one.")
 
 
 def find_rank(regions: Sequence[Region], name: str) -> int:
@@ -193,8 +197,8 @@ def find_rank(regions: Sequence[Region], name: str) -> int:
     for rank, region in enumerate(regions, 1):
         if region.name == wanted:
             return rank
-    known = ", ".join(region.name for region in regions) or "none yet"
-    raise RegionError(f"there is no region {name[:LONGEST_NAME]!r}: choose one of: {known}.")
+    known = ", ".join(region.name for region in regions) or message("none yet")
+    raise RegionError(f"there is no region {arg(name[:LONGEST_NAME])!r}: choose one of: {arg(known)}.")
 
 
 def free_name(regions: Collection[Region]) -> str:

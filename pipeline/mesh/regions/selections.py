@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
@@ -46,9 +47,12 @@ def in_box(
     lower, upper = (vector(value, name, finite=False) for value, name in ((low, "low"), (high, "high")))
     if not (lower < upper).all():
         raise RegionError(
-            f"the box goes from {lower.tolist()} to {upper.tolist()} m: each low value must be below the high one."
+            f"the box goes from {arg(lower.tolist())} to {arg(upper.tolist())} m: each low value must be"
+            " below the high one."
         )
-    points = graph.centroids if p_SB_S is None else graph.centroids - vector(p_SB_S, "origin of the box")
+    points = (
+        graph.centroids if p_SB_S is None else graph.centroids - vector(p_SB_S, message("origin of the box"))
+    )
     if R_SB is not None:
         points = points @ _rotation(R_SB)
     inside: Mask = np.all((points >= lower) & (points <= upper), axis=1)
@@ -150,7 +154,7 @@ def unit(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     v = vector(values, name)
     length = float(np.linalg.norm(v))
     if not 1e-100 < length < 1e100:
-        raise RegionError(f"{name} {v.tolist()} has no direction: give a vector that is not zero.")
+        raise RegionError(f"{arg(name)} {arg(v.tolist())} has no direction: give a vector that is not zero.")
     return v / length
 
 
@@ -159,10 +163,12 @@ def vector(values: npt.ArrayLike, name: str, *, finite: bool = True) -> npt.NDAr
     try:
         v = np.asarray(values, dtype=np.float64)
     except (ValueError, TypeError) as error:
-        raise RegionError(f"{name} is not three numbers ({error}): give x, y and z.") from error
+        raise RegionError(f"{arg(name)} is not three numbers ({arg(error)}): give x, y and z.") from error
     bad = ~np.isfinite(v) if finite else np.isnan(v)
     if v.shape != (3,) or bad.any():
-        raise RegionError(f"{name} is {np.array2string(v, threshold=9)}: give three numbers x, y and z.")
+        raise RegionError(
+            f"{arg(name)} is {arg(np.array2string(v, threshold=9))}: give three numbers x, y and z."
+        )
     return v
 
 
@@ -175,4 +181,4 @@ def _rotation(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def _check_angle(angle: float) -> None:
     if not 0 <= angle <= math.pi:
-        raise RegionError(f"{angle} rad is not an angle between two directions: give 0 to 180 degrees.")
+        raise RegionError(f"{arg(angle)} rad is not an angle between two directions: give 0 to 180 degrees.")

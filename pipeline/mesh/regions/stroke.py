@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ class Brush:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.radius) and self.radius > 0):
-            raise RegionError(f"the brush has a radius of {self.radius} m: give a length above 0.")
+            raise RegionError(f"the brush has a radius of {arg(self.radius)} m: give a length above 0.")
 
 
 class Stroke:
@@ -110,7 +111,7 @@ class Stroke:
         self._refuse_ended()
         where = np.ascontiguousarray(point, dtype=np.float64)
         if where.shape != (3,) or not np.isfinite(where).all():
-            raise RegionError(f"the picked point {where.tolist()} is not a point in space: pick again.")
+            raise RegionError(f"the picked point {arg(where.tolist())} is not a point in space: pick again.")
         fresh = self._graph.geodesic.extend(self._graph.check_face(face), where, joined)
         old = self._labels[fresh]
         changes = self._changes(old)

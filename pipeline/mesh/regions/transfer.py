@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.errors import MeshWarning
 from contactbench.pipeline.mesh.regions.closest import carry_labels
 from contactbench.pipeline.mesh.regions.errors import RegionError
@@ -58,14 +59,14 @@ class RegionReport:
     def sentence(self) -> str:
         """The figures for people, mm² and %."""
         if self.vanished:
-            return f"{self.name}: VANISHED, it had {1e6 * self.before:.3g} mm²."
+            return message(f"{arg(self.name)}: VANISHED, it had {arg(1e6 * self.before):.3g} mm².")
         if self.before == 0:
-            return f"{self.name}: empty before, {1e6 * self.after:.3g} mm² now."
-        return (
-            f"{self.name}: {1e6 * self.before:.4g} mm² before, {1e6 * self.after:.4g} mm² now"
-            f" ({100 * self.change:+.2f} %); lost {1e6 * self.lost:.3g} mm²"
-            f" ({100 * self.lost / self.before:.2f} %), gained {1e6 * self.gained:.3g} mm²"
-            f" ({100 * self.gained / self.before:.2f} %)."
+            return message(f"{arg(self.name)}: empty before, {arg(1e6 * self.after):.3g} mm² now.")
+        return message(
+            f"{arg(self.name)}: {arg(1e6 * self.before):.4g} mm² before, {arg(1e6 * self.after):.4g} mm² now"
+            f" ({arg(100 * self.change):+.2f} %); lost {arg(1e6 * self.lost):.3g} mm²"
+            f" ({arg(100 * self.lost / self.before):.2f} %), gained {arg(1e6 * self.gained):.3g} mm²"
+            f" ({arg(100 * self.gained / self.before):.2f} %)."
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -104,16 +105,20 @@ class Transferred:
     def warnings(self) -> tuple[str, ...]:
         """What someone should look at, in sentences."""
         found = [
-            f"the region {part.name} ({1e6 * part.before:.3g} mm²) vanished: the new mesh is too coarse there or has"
-            " lost that part. Keep more facets, or paint it again."
+            message(
+                f"the region {arg(part.name)} ({arg(1e6 * part.before):.3g} mm²) vanished: the new mesh is"
+                " too coarse there or has lost that part. Keep more facets, or paint it again."
+            )
             for part in self.report
             if part.vanished
         ]
         if self.unmatched:
             found.append(
-                f"{self.unmatched} of {len(self.regions.labels)} facets have no part of the old"
-                " surface near them and belong to no region: check that both meshes are in the"
-                " same place."
+                message(
+                    f"{arg(self.unmatched)} of {arg(len(self.regions.labels))} facets have no part of the old"
+                    " surface near them and belong to no region: check that both meshes are in the"
+                    " same place."
+                )
             )
         return tuple(found)
 
@@ -160,8 +165,8 @@ def transfer(
     """
     if len(regions.labels) != len(old.faces):
         raise RegionError(
-            f"the regions are for {len(regions.labels)} facets, but the old mesh has {len(old.faces)}: give the"
-            " mesh that they belong to."
+            f"the regions are for {arg(len(regions.labels))} facets, but the old mesh has"
+            f" {arg(len(old.faces))}: give the mesh that they belong to."
         )
     distance = _REACH * old.size if reach is None else reach
     labels, unmatched = carry_labels(
@@ -178,7 +183,7 @@ def transfer(
     forth = labels
     result = Transferred(carried, _report(regions, back, forth, old, new), unmatched)
     if result.warnings:
-        warnings.warn(" ".join(result.warnings), MeshWarning, stacklevel=2)
+        warnings.warn(join(" ", result.warnings), MeshWarning, stacklevel=2)
     return result
 
 

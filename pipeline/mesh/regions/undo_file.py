@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.exchange import (
     SIZE_LIMIT,
@@ -107,7 +108,7 @@ def load_steps(files: Sequence[Path]) -> KeptSteps:
         steps = KeptSteps(_steps(document, "done"), _steps(document, "undone"))
     except RegionError as error:
         raise RegionError(
-            f"{file}: {error} Delete the file: the regions stay as they are, but cannot be undone."
+            f"{arg(file)}: {arg(error)} Delete the file: the regions stay as they are, but cannot be undone."
         ) from error
     return steps if document.get("files") == _digests(files) else KeptSteps(changed=True)
 
@@ -128,7 +129,9 @@ def save_steps(steps: KeptSteps, files: Sequence[Path]) -> None:
     try:
         write_durably(file, data)
     except (OSError, ValueError) as error:
-        raise RegionError(f"{file}: cannot be written ({error}): this step cannot be undone.") from error
+        raise RegionError(
+            f"{arg(file)}: cannot be written ({arg(error)}): this step cannot be undone."
+        ) from error
 
 
 def _encoded(document: Mapping[str, Any]) -> bytes:
@@ -144,9 +147,9 @@ def _steps(document: Mapping[str, Any], key: str) -> list[KeptStep]:
     for number, each in enumerate(found, 1):
         kinds = {"text": str, "entry": dict, "other": dict}
         if not isinstance(each, dict) or any(not isinstance(each.get(k), kind) for k, kind in kinds.items()):
-            raise RegionError(f"step {number} of {key!r} lacks its text, entry or regions.")
+            raise RegionError(f"step {arg(number)} of {arg(key)!r} lacks its text, entry or regions.")
         if not isinstance(each["entry"].get("step"), str):  # it goes into the probe's history
-            raise RegionError(f"the entry of step {number} of {key!r} has no name.")
+            raise RegionError(f"the entry of step {arg(number)} of {arg(key)!r} has no name.")
         steps.append(KeptStep(each["text"], each["entry"], each["other"]))
     return steps
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.shell.exposure import exposure, exposure_at
@@ -61,10 +62,10 @@ class ShellFit:
     @property
     def sentence(self) -> str:
         """The fit in words."""
-        return (
+        return message(
             "Distance from the visible outside of the original to the shell: median"
-            f" {1e3 * self.visible_median:.3f} mm, 95 % below {1e3 * self.visible_p95:.3f} mm, at"
-            f" most {1e3 * self.visible_max:.2f} mm."
+            f" {arg(1e3 * self.visible_median):.3f} mm, 95 % below {arg(1e3 * self.visible_p95):.3f} mm, at"
+            f" most {arg(1e3 * self.visible_max):.2f} mm."
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -131,7 +132,7 @@ def look_at(
 
     def tick(_share: float) -> None:
         if stop():
-            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
+            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
 
     vertices, faces = join([(original.vertices, original.faces), *patches])
     index = SurfaceIndex(vertices, faces)

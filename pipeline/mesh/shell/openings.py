@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.triangles import cross_products, parts, twins
 
@@ -81,9 +82,11 @@ class Opening:
     @property
     def sentence(self) -> str:
         """The opening in words."""
-        size = f"{1e3 * self.length:.1f} x {1e3 * self.width:.1f} mm, {1e3 * self.depth:.1f} mm deep"
+        size = message(
+            f"{arg(1e3 * self.length):.1f} x {arg(1e3 * self.width):.1f} mm, {arg(1e3 * self.depth):.1f} mm deep"
+        )
         x, y, z = 1e3 * self.centre
-        return f"an opening of {size}, at ({x:.1f}, {y:.1f}, {z:.1f}) mm"
+        return message(f"an opening of {arg(size)}, at ({arg(x):.1f}, {arg(y):.1f}, {arg(z):.1f}) mm")
 
 
 def find_openings(

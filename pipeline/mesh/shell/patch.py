@@ -13,6 +13,7 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial import ConvexHull, Delaunay, QhullError, cKDTree
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.shell.openings import shoelace
 from contactbench.pipeline.mesh.shell.rim import crossings
@@ -201,6 +202,6 @@ def _inside(polygon: NDArray[np.float64], points: NDArray[np.float64]) -> NDArra
 def _refuse_crossing(rim: NDArray[np.float64], opening: Opening) -> None:
     if len(crossings(rim)) or shoelace(rim) <= 0:
         raise MeshError(
-            f"{opening.sentence} has a rim that crosses itself and cannot be closed automatically:"
+            f"{arg(opening.sentence)} has a rim that crosses itself and cannot be closed automatically:"
             " close it in the CAD program, or leave it open (closing 'open')."
         )

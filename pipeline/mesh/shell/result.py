@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.shell.patch import Closing
 
 if TYPE_CHECKING:
@@ -36,12 +37,12 @@ class ClosedOpening:
     def sentence(self) -> str:
         """What was done, in words."""
         how = {
-            Closing.FAIR: "closed by a smooth surface",
-            Closing.RULED: "closed by straight lines between its long rims",
-            Closing.HULL: "closed by the hull of its rim",
-            Closing.OPEN: "left open",
+            Closing.FAIR: message("closed by a smooth surface"),
+            Closing.RULED: message("closed by straight lines between its long rims"),
+            Closing.HULL: message("closed by the hull of its rim"),
+            Closing.OPEN: message("left open"),
         }[self.closing]
-        return f"{self.opening.sentence}: {how}."
+        return message(f"{arg(self.opening.sentence)}: {arg(how)}.")
 
     def to_json(self) -> dict[str, Any]:
         """Give the opening as plain values, millimetres."""
@@ -123,25 +124,43 @@ class Shell:
         return () if self.soundness is None else self.soundness.faults
 
     @property
-    def _done(self) -> tuple[int, ...]:
-        return (self.turned, self.cut, self.dropped, self.sheets, self.small_holes, self.parted)
+    def _done(self) -> tuple[tuple[int, str], ...]:
+        return (
+            (self.turned, message(f"Facets turned to face outwards: {arg(self.turned):,}.")),
+            (self.cut, message(f"Facets cut where others crossed or touched them: {arg(self.cut):,}.")),
+            (
+                self.dropped,
+                message(f"Unreachable facets left out (inner walls and repeats): {arg(self.dropped):,}."),
+            ),
+            (
+                self.sheets,
+                message(f"Facets left out because they were sheets without thickness: {arg(self.sheets):,}."),
+            ),
+            (self.small_holes, message(f"Small holes and open seams closed: {arg(self.small_holes):,}.")),
+            (
+                self.parted,
+                message(f"Vertices separated where bodies only met in a point: {arg(self.parted):,}."),
+            ),
+        )
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
         out = [_HOW[self.how], *([self.why] if self.why else [])]
         if self.how == HULL:
-            out += [text.format(number) for text, number in zip(_DONE, self._done, strict=True) if number]
+            out += [text for count, text in self._done if count]
         if self.how == WRAPPED and self.dropped:
-            out.append(f"Specks next to the part were left out (facets: {self.dropped}).")
+            out.append(message(f"Specks next to the part were left out (facets: {arg(self.dropped)})."))
         out += self.faults
-        out += [f"Found {opening.sentence}" for opening in self.openings]
+        out += [message(f"Found {arg(opening.sentence)}") for opening in self.openings]
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
             out.append(
-                f"{1e6 * self.invented_area:.0f} mm² ({100 * share:.1f} %) of the shell is"
-                " invented: contacts there rest on a guess. If that area will be touched, measure"
-                " the part or get its drawing."
+                message(
+                    f"{arg(1e6 * self.invented_area):.0f} mm² ({arg(100 * share):.1f} %) of the shell is"
+                    " invented: contacts there rest on a guess. If that area will be touched, measure"
+                    " the part or get its drawing."
+                )
             )
         if self.fit is not None:
             out.append(self.fit.sentence)
@@ -171,25 +190,18 @@ class Shell:
 
 
 _HOW = {
-    UNCHANGED: "The mesh is its own outer shell: no repair was needed.",
-    HULL: "The outer hull was made from the facets of the file; none was moved.",
-    WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
+    UNCHANGED: message("The mesh is its own outer shell: no repair was needed."),
+    HULL: message("The outer hull was made from the facets of the file; none was moved."),
+    WRAPPED: message("The outside was wrapped in a closed surface; inner walls and parts are gone."),
 }
 
-NO_SPACE = (
+NO_SPACE = message(
     "The mesh's own facets enclose no space, even with the holes closed: too many are loose, torn"
     " or without thickness."
 )
-LEAKS = (
+LEAKS = message(
     "The mesh's own facets could not be used: the patches do not meet the rims of the openings everywhere."
 )
-UNSOUND = "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
-
-_DONE = (
-    "Facets turned to face outwards: {:,}.",
-    "Facets cut where others crossed or touched them: {:,}.",
-    "Unreachable facets left out (inner walls and repeats): {:,}.",
-    "Facets left out because they were sheets without thickness: {:,}.",
-    "Small holes and open seams closed: {:,}.",
-    "Vertices separated where bodies only met in a point: {:,}.",
+UNSOUND = message(
+    "The mesh's own facets could not be used: cut where they cross, they gave no valid surface."
 )

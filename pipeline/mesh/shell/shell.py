@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled, Operation, start_engine
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
@@ -35,7 +36,8 @@ from contactbench.pipeline.mesh.shell.rim import find_lip
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from contactbench.pipeline.mesh.triangles import cross_products, join, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import cross_products, parts, six_volumes, twins
+from contactbench.pipeline.mesh.triangles import join as join_meshes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -87,7 +89,7 @@ class Steps:
         Cancelled
         """
         if self.cancelled is not None and self.cancelled():
-            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
+            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
         if self._progress is not None:
             self._progress(self._from + share * (self._to - self._from))
 
@@ -236,7 +238,7 @@ class _Exact:
         """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
         if self._sewn is None:
             return None
-        vertices, faces = join([(outside.vertices, outside.faces), *patches])
+        vertices, faces = join_meshes([(outside.vertices, outside.faces), *patches])
         plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
         tried = find_outside(self._sewn, [*patches, plug], cancelled=stop)
         return tried if tried is not None and _has_grown(tried, outside) else None
@@ -305,7 +307,7 @@ def _wrapped(
         make_patch(each.opening, each.closing, alpha) for each in openings if each.closing is not Closing.OPEN
     ]
     steps.upto(0.2)
-    vertices, faces = join([(probe.vertices, probe.faces), *patches])
+    vertices, faces = join_meshes([(probe.vertices, probe.faces), *patches])
     stop = steps.cancelled
     # What the result is measured against is looked at while the engine wraps.
     with begun(partial(look_at, probe, patches), partial(steps.tick, 0.0)) as original:
@@ -333,7 +335,7 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     shell = Probe.from_arrays(wrapped.vertices, wrapped.faces, invented=invented, name=name, check_size=False)
     if shell.health.sentences:
         raise MeshError(
-            "the wrap is not valid (" + " ".join(shell.health.sentences) + ") Try another alpha, or close the"
+            f"the wrap is not valid ({arg(join(' ', shell.health.sentences))}) Try another alpha, or close the"
             " mesh in the CAD program."
         )
     if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
@@ -373,8 +375,8 @@ def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
     if np.count_nonzero(large) > 1:
         one, two = (vertices[faces[label == part]].mean(axis=(0, 1)) for part in np.argsort(-areas)[:2])
         raise MeshError(
-            f"the mesh has {np.count_nonzero(large)} parts that do not touch; the middles of two"
-            f" of them are {1e3 * np.linalg.norm(one - two):.4g} mm apart. Delete everything that"
+            f"the mesh has {arg(np.count_nonzero(large))} parts that do not touch; the middles of two"
+            f" of them are {arg(1e3 * np.linalg.norm(one - two)):.4g} mm apart. Delete everything that"
             " is not the probe in the CAD program, or bridge the gap with a larger value (gap)."
         )
     _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
@@ -435,7 +437,7 @@ def _some_facets(probe: Probe, kept: NDArray[np.int64], faces: NDArray[np.int32]
 
 def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> Shell:
     """Look at a shell as if it came from a stranger, and compare it with what it was made of."""
-    original = None if shell.how == UNCHANGED else join([(base.vertices, base.faces), *patches])
+    original = None if shell.how == UNCHANGED else join_meshes([(base.vertices, base.faces), *patches])
     made = shell.probe
     found = check_soundness(made.vertices, made.faces, original, invented=made.invented)
     return replace(shell, soundness=found)
@@ -490,7 +492,7 @@ def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> 
     listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
     if len(listed) > max(len(found), 1):
         raise MeshError(
-            f"{len(listed)} closings were given, but the mesh has {len(found)} openings: leave out the rest."
+            f"{arg(len(listed))} closings were given, but the mesh has {arg(len(found))} openings: leave out the rest."
         )
     return [*listed, *[listed[-1]] * (len(found) - len(listed))][: len(found)]
 
@@ -498,6 +500,6 @@ def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> 
 def _check_lengths(alpha: float, coarse: float, size: float) -> None:
     if not _FINEST * size <= alpha <= coarse <= size / 4:
         raise MeshError(
-            f"alpha {1e3 * alpha:.4g} mm and gap {1e3 * coarse:.4g} mm: alpha must be at least"
-            f" {1e3 * _FINEST * size:.3g} mm, the gap at least alpha and at most {1e3 * size / 4:.3g} mm."
+            f"alpha {arg(1e3 * alpha):.4g} mm and gap {arg(1e3 * coarse):.4g} mm: alpha must be at least"
+            f" {arg(1e3 * _FINEST * size):.3g} mm, the gap at least alpha and at most {arg(1e3 * size / 4):.3g} mm."
         )

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csr_array
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
 from contactbench.pipeline.mesh.shell.settle import settle
@@ -149,7 +150,7 @@ def _mended(
     degree = neighbours.sum(axis=1)
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
-            raise Cancelled("the shell was cancelled: the mesh is unchanged.")
+            raise Cancelled(message("the shell was cancelled: the mesh is unchanged."))
         found = check_soundness(settled, faces, original, invented=invented)
         crossing = found.facets_of(CROSSING, OVERLAP, TOUCHING)
         if len(crossing) + len(found.folded_facets) == 0 or attempt == _PUT_BACK:

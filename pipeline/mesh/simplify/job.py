@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import collapse_edges
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
@@ -34,7 +35,7 @@ _ANOTHER_SHAPE = 0.1
 # Above so many times so many facets a search collapses the mesh to that number once, and not at every try.
 _MANY, _HALFWAY = 100_000, 4
 
-ENGINE, UNCHANGED = "edge collapse", "none"
+ENGINE, UNCHANGED = message("edge collapse"), "none"
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,8 +131,8 @@ class SimplifyJob:
             except MeshError as error:
                 failed = str(error)
         raise MeshError(
-            f"the surface cannot be simplified to {count:,} facets, nor to a few times as many:"
-            f" {failed} Choose more facets, or repair the mesh first."
+            f"the surface cannot be simplified to {arg(count):,} facets, nor to a few times as many:"
+            f" {arg(failed)} Choose more facets, or repair the mesh first."
         )
 
     def attempt(self, count: int) -> Attempt:
@@ -154,11 +155,15 @@ class SimplifyJob:
         if made is None:
             try:
                 made = self._attempt(count)
-                done = f"within {made.deviation.hausdorff * 1e3:.4g} mm of the original"
-                self.steps.append(f"{count:,} facets asked for: {len(made.probe.faces):,} facets, {done}.")
+                done = message(f"within {arg(made.deviation.hausdorff * 1e3):.4g} mm of the original")
+                self.steps.append(
+                    message(
+                        f"{arg(count):,} facets asked for: {arg(len(made.probe.faces)):,} facets, {arg(done)}."
+                    )
+                )
             except MeshError as error:
                 made = error
-                self.steps.append(f"{count:,} facets asked for: {error}")
+                self.steps.append(message(f"{arg(count):,} facets asked for: {arg(error)}"))
             self._made[count] = made
         if isinstance(made, MeshError):
             raise made
@@ -175,7 +180,9 @@ class SimplifyJob:
             raise MeshError(" ".join(faults))
         if attempt.deviation.hausdorff > _ANOTHER_SHAPE * self.probe.size:
             off = f"{1e3 * attempt.deviation.hausdorff:.3g} mm"
-            raise MeshError(f"{len(attempt.probe.faces)} facets are up to {off} off: the shape is lost.")
+            raise MeshError(
+                f"{arg(len(attempt.probe.faces))} facets are up to {arg(off)} off: the shape is lost."
+            )
         return replace(attempt, soundness=found)
 
     def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
@@ -191,7 +198,7 @@ class SimplifyJob:
 
     def _go_on(self, fraction: float) -> None:
         if self._cancelled is not None and self._cancelled():
-            raise Cancelled("the simplification was cancelled: the mesh is unchanged.")
+            raise Cancelled(message("the simplification was cancelled: the mesh is unchanged."))
         self._progress(fraction)
 
     @cached_property
@@ -271,5 +278,5 @@ def check_ratio(ratio: float) -> None:
     # not <=, so that NaN is refused too.
     if not 1 <= ratio <= 100:
         raise MeshError(
-            f"the region ratio is {ratio:g}: give 1 for facets spread evenly, up to 100 for more in the regions."
+            f"the region ratio is {arg(ratio):g}: give 1 for facets spread evenly, up to 100 for more in the regions."
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.simplify.target import FEWEST
 
@@ -130,6 +131,6 @@ def _check_original(job: SimplifyJob, error: Callable[[Attempt], float], limit: 
     value = error(job.unchanged())
     if not value <= limit:
         raise MeshError(
-            f"the full mesh already has an error of {value:.4g}, above the limit of {limit:.4g}:"
+            f"the full mesh already has an error of {arg(value):.4g}, above the limit of {arg(limit):.4g}:"
             " raise the limit."
         )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
@@ -26,7 +27,7 @@ _COARSE = {"uniform": 3_000, "most": 2_500}
 _THOROUGH = {"uniform": 20_000, "most": 200_000}
 
 
-_ROUGH = "which miss the limit, but more facets hardly help because the surface itself is rough"
+_ROUGH = message("which miss the limit, but more facets hardly help because the surface itself is rough")
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +71,15 @@ class Simplified:
     def sentences(self) -> tuple[str, ...]:
         """What was reached, and what had to be tried for it, in words."""
         short = f", {self.short}" if self.short else ""
-        out = [f"{self.count:,} facets{short}: {self.deviation.sentence}.", *self.warnings]
+        out = [
+            message(f"{arg(self.count):,} facets{arg(short)}: {arg(self.deviation.sentence)}."),
+            *self.warnings,
+        ]
         for priority, part in self.regions.items():
-            where = f"In region {priority}" if priority else "Outside every region"
-            out.append(f"{where}: {part.sentence}.")
+            where = message(f"In region {arg(priority)}") if priority else message("Outside every region")
+            out.append(message(f"{arg(where)}: {arg(part.sentence)}."))
         if len(self.steps) > 1:
-            out.append(f"That took {len(self.steps)} attempts; the history lists them.")
+            out.append(message(f"That took {arg(len(self.steps))} attempts; the history lists them."))
         return tuple(out)
 
 
@@ -141,7 +145,7 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
     have = len(job.probe.faces)
     if isinstance(target, Count):
         if target.facets >= have:
-            job.steps.append(f"The surface already has {have} facets and was left unchanged.")
+            job.steps.append(message(f"The surface already has {arg(have)} facets and was left unchanged."))
             return job.unchanged(), ""
         attempt = job.reach(target.facets)
         if len(attempt.probe.faces) <= target.facets:
@@ -149,33 +153,41 @@ def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]
         wanted = f"{target.facets:,}"
         return (
             attempt,
-            f"more than the requested {wanted}, because no smaller number tried gave a valid surface",
+            message(
+                f"more than the requested {arg(wanted)}, because no smaller number tried gave a valid surface"
+            ),
         )
     if isinstance(target, MaxDeviation):
         found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
     else:
         if have <= target.enough:
-            job.steps.append(f"The surface has {have} facets, few enough, and was left unchanged.")
+            job.steps.append(
+                message(f"The surface has {arg(have)} facets, few enough, and was left unchanged.")
+            )
             return job.unchanged(), ""
         found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
     if found is not None:
         rough = isinstance(target, MaxError) and _error(target, found) > target.limit
         return found, _ROUGH if rough else ""
-    job.steps.append("Fewer facets would exceed the limit: the surface was left unchanged.")
-    return job.unchanged(), "as many as before, because no smaller number tried keeps the limit"
+    job.steps.append(message("Fewer facets would exceed the limit: the surface was left unchanged."))
+    return job.unchanged(), message("as many as before, because no smaller number tried keeps the limit")
 
 
 def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, ...]:
     told = []
     if engine != "auto":
         told.append(
-            f"The engine {engine} no longer exists: contactbench collapses the edges itself, so"
-            " the facets differ."
+            message(
+                f"The engine {arg(engine)} no longer exists: contactbench collapses the edges itself, so"
+                " the facets differ."
+            )
         )
     if region_ratio != 1 and not probe.preferred.any():
         told.append(
-            f"The region ratio is {region_ratio:g}, but the mesh has no region: facets are spread"
-            " evenly. Mark a region first (contactbench probe regions add)."
+            message(
+                f"The region ratio is {arg(region_ratio):g}, but the mesh has no region: facets are spread"
+                " evenly. Mark a region first (contactbench probe regions add)."
+            )
         )
     return tuple(told)
 

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
@@ -37,7 +38,9 @@ class Count:
 
     def __post_init__(self) -> None:
         if self.facets < FEWEST:
-            raise MeshError(f"{self.facets} facets are too few: no closed surface has fewer than {FEWEST}.")
+            raise MeshError(
+                f"{arg(self.facets)} facets are too few: no closed surface has fewer than {arg(FEWEST)}."
+            )
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ class MaxDeviation:
     metres: float
 
     def __post_init__(self) -> None:
-        _refuse_unless_positive(self.metres, "the largest deviation")
+        _refuse_unless_positive(self.metres, message("the largest deviation"))
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,7 @@ class MaxError:
     enough: int = FEWEST
 
     def __post_init__(self) -> None:
-        _refuse_unless_positive(self.limit, "the largest error")
+        _refuse_unless_positive(self.limit, message("the largest error"))
 
 
 Target = Count | MaxDeviation | MaxError
@@ -102,4 +105,4 @@ Engine = Literal["auto", "fast-simplification", "meshlab", "best"]
 
 def _refuse_unless_positive(value: float, what: str) -> None:
     if not (math.isfinite(value) and value > 0):
-        raise MeshError(f"{what} is {value:g}: give a number above 0.")
+        raise MeshError(f"{arg(what)} is {arg(value):g}: give a number above 0.")

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, check_transform
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 SCHEMA, VERSION = "contactbench.alignment", 1
-_REMEDY = "use the file that contactbench wrote, or align again."
+_REMEDY = message("use the file that contactbench wrote, or align again.")
 _LARGEST_FILE = 2**20
 
 
@@ -81,7 +82,7 @@ class Alignment:
             object.__setattr__(self, "covariance", _check_covariance(self.covariance))
             object.__setattr__(self, "about_S", _frozen(check_numbers(self.about_S, (3,), "about_S")))
         if self.residual_m is not None and not 0 <= self.residual_m < np.inf:
-            raise AlignmentError(f"residual_m: {self.residual_m} is not a length of at least 0 m.")
+            raise AlignmentError(f"residual_m: {arg(self.residual_m)} is not a length of at least 0 m.")
 
     @property
     def R_SP(self) -> Floats:
@@ -161,18 +162,22 @@ def from_json(data: str | bytes, name: str = "alignment") -> Alignment:
         no rigid transform or covariance.
     """
     if len(data) > _LARGEST_FILE:
-        raise AlignmentError(f"{name}: this is over 1 MiB, too much for an alignment: choose the right file.")
+        raise AlignmentError(
+            f"{arg(name)}: this is over 1 MiB, too much for an alignment: choose the right file."
+        )
     try:
         content = parse_json(data)
     except (ValueError, UnicodeEncodeError) as error:
-        raise AlignmentError(f"{name}: not valid JSON ({error}): choose an alignment file.") from None
+        raise AlignmentError(
+            f"{arg(name)}: not valid JSON ({arg(error)}): choose an alignment file."
+        ) from None
     _check_kind(content, name)
     try:
         document = _Document.model_validate_json(data)
     except ValidationError as error:
         fault = error.errors(include_url=False, include_context=False, include_input=False)[0]
         where = ".".join(str(part)[:60] for part in fault["loc"]).encode("ascii", "backslashreplace").decode()
-        raise AlignmentError(f"{name}: {where}: {fault['msg']}: {_REMEDY}") from None
+        raise AlignmentError(f"{arg(name)}: {arg(where)}: {arg(fault['msg'])}: {arg(_REMEDY)}") from None
     try:
         return Alignment(
             np.array(document.T_SP_m),
@@ -184,7 +189,7 @@ def from_json(data: str | bytes, name: str = "alignment") -> Alignment:
             document.residual_m,
         )
     except AlignmentError as error:
-        raise AlignmentError(f"{name}: {error}") from error
+        raise AlignmentError(f"{arg(name)}: {arg(error)}") from error
 
 
 _Number = Annotated[float, Field(ge=-1e12, le=1e12)]
@@ -214,12 +219,18 @@ class _Document(BaseModel):
 def _check_kind(content: Any, name: str) -> None:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
-        found = f"the schema is {schema[:60]!a}" if isinstance(schema, str) else "the schema is missing"
-        raise AlignmentError(f"{name}: {found}; expected {SCHEMA!r}: choose an alignment file.")
+        found = (
+            message(f"the schema is {arg(ascii(schema[:60]))}")
+            if isinstance(schema, str)
+            else message("the schema is missing")
+        )
+        raise AlignmentError(
+            f"{arg(name)}: {arg(found)}; expected {arg(SCHEMA)!r}: choose an alignment file."
+        )
     version = content.get("version")
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         raise AlignmentError(
-            f"{name}: written by a newer contactbench (version above {VERSION}): update contactbench."
+            f"{arg(name)}: written by a newer contactbench (version above {arg(VERSION)}): update contactbench."
         )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform
@@ -74,11 +75,13 @@ def align_axes(
         Another weight, or a tip or offset that is not finite.
     """
     if weight not in get_args(Weight):
-        raise AlignmentError(f"weight: {weight!r} is not 'volume' or 'area'.")
+        raise AlignmentError(f"weight: {arg(weight)!r} is not 'volume' or 'area'.")
     warnings = []
     if weight == "volume" and not (probe_P.health.watertight and probe_P.health.outward):
         weight = "area"
-        warnings.append("The mesh is open or badly wound and has no volume, so its area was used instead.")
+        warnings.append(
+            message("The mesh is open or badly wound and has no volume, so its area was used instead.")
+        )
     centroid, moment = _volume_moments(probe_P) if weight == "volume" else _area_moments(probe_P)
     values, vectors = np.linalg.eigh(moment)
     spreads = np.sqrt(np.maximum(values, 0.0))[[1, 0, 2]]
@@ -89,17 +92,18 @@ def align_axes(
     determined = _determined(spreads)
     warnings += _words(spreads, determined)
     chosen = [_transform(np.diag(signs) @ R, centroid, probe_P, offset) for signs in _SIGNS]
+    tip = message("further from the mesh origin")
+    if tip_P is not None:
+        tip = message("nearer to the point picked")
     how = (
-        (
-            f"Principal axes of the {weight}: the longest (rms {1e3 * spreads[2]:.1f} mm) along z, the middle"
-            f" ({1e3 * spreads[0]:.1f}) along x, the shortest ({1e3 * spreads[1]:.1f}) along y; the lowest point at"
-            f" z = {1e3 * offset:g} mm, the centroid on the axis."
+        message(
+            f"Principal axes of the {arg(weight)}: the longest (rms {arg(1e3 * spreads[2]):.1f} mm) along z,"
+            f" the middle ({arg(1e3 * spreads[0]):.1f}) along x, the shortest ({arg(1e3 * spreads[1]):.1f})"
+            f" along y; the lowest point at z = {arg(1e3 * offset):g} mm, the centroid on the axis."
         ),
-        (
-            "The tip is the end"
-            f" {'nearer to the point picked' if tip_P is not None else 'further from the mesh origin'};"
-            " x points towards +x of the mesh's frame, or +y or +z where that is across. Three"
-            " other rotations fit equally well."
+        message(
+            f"The tip is the end {arg(tip)}; x points towards +x of the mesh's frame, or +y or +z where that is"
+            " across. Three other rotations fit equally well."
         ),
     )
     alignment = Alignment(chosen[0], AlignmentMethod.AXES, how, tuple(warnings))
@@ -137,13 +141,13 @@ def _tip_sign(
         return 1.0 if (check_numbers(tip_P, (3,), "tip_P") - centroid) @ z_P >= 0 else -1.0
     heights = probe.vertices[np.unique(probe.faces)] @ z_P
     low, high = float(-heights.min()), float(heights.max())
-    told = (
+    told = message(
         "The end farther from the mesh's origin was taken as the tip; many files have their origin at"
         " the lens."
     )
     if abs(high - low) < _MIDDLE * (high + low):
-        told = "The mesh's origin lies in its middle, so it cannot tell the tip from the handle."
-    warnings.append(f"{told} Pick a point on the tip to be sure.")
+        told = message("The mesh's origin lies in its middle, so it cannot tell the tip from the handle.")
+    warnings.append(message(f"{arg(told)} Pick a point on the tip to be sure."))
     return 1.0 if high >= low else -1.0
 
 
@@ -158,9 +162,11 @@ def _words(spreads: Floats, determined: NDArray[np.bool_]) -> list[str]:
     for axis in np.flatnonzero(~determined):
         a, b = (other for other in range(3) if other != axis)
         words.append(
-            f"The spreads along {'xyz'[a]} and {'xyz'[b]} are nearly equal ({1e3 * spreads[a]:.1f} and"
-            f" {1e3 * spreads[b]:.1f} mm), so the turn about {'xyz'[axis]} is not determined: fix it by a point or by"
-            " touches."
+            message(
+                f"The spreads along {arg('xyz'[a])} and {arg('xyz'[b])} are nearly equal"
+                f" ({arg(1e3 * spreads[a]):.1f} and {arg(1e3 * spreads[b]):.1f} mm), so the turn about"
+                f" {arg('xyz'[axis])} is not determined: fix it by a point or by touches."
+            )
         )
     return words
 

@@ -10,6 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
@@ -80,10 +81,10 @@ def find_mounting_face(
     """
     if not 0 <= facet < len(probe_P.faces):
         raise AlignmentError(
-            f"facet: {facet} is not between 0 and {len(probe_P.faces) - 1}: pick a facet of the mesh."
+            f"facet: {arg(facet)} is not between 0 and {arg(len(probe_P.faces) - 1)}: pick a facet of the mesh."
         )
     if not 0 < angle_deg <= 45:
-        raise AlignmentError(f"angle_deg: {angle_deg} is not above 0 and at most 45.")
+        raise AlignmentError(f"angle_deg: {arg(angle_deg)} is not above 0 and at most 45.")
     pairs = _neighbours(probe_P.faces)
     normal = probe_P.normals[facet]
     for _ in range(_GROWINGS):
@@ -134,14 +135,16 @@ def align_flange(
         The clocking direction points along the axis.
     """
     if not abs(clock_deg) <= 360:
-        raise AlignmentError(f"clock_deg: {clock_deg} is not within ±360 degrees.")
+        raise AlignmentError(f"clock_deg: {arg(clock_deg)} is not within ±360 degrees.")
     R_SP = turn_between(face.normal_P, _DOWN_S)
     warnings = list(_face_warnings(face))
     direction = _direction(face, toward_P)
     if direction is None:
         warnings.append(
-            "No clocking direction was given, so the mesh is turned about the axis as little as"
-            " possible. Pick a point or an edge to fix it."
+            message(
+                "No clocking direction was given, so the mesh is turned about the axis as little as"
+                " possible. Pick a point or an edge to fix it."
+            )
         )
     else:
         x, y, _ = R_SP @ direction
@@ -149,17 +152,19 @@ def align_flange(
         R_SP = Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix() @ R_SP
     p_SP_S = np.array([0.0, 0.0, offset]) - R_SP @ face.centre_P
     centre = (
-        f"the centre of its rim, a circle of {2e3 * face.rim.radius:.2f} mm diameter to"
-        f" {_fine(face.rim.radius_rms)}"
-        " mm rms"
+        message(
+            f"the centre of its rim, a circle of {arg(2e3 * face.rim.radius):.2f} mm diameter to"
+            f" {arg(_fine(face.rim.radius_rms))}"
+            " mm rms"
+        )
         if face.round
-        else "the centre of the area inside its rim"
+        else message("the centre of the area inside its rim")
     )
-    how = (
-        f"The mounting face ({int(face.facets.sum())} facets, {1e6 * face.area_m2:.0f} mm², plane to"
-        f" {_fine(face.planarity_rms)} mm rms, {_fine(face.planarity_max)} at most) laid on z ="
-        f" {1e3 * offset:g} mm;"
-        f" {centre}, on the axis."
+    how = message(
+        f"The mounting face ({arg(int(face.facets.sum()))} facets, {arg(1e6 * face.area_m2):.0f} mm², plane to"
+        f" {arg(_fine(face.planarity_rms))} mm rms, {arg(_fine(face.planarity_max))} at most) laid on z ="
+        f" {arg(1e3 * offset):g} mm;"
+        f" {arg(centre)}, on the axis."
     )
     return Alignment(
         make_transform(R_SP, p_SP_S),
@@ -241,17 +246,23 @@ def _face_warnings(face: MountingFace) -> tuple[str, ...]:
     words = []
     if face.planarity_max > _UNEVEN_M:
         words.append(
-            f"The face is {1e3 * face.planarity_max:.2g} mm off a plane: a curved or noisy face is a poor datum. Pick"
-            " another facet, or lower the angle."
+            message(
+                f"The face is {arg(1e3 * face.planarity_max):.2g} mm off a plane: a curved or noisy face is"
+                " a poor datum. Pick another facet, or lower the angle."
+            )
         )
     if np.sqrt(face.area_m2) < _SMALL_M:
         words.append(
-            f"The face has only {1e6 * face.area_m2:.2g} mm², so a turn hardly shows. Check that"
-            " the right facet was picked."
+            message(
+                f"The face has only {arg(1e6 * face.area_m2):.2g} mm², so a turn hardly shows. Check that"
+                " the right facet was picked."
+            )
         )
     if not face.round:
         words.append(
-            "The rim is not round, so the axis goes through the middle of the area inside it;"
-            " screw holes and notches in the rim shift that. Check it against the drawing."
+            message(
+                "The rim is not round, so the axis goes through the middle of the area inside it;"
+                " screw holes and notches in the rim shift that. Check it against the drawing."
+            )
         )
     return tuple(words)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import (
@@ -44,7 +45,7 @@ def from_angles(xyz_mm: ArrayLike, rxyz_deg: ArrayLike) -> Alignment:
     angles = check_numbers(rxyz_deg, (3,), "rotation")
     if np.abs(angles).max() > _LARGEST_ANGLE:
         raise AlignmentError(
-            f"rotation: {angles.tolist()} goes beyond ±360: give degrees about the fixed axes x, y, z."
+            f"rotation: {arg(angles.tolist())} goes beyond ±360: give degrees about the fixed axes x, y, z."
         )
     R_SP = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()  # lower case: fixed axes
     x, y, z = angles
@@ -52,9 +53,9 @@ def from_angles(xyz_mm: ArrayLike, rxyz_deg: ArrayLike) -> Alignment:
     turned = np.abs(angles[angles != 0])
     eighths = _EIGHTH * np.clip(np.round(turned / _EIGHTH), 1, 8)
     if len(turned) and (np.abs(turned - eighths) < _TYPED).all():
-        sentence = "The angles look like radians. If they are, convert them to degrees."
+        sentence = message("The angles look like radians. If they are, convert them to degrees.")
         warnings = (sentence,)
-    how = f"turned by {x:g}°, {y:g}° and {z:g}° about the fixed axes x, y and z"
+    how = message(f"turned by {arg(x):g}°, {arg(y):g}° and {arg(z):g}° about the fixed axes x, y and z")
     return _typed(R_SP, xyz_mm, how, warnings)
 
 
@@ -68,11 +69,13 @@ def from_transform(T_SP: ArrayLike) -> Alignment:
         Not rigid within 1e-6, mirroring, transposed, not finite, or 10 m away or further.
     """
     T = check_transform(T_SP)
-    return _typed(T[:3, :3], 1e3 * T[:3, 3], "turned by the matrix given")
+    return _typed(T[:3, :3], 1e3 * T[:3, 3], message("turned by the matrix given"))
 
 
 def _typed(R_SP: Floats, xyz_mm: ArrayLike, how: str, warnings: tuple[str, ...] = ()) -> Alignment:
     p = check_numbers(xyz_mm, (3,), "translation")
     x, y, z = p
-    sentence = f"Typed: the mesh's origin at ({x:g}, {y:g}, {z:g}) mm in the sensor frame, the mesh {how}."
+    sentence = message(
+        f"Typed: the mesh's origin at ({arg(x):g}, {arg(y):g}, {arg(z):g}) mm in the sensor frame, the mesh {arg(how)}."
+    )
     return Alignment(make_transform(R_SP, p / 1e3), AlignmentMethod.TYPED, (sentence,), warnings)

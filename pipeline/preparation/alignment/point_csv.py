@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
@@ -25,8 +26,8 @@ class PointFileError(TableError, AlignmentError):
 _WORDING = Wording(
     header=",".join(COLUMNS),
     rows="points",
-    meaning="a point in the mesh's frame and the same point in the sensor frame S, mm",
-    not_finite="remove the row, or measure the point again.",
+    meaning=message("a point in the mesh's frame and the same point in the sensor frame S, mm"),
+    not_finite=message("remove the row, or measure the point again."),
     error=PointFileError,
 )
 

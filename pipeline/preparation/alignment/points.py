@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
@@ -52,11 +53,11 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     a, b = check_numbers(points_P, (-1, 3), "points_P"), check_numbers(points_S, (-1, 3), "points_S")
     if not 0 < accuracy < 1:
         raise AlignmentError(
-            f"accuracy: {accuracy} m is not above 0 and under 1: give one standard deviation."
+            f"accuracy: {arg(accuracy)} m is not above 0 and under 1: give one standard deviation."
         )
     if len(a) != len(b) or len(a) < 3:
         raise AlignmentError(
-            f"{len(a)} points in the mesh and {len(b)} in the sensor frame: give three or more, one for one."
+            f"{arg(len(a))} points in the mesh and {arg(len(b))} in the sensor frame: give three or more, one for one."
         )
     a0, b0 = a.mean(axis=0), b.mean(axis=0)
     _refuse_line(a - a0, accuracy)
@@ -65,9 +66,9 @@ def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 
     left = _left(T_SP, a, b)
     rms = float(np.sqrt((left**2).mean()))
     warnings = _warnings(a, b, left, accuracy)
-    how = (
-        f"{len(a)} points of the mesh fitted to their positions in the sensor frame by least"
-        f" squares; residual {1e3 * rms:.2g} mm rms."
+    how = message(
+        f"{arg(len(a))} points of the mesh fitted to their positions in the sensor frame by least"
+        f" squares; residual {arg(1e3 * rms):.2g} mm rms."
     )
     covariance = _covariance(b - b0, accuracy) * max(1.0, _scatter(left, accuracy))
     return Alignment(T_SP, AlignmentMethod.POINTS, (how,), warnings, covariance, b0, rms)
@@ -114,7 +115,7 @@ def align_frame(
     origin = check_numbers(origin_S, (3,), "origin_S")
     if not 0 < accuracy < 1:
         raise AlignmentError(
-            f"accuracy: {accuracy} m is not above 0 and under 1: give one standard deviation."
+            f"accuracy: {arg(accuracy)} m is not above 0 and under 1: give one standard deviation."
         )
     points = np.array([o, z, x])
     _refuse_line(points - points.mean(axis=0), accuracy)
@@ -136,11 +137,11 @@ def align_frame(
     J[4, [0, 3]] = np.array([-1, 1]) / along
     J[5, 7], J[5, 1] = 1 / beside, -1 / beside
     J[5, [1, 4]] += np.array([1, -1]) * level / (along * beside)
-    how = (
+    how = message(
         "The mesh's origin point was placed on its position, its axis point on +z, its plane point"
         " towards +x."
     )
-    warnings = ("Three points define a frame exactly, so a wrong pick does not show.",)
+    warnings = (message("Three points define a frame exactly, so a wrong pick does not show."),)
     covariance = accuracy**2 * J @ J.T
     T_SP = make_transform(R_SP, origin - R_SP @ o)
     return Alignment(T_SP, AlignmentMethod.FRAME, (how,), warnings, covariance, origin)
@@ -166,8 +167,8 @@ def _refuse_line(centred: Floats, accuracy: float) -> None:
         raise AlignmentError("The points are all in one place: pick points far apart.")
     if spread[1] < max(_THIN * spread[0], _CLEAR * accuracy):
         raise AlignmentError(
-            f"The points lie nearly on one line ({1e3 * spread[1]:.2g} mm off it,"
-            f" {1e3 * spread[0]:.2g} mm along it, rms), so a turn about it is not determined: pick"
+            f"The points lie nearly on one line ({arg(1e3 * spread[1]):.2g} mm off it,"
+            f" {arg(1e3 * spread[0]):.2g} mm along it, rms), so a turn about it is not determined: pick"
             " one well to the side."
         )
 
@@ -176,8 +177,8 @@ def _refuse_scale(a: Floats, b: Floats) -> None:
     scale = float(np.sqrt((b**2).sum() / (a**2).sum()))
     if not 1 / _SCALED < scale < _SCALED:
         raise AlignmentError(
-            f"Distances between the points in the sensor frame are {scale:.4g} times those in the mesh: give both in"
-            " the same unit, and the points in the same order."
+            f"Distances between the points in the sensor frame are {arg(scale):.4g} times those in the mesh:"
+            " give both in the same unit, and the points in the same order."
         )
 
 
@@ -190,7 +191,9 @@ def _scatter(left: Floats, accuracy: float) -> float:
 
 def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str, ...]:
     if len(a) == 3:
-        few = "Three points check one another only by their distances: a fourth would reveal a wrong one."
+        few = message(
+            "Three points check one another only by their distances: a fourth would reveal a wrong one."
+        )
         return (few,) if _scatter(left, accuracy) == 1 else (_disagreement(left, accuracy), few)
     if _scatter(left, accuracy) == 1:
         return ()
@@ -199,7 +202,9 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str,
     flipped = a * [1.0, 1.0, -1.0]
     if np.sqrt((_left(_fit(flipped, b), flipped, b) ** 2).mean()) < _MIRRORED * rms:
         words.append(
-            "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
+            message(
+                "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
+            )
         )
     else:
         # The point without which the others agree best: the largest distance left may be another's.
@@ -207,16 +212,18 @@ def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str,
         without = [float(np.sqrt((_left(_fit(a[o], b[o]), a[o], b[o]) ** 2).mean())) for o in others]
         worst = int(np.argmin(without))
         words.append(
-            f"Without point {worst + 1} the others agree within {1e3 * without[worst]:.2g} mm rms:"
-            " check its position."
+            message(
+                f"Without point {arg(worst + 1)} the others agree within {arg(1e3 * without[worst]):.2g} mm rms:"
+                " check its position."
+            )
         )
     return tuple(words)
 
 
 def _disagreement(left: Floats, accuracy: float) -> str:
-    return (
-        f"The points disagree by up to {1e3 * left.max():.2g} mm, more than an accuracy of"
-        f" {1e3 * accuracy:g} mm explains. The uncertainty has been widened accordingly."
+    return message(
+        f"The points disagree by up to {arg(1e3 * left.max()):.2g} mm, more than an accuracy of"
+        f" {arg(1e3 * accuracy):g} mm explains. The uncertainty has been widened accordingly."
     )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 
 if TYPE_CHECKING:
@@ -43,10 +44,10 @@ def check_transform(values: ArrayLike, name: str = "T_SP") -> Floats:
     """
     T = check_numbers(values, (4, 4), name)
     if np.abs(T[3] - (0, 0, 0, 1)).max() > _TOLERANCE:
-        transposed = " It looks transposed." if np.abs(T[:3, 3]).max() == 0 else ""
+        transposed = message(" It looks transposed.") if np.abs(T[:3, 3]).max() == 0 else ""
         raise AlignmentError(
-            f"{name}: the last row is {T[3].tolist()}, not [0, 0, 0, 1].{transposed} Write the translation in"
-            " the last column."
+            f"{arg(name)}: the last row is {arg(T[3].tolist())}, not [0, 0, 0, 1].{arg(transposed)} Write"
+            " the translation in the last column."
         )
     return make_transform(check_rotation(T[:3, :3], name), T[:3, 3], name)
 
@@ -64,12 +65,12 @@ def check_rotation(values: ArrayLike, name: str = "R_SP") -> Floats:
     off = np.inf if np.abs(R).max() > _ABSURD else float(np.abs(R.T @ R - np.eye(3)).max())
     if off > _TOLERANCE:
         raise AlignmentError(
-            f"{name}: the 3 x 3 part is not a rotation within 1e-6: it scales or shears. Convert lengths when the"
+            f"{arg(name)}: the 3 x 3 part is not a rotation within 1e-6: it scales or shears. Convert lengths when the"
             " mesh is read, and write rotations with at least seven digits."
         )
     if np.linalg.det(R) < 0:
         raise AlignmentError(
-            f"{name}: the 3 x 3 part mirrors (determinant -1): one axis has the wrong sign, or the frame is"
+            f"{arg(name)}: the 3 x 3 part mirrors (determinant -1): one axis has the wrong sign, or the frame is"
             " left-handed."
         )
     # What is a rotation to rounding keeps its bits: a file that is read and written stays the same.
@@ -89,7 +90,7 @@ def make_transform(R_SP: ArrayLike, p_SP_S: ArrayLike, name: str = "T_SP") -> Fl
     if np.abs(p).max() >= FARTHEST_M or np.linalg.norm(p) >= FARTHEST_M:
         millimetres = ", ".join(f"{1e3 * value:.6g}" for value in p)
         raise AlignmentError(
-            f"{name}: the translation ({millimetres}) mm is {FARTHEST_M:g} m or longer, too long"
+            f"{arg(name)}: the translation ({arg(millimetres)}) mm is {arg(FARTHEST_M):g} m or longer, too long"
             " for a mount. Check its unit."
         )
     T = np.eye(4)
@@ -110,17 +111,21 @@ def check_numbers(values: ArrayLike, shape: tuple[int, ...], name: str) -> Float
     try:
         array = np.array(values, dtype=np.float64)
     except (ValueError, TypeError) as error:
-        raise AlignmentError(f"{name}: these are not numbers ({error}): give shape {shape}.") from error
+        raise AlignmentError(
+            f"{arg(name)}: these are not numbers ({arg(error)}): give shape {arg(shape)}."
+        ) from error
     fits = array.ndim == len(shape) and all(
         found == wanted or (wanted == -1 and found > 0)
         for found, wanted in zip(array.shape, shape, strict=True)
     )
     if not fits:
         wanted_shape = str(shape).replace("-1", "n")
-        raise AlignmentError(f"{name}: the shape is {array.shape}: give {wanted_shape} numbers.")
+        raise AlignmentError(
+            f"{arg(name)}: the shape is {arg(array.shape)}: give {arg(wanted_shape)} numbers."
+        )
     if not np.isfinite(array).all():
         row = np.argwhere(~np.isfinite(array))[0].tolist()
-        raise AlignmentError(f"{name}: the value at {row} is not finite: correct or remove it.")
+        raise AlignmentError(f"{arg(name)}: the value at {arg(row)} is not finite: correct or remove it.")
     return array
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.contact.wrench_csv import CHANNELS
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
@@ -26,12 +27,12 @@ class TouchFileError(TableError, AlignmentError):
 _WORDING = Wording(
     header=",".join((*POINT, *CHANNELS)),
     rows="touches",
-    meaning=(
+    meaning=message(
         "markers in mm in the mesh's frame, forces in N and torques in N·m in the sensor frame S; nx,ny,nz (the"
         " outward normal) and marker (a name) may be added"
     ),
-    not_finite="remove the row, or touch the marker again.",
-    text="the name of a marker",
+    not_finite=message("remove the row, or touch the marker again."),
+    text=message("the name of a marker"),
     error=TouchFileError,
 )
 
@@ -62,7 +63,9 @@ def read_touches(source: Path | BinaryIO) -> MarkerTouches:
     def select(reader: TableReader) -> None:
         some = [column for column in NORMAL if column in reader.names]
         if some and len(some) < 3:
-            raise reader.error(f"only {', '.join(some)} of nx,ny,nz is given: give all three, or none.", 1)
+            raise reader.error(
+                message(f"only {arg(', '.join(some))} of nx,ny,nz is given: give all three, or none."), 1
+            )
         reader.select((*POINT, *CHANNELS), optional=NORMAL, text=NAME if NAME in reader.names else None)
         readers.append(reader)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from contactbench.pipeline.contact import ContactSolver, Reason
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.touches import (
@@ -159,8 +160,8 @@ class ContactReference:
         settled = int(np.count_nonzero(_settled(judged.noisy)))
         if settled < FEWEST / 2:
             raise LadderError(
-                f"the full mesh settles only {settled} of {len(judged.noisy)} touches"
-                f" ({_reasons(judged.noisy)}), so there is nothing to compare with: check that the"
+                f"the full mesh settles only {arg(settled)} of {arg(len(judged.noisy))} touches"
+                f" ({arg(_reasons(judged.noisy))}), so there is nothing to compare with: check that the"
                 " surface is a closed shell in the sensor's frame, and that the forces are the"
                 " expected ones."
             )

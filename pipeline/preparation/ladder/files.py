@@ -8,6 +8,7 @@ from io import StringIO
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.preparation.ladder.picture import draw_ladder
 
@@ -49,8 +50,8 @@ def save_ladder(ladder: Ladder, folder: Path) -> tuple[Path, ...]:
             write_durably(folder / name, data)
         except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
             raise LadderError(
-                f"{folder / name}: the file cannot be written ({error}): choose a folder that exists, is writable and"
-                " has space."
+                f"{arg(folder / name)}: the file cannot be written ({arg(error)}): choose a folder that"
+                " exists, is writable and has space."
             ) from error
     return tuple(folder / name for name in contents)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from contactbench.pipeline.errors import arg, message
+
 if TYPE_CHECKING:
     from rich.table import Table
 
@@ -102,11 +104,13 @@ class Ladder:
         """Return what was measured and what to take, for people."""
         low, high = self.expected.force
         judged = self.full.judged
-        where = {"region": "its priority regions", "all": "its surface"}.get(judged.part, judged.part)
-        measured = (
-            f"{self.probe}: {judged.touches:,} touches of {low:g} to {high:g} N on {where}, located on the full mesh of"
-            f" {self.full.facets:,} facets and on {len(self.rungs) - 1} simplified. Noise alone gives"
-            f" {1e3 * judged.bound:.3g} mm."
+        where = {"region": message("its priority regions"), "all": message("its surface")}.get(
+            judged.part, judged.part
+        )
+        measured = message(
+            f"{arg(self.probe)}: {arg(judged.touches):,} touches of {arg(low):g} to {arg(high):g} N on"
+            f" {arg(where)}, located on the full mesh of {arg(self.full.facets):,} facets and on"
+            f" {arg(len(self.rungs) - 1)} simplified. Noise alone gives {arg(1e3 * judged.bound):.3g} mm."
         )
         return [measured, self.recommendation.reason, *self.notes]
 
@@ -150,19 +154,19 @@ def _csv_row(rung: Rung, errors: PartErrors) -> dict[str, object]:
     return row | {"file_bytes": rung.file_bytes, "engine": rung.engine}
 
 
-_ERROR_CAPTION = (
+_ERROR_CAPTION = message(
     "Distances between the contacts on this mesh and on the full one, of touches settled by both, mm. × noise is p95"
     " over the noise bound; growth that of the whole error. Doubtful, lost, jumped: settled on the full mesh, here with"
     " a warning, without a point, or elsewhere without a warning. * recommended."
 )
-_SPEED_CAPTION = (
+_SPEED_CAPTION = message(
     "Compiled solves of the touches judged, µs, all in one run. × full is the median over the full mesh's; loop is the"
     " paper's Algorithm 1, which stops at the first facet that accepts, priority regions first. Deviation in mm."
 )
 
 
 def _error_table(ladder: Ladder) -> Table:
-    headings = ("mean", "p95", "max", "no noise", "× noise", "growth", "doubtful", "lost", "jumped")
+    headings = ("mean", "p95", "max", message("no noise"), "× noise", "growth", "doubtful", "lost", "jumped")
     table = _table(("facets", "part"), headings, _ERROR_CAPTION)
     for rung in ladder.rungs:
         for errors in rung.errors:

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import Algorithm1
 from contactbench.pipeline.mesh import MeshError, save_probe
 from contactbench.pipeline.mesh.engines import Cancelled
@@ -104,7 +105,7 @@ def measure_ladder(
                 cancelled=cancelled,
             )
         except MeshError as error:
-            notes.append(f"The rung of {count:,} facets is missing: {error}")
+            notes.append(message(f"The rung of {arg(count):,} facets is missing: {arg(error)}"))
             continue
         deviation = made.deviation
         rungs.append(_rung(made.probe, reference, count, deviation.hausdorff, deviation.rms, made.engine))

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.preparation.ladder.compare import PartErrors, Statistic
     from contactbench.pipeline.preparation.ladder.ladder import Rung
 
-_WORDS = {"mean": "mean", "p95": "95th percentile", "max": "largest"}
+_WORDS = {"mean": "mean", "p95": message("95th percentile"), "max": "largest"}
 
 
 @dataclass(frozen=True)
@@ -39,15 +40,19 @@ class Goal:
 
     def __post_init__(self) -> None:
         if self.limit_m is not None and not 0 < self.limit_m < math.inf:
-            raise LadderError(f"the largest added error is {self.limit_m:g} m: give a length above 0.")
+            raise LadderError(f"the largest added error is {arg(self.limit_m):g} m: give a length above 0.")
         if self.statistic not in _WORDS:
-            raise LadderError(f"there is no statistic {self.statistic!r}: choose one of {', '.join(_WORDS)}.")
+            raise LadderError(
+                f"there is no statistic {arg(self.statistic)!r}: choose one of {arg(join(', ', _WORDS))}."
+            )
         if not 0 < self.growth < math.inf:
             raise LadderError(
-                f"the total error may grow by {self.growth:g}: give a number above 0, such as 0.05."
+                f"the total error may grow by {arg(self.growth):g}: give a number above 0, such as 0.05."
             )
         if not 0 <= self.failed <= 1:
-            raise LadderError(f"the share of failed touches is {self.failed:g}: give a number from 0 to 1.")
+            raise LadderError(
+                f"the share of failed touches is {arg(self.failed):g}: give a number from 0 to 1."
+            )
 
     def limit(self, bound: float) -> float:
         """
@@ -106,66 +111,74 @@ def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:
         return Recommendation(None, limit, _none_keeps(simplified, full, goal, limit))
     rung = simplified[keeping]
     sentences = [
-        f"Take {rung.facets:,} facets, the fewest measured that suffice: {_errors(rung, goal, limit)}."
+        message(
+            f"Take {arg(rung.facets):,} facets, the fewest measured that suffice: {arg(_errors(rung, goal, limit))}."
+        )
     ]
     if keeping:
         coarser = simplified[keeping - 1]
-        sentences.append(f"With {coarser.facets:,} {_shortfall(coarser.judged, goal, limit)}.")
+        sentences.append(
+            message(f"With {arg(coarser.facets):,} {arg(_shortfall(coarser.judged, goal, limit))}.")
+        )
     sentences += [_elsewhere(errors, goal) for errors in rung.errors[1:]]
     sentences += _speed(rung, full)
-    return Recommendation(rung.facets, limit, " ".join(sentences))
+    return Recommendation(rung.facets, limit, join(" ", sentences))
 
 
 def _none_keeps(simplified: Sequence[Rung], full: Rung, goal: Goal, limit: float) -> str:
-    keep = f"Keep the full mesh of {full.facets:,} facets"
+    keep = message(f"Keep the full mesh of {arg(full.facets):,} facets")
     if not simplified:
-        return f"{keep}: no simplified one was measured."
+        return message(f"{arg(keep)}: no simplified one was measured.")
     if limit == 0:
-        return (
-            f"{keep}: the sensor is declared noise-free, so no error may be added. Give a limit as a length."
+        return message(
+            f"{arg(keep)}: the sensor is declared noise-free, so no error may be added. Give a limit as a length."
         )
     finest = simplified[-1]
-    return (
-        f"{keep}: no simplified mesh suffices. Even with {finest.facets:,}"
-        f" {_shortfall(finest.judged, goal, limit)}."
+    return message(
+        f"{arg(keep)}: no simplified mesh suffices. Even with {arg(finest.facets):,}"
+        f" {arg(_shortfall(finest.judged, goal, limit))}."
     )
 
 
 def _errors(rung: Rung, goal: Goal, limit: float) -> str:
     errors = rung.judged
     value = errors.noisy.statistic(goal.statistic)
-    told = f"the {_WORDS[goal.statistic]} of the added contact error is {_mm(value)} mm"
+    told = message(f"the {arg(_WORDS[goal.statistic])} of the added contact error is {arg(_mm(value))} mm")
     over = errors.over_bound(goal.statistic)
     if over is not None:
-        told += f", {over:.2g} of the noise's {_mm(errors.bound)} mm"
+        told += message(f", {arg(over):.2g} of the noise's {arg(_mm(errors.bound))} mm")
     if errors.growth is not None:
-        told += f", and the total error changes by {100 * errors.growth:+.1f} %"
+        told += message(f", and the total error changes by {arg(100 * errors.growth):+.1f} %")
     if goal.limit_m is not None:
-        return f"{told} (allowed: {_mm(limit)} mm)"
-    return f"{told} (allowed: {100 * goal.growth:+.2g} %)"
+        return message(f"{arg(told)} (allowed: {arg(_mm(limit))} mm)")
+    return message(f"{arg(told)} (allowed: {arg(100 * goal.growth):+.2g} %)")
 
 
 def _shortfall(errors: PartErrors, goal: Goal, limit: float) -> str:
     """Say what a rung does wrong, the worst first."""
     value = errors.noisy.statistic(goal.statistic)
     if value is None:
-        return "no touch is settled"
+        return message("no touch is settled")
     if value > limit:
-        return f"the {_WORDS[goal.statistic]} is {_mm(value)} mm, over the limit of {_mm(limit)} mm"
-    if errors.noisy.failed_share > goal.failed:
-        return (
-            f"{100 * errors.noisy.failed_share:.2g} % of the settled touches are lost, doubtful or jump, more than"
-            f" {100 * goal.failed:.2g} %"
+        return message(
+            f"the {arg(_WORDS[goal.statistic])} is {arg(_mm(value))} mm, over the limit of {arg(_mm(limit))} mm"
         )
-    return f"the total error grows by {100 * (errors.growth or 0):.1f} %, more than {100 * goal.growth:.2g} %"
+    if errors.noisy.failed_share > goal.failed:
+        return message(
+            f"{arg(100 * errors.noisy.failed_share):.2g} % of the settled touches are lost, doubtful or jump, more than"
+            f" {arg(100 * goal.failed):.2g} %"
+        )
+    return message(
+        f"the total error grows by {arg(100 * (errors.growth or 0)):.1f} %, more than {arg(100 * goal.growth):.2g} %"
+    )
 
 
 def _elsewhere(errors: PartErrors, goal: Goal) -> str:
     """Say what the part that does not decide pays."""
-    return (
-        f"Outside the regions, which does not count for the choice, the {_WORDS[goal.statistic]}"
-        f" is {_mm(errors.noisy.statistic(goal.statistic))} mm; noise alone gives"
-        f" {_mm(errors.bound)} mm."
+    return message(
+        f"Outside the regions, which does not count for the choice, the {arg(_WORDS[goal.statistic])}"
+        f" is {arg(_mm(errors.noisy.statistic(goal.statistic)))} mm; noise alone gives"
+        f" {arg(_mm(errors.bound))} mm."
     )
 
 
@@ -174,9 +187,9 @@ def _speed(rung: Rung, full: Rung) -> list[str]:
         return []
     ours, loop = rung.speed.contactbench.median, rung.speed.algorithm1.median
     before, loop_before = full.speed.contactbench.median, full.speed.algorithm1.median
-    sentence = (
-        f"Contactbench takes {ours / 1e3:.3g} µs a solve ({before / 1e3:.3g} on the full mesh), the paper's loop"
-        f" {loop / 1e3:.3g} µs ({loop_before / 1e3:.3g})."
+    sentence = message(
+        f"Contactbench takes {arg(ours / 1e3):.3g} µs a solve ({arg(before / 1e3):.3g} on the full mesh),"
+        f" the paper's loop {arg(loop / 1e3):.3g} µs ({arg(loop_before / 1e3):.3g})."
     )
     return [sentence]
 

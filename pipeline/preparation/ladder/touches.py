@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from contactbench.pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.preparation.ladder.errors import LadderError
 from contactbench.pipeline.simulation import Touches, add_noise, draw_touches
 
@@ -49,22 +50,24 @@ class ExpectedTouches:
         low, high = self.force
         if not 0 < low <= high < math.inf:
             raise LadderError(
-                f"the force range is {low:g} to {high:g} N: give two numbers above 0, smaller first."
+                f"the force range is {arg(low):g} to {arg(high):g} N: give two numbers above 0, smaller first."
             )
         low, high = self.friction_angle
         if not 0 <= low <= high < 90:
             raise LadderError(
-                f"the friction angle's range is {low:g} to {high:g} degrees: give two numbers from"
+                f"the friction angle's range is {arg(low):g} to {arg(high):g} degrees: give two numbers from"
                 " 0 to below 90, smaller first."
             )
         if not 0 <= self.torsion_arm < math.inf:
             raise LadderError(
-                f"the torsion arm is {self.torsion_arm:g} m: give a length of 0 or more, such as 0.0003."
+                f"the torsion arm is {arg(self.torsion_arm):g} m: give a length of 0 or more, such as 0.0003."
             )
         if self.count < FEWEST:
-            raise LadderError(f"{self.count} touches are too few to judge an error: give at least {FEWEST}.")
+            raise LadderError(
+                f"{arg(self.count)} touches are too few to judge an error: give at least {arg(FEWEST)}."
+            )
         if self.seed < 0:
-            raise LadderError(f"the seed is {self.seed}: give a whole number of at least 0.")
+            raise LadderError(f"the seed is {arg(self.seed)}: give a whole number of at least 0.")
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data; the noise as standard deviations of Fx Fy Fz Mx My Mz, N and N·m."""

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.scenes.physics import Payload, TrueSurface, new_spec, physics
 from contactbench.pipeline.simulation.scenes.platform import MovedScene, add_platform
@@ -106,7 +106,7 @@ class ArmScene(MovedScene):
         T_ES = _pose(np.eye(3) if R_ES is None else R_ES, np.zeros(3) if p_ES_E is None else p_ES_E, "T_ES")
         rests = np.array(_pose(_FACING, _PLACE_B, "T_BP") if T_BP is None else T_BP, dtype=np.float64)
         if rests.shape != (4, 4):
-            raise InputError(f"T_BP: give a pose of (4, 4), not {rests.shape}.")
+            raise InputError(f"T_BP: give a pose of (4, 4), not {arg(rests.shape)}.")
         rests = _pose(rests[:3, :3], rests[:3, 3], "T_BP")
         spec = new_spec(step)
         flange = add_arm(spec, self.robot.description)
@@ -171,10 +171,11 @@ class ArmScene(MovedScene):
             q = q + J.T @ np.linalg.solve(J @ J.T + 1e-9 * np.eye(6), off)
         else:
             raise InputError(
-                f"the arm {self.robot.description.name} does not reach {np.round(p_BS_B, 3).tolist()} m with this tool:"
-                " move the phantom (T_BP) nearer, or give joints near there."
+                f"the arm {arg(self.robot.description.name)} does not reach"
+                f" {arg(np.round(p_BS_B, 3).tolist())} m with this tool: move the phantom (T_BP) nearer, or"
+                " give joints near there."
             )
-        return self.robot.check_joints(np.arctan2(np.sin(q), np.cos(q)), "above the phantom")
+        return self.robot.check_joints(np.arctan2(np.sin(q), np.cos(q)), message("above the phantom"))
 
 
 def add_arm(spec: Any, description: RobotDescription) -> Any:
@@ -207,9 +208,9 @@ def _pose(R: ArrayLike, p: ArrayLike, where: str) -> NDArray[np.float64]:
     turn, place = np.asarray(R, dtype=np.float64), np.asarray(p, dtype=np.float64)
     shapes = turn.shape == (3, 3) and place.shape == (3,)
     if not (shapes and np.isfinite(turn).all() and np.isfinite(place).all()):
-        raise InputError(f"{where}: give finite numbers: a rotation (3, 3) and a place (3,), m.")
+        raise InputError(f"{arg(where)}: give finite numbers: a rotation (3, 3) and a place (3,), m.")
     if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
-        raise InputError(f"{where}: {turn.round(4).tolist()} is not a rotation matrix.")
+        raise InputError(f"{arg(where)}: {arg(turn.round(4).tolist())} is not a rotation matrix.")
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = turn, place
     return T

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.indenter import (
     PROBE_BIT,
     TIP_BIT,
@@ -143,13 +143,13 @@ class BenchScene(PhysicsScene):
         path = Rotation.from_matrix(start.T @ R).as_rotvec()
         needed = max(_SHORTEST_S, float(np.linalg.norm(path)) / _SPEED) if seconds is None else seconds
         if not 0 < needed < 1e4:
-            raise InputError(f"the wrist: {needed:g} s is not a valid duration: give a positive number.")
+            raise InputError(f"the wrist: {arg(needed):g} s is not a valid duration: give a positive number.")
         angle = float(np.linalg.norm(path))
         shortest = max(angle / _FASTEST, float(np.sqrt(_PEAK * angle / _HARDEST)))
         if needed < shortest:
             raise InputError(
-                f"the wrist: {np.degrees(angle):.0f} degrees in {needed:g} s is too fast for an"
-                f" arm: give {shortest:.3f} s or more."
+                f"the wrist: {arg(np.degrees(angle)):.0f} degrees in {arg(needed):g} s is too fast for an"
+                f" arm: give {arg(shortest):.3f} s or more."
             )
         self._turn = _Turn(self.time, needed, start, path)
         return needed
@@ -203,7 +203,7 @@ class BenchScene(PhysicsScene):
             raise InputError("a bump: give a force and a lever of three finite numbers.")
         if np.linalg.norm(force) > MOST_BUMP_N or np.linalg.norm(lever) > MOST_LEVER_M:
             raise InputError(
-                f"a bump: give a force of at most {MOST_BUMP_N:g} N on a lever of at most {MOST_LEVER_M:g} m."
+                f"a bump: give a force of at most {arg(MOST_BUMP_N):g} N on a lever of at most {arg(MOST_LEVER_M):g} m."
             )
         self._bump = (self.time + seconds, np.concatenate([force, np.cross(lever, force)]))
 

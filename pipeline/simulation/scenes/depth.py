@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.contact.footprint import FACE_DEPTH_M, spread
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.tissue import BALL_M, PLACES, Tissue
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def depth_for(
     >>> motion = hand_motion(3, depth=depth_for(truth, 7.0, motion=hand_motion(3)))  # doctest: +SKIP
     """
     if not (np.isfinite(force) and force > 0):
-        raise InputError(f"depth for {force} N: give a positive force.")
+        raise InputError(f"depth for {arg(force)} N: give a positive force.")
     tissue = tissue or Tissue()
     if tissue.cylinder is not None:
         raise InputError("depth: only for a flat phantom: leave out its cylinder.")
@@ -75,11 +75,13 @@ def depth_for(
     most = missing(FACE_DEPTH_M) + force
     if most <= force:
         raise InputError(
-            f"depth for {force:g} N: at {1e3 * FACE_DEPTH_M:g} mm this tissue already pushes with"
-            f" {most:.1f} N: choose a smaller force, or a stiffer tissue."
+            f"depth for {arg(force):g} N: at {arg(1e3 * FACE_DEPTH_M):g} mm this tissue already pushes with"
+            f" {arg(most):.1f} N: choose a smaller force, or a stiffer tissue."
         )
     if missing(0.0) >= 0:
-        raise InputError(f"depth for {force:g} N: the motion alone presses harder: reduce its heave or turn.")
+        raise InputError(
+            f"depth for {arg(force):g} N: the motion alone presses harder: reduce its heave or turn."
+        )
     return float(brentq(missing, 0.0, FACE_DEPTH_M, xtol=1e-9))
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.physics import OTHER, physics
 
 if TYPE_CHECKING:
@@ -87,8 +87,8 @@ class TipPress:
         possible = 0 <= self.force <= 1e3 and 0 <= self.tilt < 90 and abs(self.torsion) <= _MOST_TORSION_NM
         if not np.isfinite(values).all() or not possible:
             raise InputError(
-                f"press {values}: give a force from 0 to 1000 N, a tilt from 0 to under 90 degrees, and a torsion of"
-                f" at most {_MOST_TORSION_NM:g} N·m."
+                f"press {arg(values)}: give a force from 0 to 1000 N, a tilt from 0 to under 90 degrees, and"
+                f" a torsion of at most {arg(_MOST_TORSION_NM):g} N·m."
             )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 _TREMOR_HZ = (8.0, 12.0)
 _SLOW_HZ = (0.1, 0.6)
@@ -71,7 +71,7 @@ def hand_motion(
     """
     sizes = np.array([depth, heave, slide, turn, tremor])
     if not np.isfinite(sizes).all() or (sizes < 0).any():
-        raise InputError(f"hand motion: {sizes}: give finite numbers of 0 or more.")
+        raise InputError(f"hand motion: {arg(sizes)}: give finite numbers of 0 or more.")
     rng = np.random.default_rng(seed)
     largest = np.array([slide, slide, heave, turn, turn, turn / 3])
     shares = rng.uniform(0.3, 1.0, (_WAVES, 6))

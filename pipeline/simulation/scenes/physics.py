@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def physics() -> Any:  # any module attribute: there are no stubs to check again
         mujoco = importlib.import_module("mujoco")
     except ImportError as error:
         raise InputError(
-            f"the virtual bench needs MuJoCo, which cannot be imported ({error}): pip install 'contactbench[sim]'"
+            f"the virtual bench needs MuJoCo, which cannot be imported ({arg(error)}): pip install 'contactbench[sim]'"
         ) from error
     # Else every warning is written into MUJOCO_LOG.TXT in the user's folder. A scene looks at what there was itself.
     mujoco.set_mju_user_warning(_quiet)
@@ -76,9 +76,11 @@ class Payload:
     def __post_init__(self) -> None:
         centre = np.array(self.centre_of_mass_S, dtype=np.float64)
         if centre.shape != (3,) or not np.isfinite(centre).all():
-            raise InputError(f"payload: centre of mass {centre}: give three numbers, m.")
+            raise InputError(f"payload: centre of mass {arg(centre)}: give three numbers, m.")
         if not (0 < self.mass < 1000 and 0 < self.gyration < 10):
-            raise InputError(f"payload: {self.mass} kg, gyration {self.gyration} m: give positive numbers.")
+            raise InputError(
+                f"payload: {arg(self.mass)} kg, gyration {arg(self.gyration)} m: give positive numbers."
+            )
         object.__setattr__(self, "centre_of_mass_S", centre)
 
 
@@ -237,7 +239,7 @@ class PhysicsScene:
             for k in np.flatnonzero(self._warnings)
         ]
         raise PhysicsError(
-            f"the physics diverged ({', '.join(names)}), so later results would be wrong. Push"
+            f"the physics diverged ({arg(', '.join(names))}), so later results would be wrong. Push"
             " less hard, or turn more slowly."
         )
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float)
     nearest, distance = truth.facet(point_S)
     if distance > radius:
         raise InputError(
-            f"there is no surface within {1e3 * radius:.3g} mm of {np.round(1e3 * point_S, 1)} mm."
+            f"there is no surface within {arg(1e3 * radius):.3g} mm of {arg(np.round(1e3 * point_S, 1))} mm."
         )
     corners = probe.vertices[probe.faces]
     boxed = np.linalg.norm(np.maximum(corners.min(axis=1) - point_S, 0), axis=1) <= radius
@@ -45,8 +45,8 @@ def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float)
     found = chosen[triangle_distances(point_S, corners[chosen]) <= radius]
     if len(found) > _MOST_PIECES:
         raise InputError(
-            f"{len(found):,} facets lie within {1e3 * radius:.3g} mm of the touch: simplify the true surface to"
-            " facets of half a millimetre."
+            f"{arg(len(found)):,} facets lie within {arg(1e3 * radius):.3g} mm of the touch: simplify the"
+            " true surface to facets of half a millimetre."
         )
     return found
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 _INSTANT_S = 1e-9  # times of a scene are sums of its steps
 AXES = ("x", "y", "z", "rx", "ry", "rz")
@@ -39,11 +39,13 @@ class PlatformMotion:
     def __post_init__(self) -> None:
         amplitude = np.array(self.amplitude, dtype=np.float64)
         if amplitude.shape != (6,) or not np.isfinite(amplitude).all():
-            raise InputError(f"platform: amplitude {self.amplitude}: give six finite numbers, m and rad.")
+            raise InputError(
+                f"platform: amplitude {arg(self.amplitude)}: give six finite numbers, m and rad."
+            )
         if not (0 < self.period < 1e6 and 0 <= self.start < 1e6 and 0 <= self.ease < 1e6):
             raise InputError(
-                f"platform: period {self.period} s, start {self.start} s, ease {self.ease} s: the period must be"
-                " positive, the others 0 or more."
+                f"platform: period {arg(self.period)} s, start {arg(self.start)} s, ease {arg(self.ease)} s:"
+                " the period must be positive, the others 0 or more."
             )
         object.__setattr__(self, "amplitude", amplitude)
 
@@ -65,7 +67,7 @@ class PlatformMotion:
             There is no such axis.
         """
         if axis not in AXES:
-            raise InputError(f"platform: axis {axis!r}: give one of {', '.join(AXES)}.")
+            raise InputError(f"platform: axis {arg(axis)!r}: give one of {arg(', '.join(AXES))}.")
         return cls(size * np.eye(6)[AXES.index(axis)], period, start)
 
     def at(self, time: float) -> NDArray[np.float64]:

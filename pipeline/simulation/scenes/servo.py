@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class ServoSettings:
         values = (self.period, self.bandwidth, self.stiffness, self.counts)
         if not (np.isfinite(values).all() and min(values) > 0):
             raise InputError(
-                f"servo: period, bandwidth, stiffness and counts are {values}: give positive numbers."
+                f"servo: period, bandwidth, stiffness and counts are {arg(values)}: give positive numbers."
             )
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,8 +50,8 @@ class SetPoints:
         self._fastest, self._hardest, self._period = np.asarray(fastest), np.asarray(hardest), period
         if not (0 < period < np.inf and (self._fastest > 0).all() and (self._hardest > 0).all()):
             raise InputError(
-                f"set-points every {period} s, speeds up to {self._fastest.tolist()}, accelerations up to"
-                f" {self._hardest.tolist()}: give positive numbers."
+                f"set-points every {arg(period)} s, speeds up to {arg(self._fastest.tolist())}, accelerations up to"
+                f" {arg(self._hardest.tolist())}: give positive numbers."
             )
         self._set(np.zeros_like(self._from))
 
@@ -65,7 +65,7 @@ class SetPoints:
             They are not finite, or not as many.
         """
         if point.shape != self._to.shape or not np.isfinite(point).all():
-            raise InputError(f"set-point {point.tolist()}: give {len(self._to)} finite numbers.")
+            raise InputError(f"set-point {arg(point.tolist())}: give {arg(len(self._to))} finite numbers.")
         here, speed = self.state(time)
         # A cubic that ends with speed b after a is fastest at 4/3 b - a/3, two thirds of the way.
         most = 0.75 * self._fastest

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.contact.footprint import spread
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
 from contactbench.pipeline.simulation.scenes.physics import (
     OTHER,
@@ -63,8 +63,8 @@ class TissueCourse:
         right = len(times) == len(factors) > 0 and np.isfinite(times).all() and np.isfinite(factors).all()
         if not (right and (np.diff(times) > 0).all() and (factors > 0).all()):
             raise InputError(
-                f"tissue: course of times {self.times} and factors {self.factors}: give as many of both, times that"
-                " grow, s, and factors above 0."
+                f"tissue: course of times {arg(self.times)} and factors {arg(self.factors)}: give as many of"
+                " both, times that grow, s, and factors above 0."
             )
 
     def at(self, time: float) -> float:
@@ -91,7 +91,8 @@ class TissueCylinder:
     def __post_init__(self) -> None:
         if not (0.02 <= self.radius < np.inf and np.isfinite(self.askew)):
             raise InputError(
-                f"tissue: a cylinder of {self.radius} m, {self.askew} rad askew: give at least 0.02 m, a finite angle."
+                f"tissue: a cylinder of {arg(self.radius)} m, {arg(self.askew)} rad askew: give at least"
+                " 0.02 m, a finite angle."
             )
 
     @property
@@ -148,7 +149,7 @@ class Tissue:
     def __post_init__(self) -> None:
         values = (self.modulus, self.damping, self.friction, self.half_size)
         if not np.isfinite(values).all() or min(values) < 0 or self.modulus == 0 or self.half_size == 0:
-            raise InputError(f"tissue {values}: give positive numbers; damping and friction may be 0.")
+            raise InputError(f"tissue {arg(values)}: give positive numbers; damping and friction may be 0.")
 
 
 class TissueScene(PhysicsScene):

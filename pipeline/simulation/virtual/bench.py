@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench import assets
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.reality import LateLine, RealProbe, WrenchDisturbance, chance
@@ -95,11 +95,13 @@ class VirtualBench:
         script: Sequence[Timed] = (),
         reality: Reality | None = None,
     ) -> None:
-        for what, value in (("rate", rate), ("pose rate", pose_rate)):
+        for what, value in (("rate", rate), (message("pose rate"), pose_rate)):
             if not 0 < value <= FASTEST:
-                raise InputError(f"virtual bench: {what} {value:g} Hz: give one above 0, up to {FASTEST:g}.")
+                raise InputError(
+                    f"virtual bench: {arg(what)} {arg(value):g} Hz: give one above 0, up to {arg(FASTEST):g}."
+                )
         if seed < 0:
-            raise InputError(f"virtual bench: seed {seed}: give a whole number of 0 or more.")
+            raise InputError(f"virtual bench: seed {arg(seed)}: give a whole number of 0 or more.")
         settings = preset(sensor) if isinstance(sensor, str) else sensor
         truth = bundled(probe) if isinstance(probe, str) else TrueSurface(probe)
         self.probe = truth.probe
@@ -190,7 +192,7 @@ class VirtualBench:
         self._closed = True
         while self._queue:
             command, answer = self._queue.popleft()
-            answer.set_exception(CommandError(f"{command.name}: the bench is closed: open it again."))
+            answer.set_exception(CommandError(f"{arg(command.name)}: the bench is closed: open it again."))
 
     def turn_to(
         self, R_WS: ArrayLike | None = None, *, rpy: ArrayLike | None = None, seconds: float | None = None
@@ -319,7 +321,7 @@ class VirtualBench:
                 answer.set_exception(error)
             except BaseException as error:
                 # Whoever waits for the answer must not wait for ever.
-                answer.set_exception(CommandError(f"{command.name}: the bench failed: {error!r}."))
+                answer.set_exception(CommandError(f"{arg(command.name)}: the bench failed: {arg(error)!r}."))
                 raise
             else:
                 answer.set_result(done)
@@ -328,14 +330,14 @@ class VirtualBench:
             try:
                 self._do(timed.command)
             except InputError as error:
-                raise ScriptError(f"{timed.where}: {error}") from error
+                raise ScriptError(f"{arg(timed.where)}: {arg(error)}") from error
 
     def _when(self, timed: Timed) -> float:
         return timed.at if timed.at is not None else self._last_end + (timed.after or 0.0)
 
     def _do(self, command: Command) -> Done:
         if self._ended:
-            raise CommandError(f"{command.name}: the run has ended.")
+            raise CommandError(f"{arg(command.name)}: the run has ended.")
         done = Done(self.time, command, self._act(command))
         self._last_end = max(done.until, done.time)
         self.log.append(done)
@@ -371,14 +373,14 @@ class VirtualBench:
     def _touch(self, command: TouchCommand) -> float:
         now = self.time
         if now < self._turning - 1e-9:
-            raise CommandError(f"touch: the wrist turns until {self._turning:.3f} s: touch after that.")
+            raise CommandError(f"touch: the wrist turns until {arg(self._turning):.3f} s: touch after that.")
         if command.marker is None:
             place = np.array(command.point_S)
         elif 1 <= command.marker <= len(self.markers):
             place = self.real.targets[command.marker - 1]
         else:
             raise CommandError(
-                f"touch: there is no marker {command.marker}: choose 1 to {len(self.markers)}."
+                f"touch: there is no marker {arg(command.marker)}: choose 1 to {arg(len(self.markers))}."
             )
         self.scene.aim(self.real.aimed(place, command.press))
         self.scene.press(command.press)
@@ -412,7 +414,7 @@ def bundled(name: str) -> TrueSurface:
         There is no such probe.
     """
     if name not in COUNTS:
-        raise InputError(f"there is no probe {name!r}: choose one of {', '.join(COUNTS)}.")
+        raise InputError(f"there is no probe {arg(name)!r}: choose one of {arg(', '.join(COUNTS))}.")
     vertices, faces = assets.make(name, _FACETS)
     plain = Probe.from_arrays(vertices, faces, name=name)
     return TrueSurface(plain.with_region(assets.contact_region(name, vertices, faces)))

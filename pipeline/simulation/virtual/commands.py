@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
 
@@ -78,7 +78,7 @@ class TouchCommand:
         if (self.marker is None) == (self.point_S is None):
             raise CommandError("touch: give either marker (a number from 1) or point_S (three lengths, m).")
         if self.marker is not None and (isinstance(self.marker, bool) or not isinstance(self.marker, int)):
-            raise CommandError(f"touch: marker {self.marker!r}: give a whole number from 1.")
+            raise CommandError(f"touch: marker {arg(self.marker)!r}: give a whole number from 1.")
         if self.point_S is not None:
             object.__setattr__(self, "point_S", _numbers(self, "point_S"))
         for part in ("force", "tilt", "azimuth", "torsion"):
@@ -114,10 +114,12 @@ class Bump:
         if self.seconds is None:
             raise CommandError("bump: seconds null: give a positive number, or leave it out.")
         if math.hypot(*self.force) > MOST_BUMP_N:
-            raise CommandError(f"bump: {math.hypot(*self.force):g} N: give at most {MOST_BUMP_N:g} N.")
+            raise CommandError(
+                f"bump: {arg(math.hypot(*self.force)):g} N: give at most {arg(MOST_BUMP_N):g} N."
+            )
         if math.hypot(*self.lever) > MOST_LEVER_M:
             raise CommandError(
-                f"bump: a lever of {math.hypot(*self.lever):g} m: give at most {MOST_LEVER_M:g} m."
+                f"bump: a lever of {arg(math.hypot(*self.lever)):g} m: give at most {arg(MOST_LEVER_M):g} m."
             )
         _check_seconds(self)
 
@@ -132,7 +134,7 @@ class Warm:
     def __post_init__(self) -> None:
         object.__setattr__(self, "kelvin", _number(self, "kelvin"))
         if abs(self.kelvin) > 100:
-            raise CommandError(f"warm: {self.kelvin:g} K: give at most 100 K either way.")
+            raise CommandError(f"warm: {arg(self.kelvin):g} K: give at most 100 K either way.")
 
 
 @dataclass(frozen=True)
@@ -167,16 +169,18 @@ def read_command(given: Mapping[str, object]) -> Command:
     name = given.get("do")
     kind = _COMMANDS.get(name) if isinstance(name, str) else None
     if kind is None:
-        raise CommandError(f"do {name!r}: choose one of {', '.join(_COMMANDS)}.")
+        raise CommandError(f"do {arg(name)!r}: choose one of {arg(', '.join(_COMMANDS))}.")
     known = [field.name for field in fields(kind)]
     values = {key: value for key, value in given.items() if key != "do"}
     for key in values:
         if key not in known:
-            raise CommandError(f"{name}: unknown key {key!r}. Possible: {', '.join(known) or 'nothing'}.")
+            raise CommandError(
+                f"{arg(name)}: unknown key {arg(key)!r}. Possible: {arg(', '.join(known) or 'nothing')}."
+            )
     try:
         command: Command = kind(**values)
     except TypeError as error:
-        raise CommandError(f"{name}: some of these are missing: {', '.join(known)}.") from error
+        raise CommandError(f"{arg(name)}: some of these are missing: {arg(', '.join(known))}.") from error
     return command
 
 
@@ -193,7 +197,7 @@ def command_fields(command: Command) -> dict[str, Any]:
 def _number(command: Any, part: str) -> float:
     value = getattr(command, part)
     if not is_finite(value):
-        raise CommandError(f"{command.name}: {part} {shortened(value)}: give a finite number.")
+        raise CommandError(f"{arg(command.name)}: {arg(part)} {arg(shortened(value))}: give a finite number.")
     return float(value)
 
 
@@ -219,7 +223,9 @@ def _array(command: Any, part: str, shape: tuple[int, ...]) -> list[Any]:
         array = np.empty(0)
     if array.shape != shape or not np.isfinite(array).all():
         many = " rows of ".join(map(str, shape))
-        raise CommandError(f"{command.name}: {part} {shortened(value)}: give {many} finite numbers.")
+        raise CommandError(
+            f"{arg(command.name)}: {arg(part)} {arg(shortened(value))}: give {arg(many)} finite numbers."
+        )
     numbers: list[Any] = array.tolist()
     return numbers
 
@@ -232,4 +238,4 @@ def _check_seconds(command: Any) -> None:
     if command.seconds is None:
         return
     if not 0 < _number(command, "seconds") < _MOST_S:
-        raise CommandError(f"{command.name}: seconds {command.seconds!r}: give a positive number.")
+        raise CommandError(f"{arg(command.name)}: seconds {arg(command.seconds)!r}: give a positive number.")

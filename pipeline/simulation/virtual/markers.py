@@ -10,7 +10,7 @@ from scipy.cluster.vq import kmeans2
 from scipy.spatial import cKDTree
 
 from contactbench import assets
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def markers(name: str) -> Array:
         There is no such probe.
     """
     if name not in COUNTS:
-        raise InputError(f"there is no probe {name!r}: choose one of {', '.join(COUNTS)}.")
+        raise InputError(f"there is no probe {arg(name)!r}: choose one of {arg(', '.join(COUNTS))}.")
     return _marked(name)
 
 
@@ -93,7 +93,7 @@ def markers_on(probe: Probe, count: int = 15) -> Array:
         There are too few of them, or no surface that a tip reaches.
     """
     if count < ON_FACE:
-        raise InputError(f"{count} markers are too few: give at least {ON_FACE}.")
+        raise InputError(f"{arg(count)} markers are too few: give at least {arg(ON_FACE)}.")
     rng = np.random.default_rng(0)
     facets = rng.choice(len(probe.faces), _SAMPLES, p=probe.areas / probe.areas.sum())
     shares = rng.dirichlet(np.ones(3), _SAMPLES)

@@ -6,7 +6,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 CATCH_UP_S = 0.2
 _SLICE_S = 0.01  # a command waits no longer than this much of a bench that is late
 _LOOK_S = 0.002
-_SLOW = (
+_SLOW = message(
     "The simulation is running behind because this computer is too slow. Lower the rate, or close"
     " other programs."
 )
@@ -29,7 +29,7 @@ class BenchError(InputError):
 
 def failure(error: Exception) -> BenchError:
     """Return what to tell of a mistake."""
-    return BenchError(f"the virtual bench failed ({type(error).__name__}: {error}): open it again.")
+    return BenchError(f"the virtual bench failed ({arg(type(error).__name__)}: {arg(error)}): open it again.")
 
 
 class Pacer:
@@ -62,7 +62,7 @@ class Pacer:
         self.slipped = 0.0
         self.origin = time.monotonic() - bench.time
         self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="virtual bench", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=message("virtual bench"), daemon=True)
 
     def start(self) -> None:
         """Begin: the bench's clock goes on from where it is."""

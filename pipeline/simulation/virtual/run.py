@@ -9,7 +9,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import scratch_beside
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
 from contactbench.pipeline.simulation.virtual.commands import command_fields
@@ -69,8 +69,8 @@ def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, addres
         raise InputError("virtual bench: no script was given.")
     _refuse_taken(out, truth)
     devices = [
-        DeviceInfo("wrench", WRENCH_TOPIC, address, "virtual bench", rate=bench.rate),
-        DeviceInfo("flange", FLANGE_TOPIC, address, "virtual bench", rate=bench.pose_rate),
+        DeviceInfo("wrench", WRENCH_TOPIC, address, message("virtual bench"), rate=bench.rate),
+        DeviceInfo("flange", FLANGE_TOPIC, address, message("virtual bench"), rate=bench.pose_rate),
     ]
     about = RecordingInfo(STARTED_NS, 0.0, tuple(devices))
     with ExitStack() as unfinished:
@@ -86,15 +86,15 @@ def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, addres
 
 def _refuse_taken(out: Path, truth: Path | None) -> None:
     if truth is not None and truth.resolve() == out.resolve():
-        raise InputError(f"{out}: recording and truth need different files: give them two names.")
+        raise InputError(f"{arg(out)}: recording and truth need different files: give them two names.")
     for file in (out, truth):
         if file is not None and not file.parent.is_dir():
             raise InputError(
-                f"{file}: there is no folder {file.parent}: create it, or choose another location."
+                f"{arg(file)}: there is no folder {arg(file.parent)}: create it, or choose another location."
             )
         if file is not None and file.exists():
             raise InputError(
-                f"{file}: this file exists and is never overwritten: choose another name or delete it."
+                f"{arg(file)}: this file exists and is never overwritten: choose another name or delete it."
             )
 
 
@@ -108,7 +108,9 @@ def _put(scratch: Path, file: Path) -> None:
     try:
         scratch.rename(file)
     except OSError as error:
-        raise InputError(f"{file}: it cannot be written ({error}): choose another location.") from error
+        raise InputError(
+            f"{arg(file)}: it cannot be written ({arg(error)}): choose another location."
+        ) from error
 
 
 def _go(bench: VirtualBench, about: RecordingInfo, out: Path, truth: Path | None) -> tuple[int, int]:
@@ -123,7 +125,7 @@ def _go(bench: VirtualBench, about: RecordingInfo, out: Path, truth: Path | None
                 file = files.enter_context(truth.open("x", newline="", encoding="utf-8"))
             except OSError as error:
                 raise InputError(
-                    f"{truth}: it cannot be written ({error}): choose another location."
+                    f"{arg(truth)}: it cannot be written ({arg(error)}): choose another location."
                 ) from error
             table = TruthTable(file)
         while _goes_on(bench):
@@ -142,7 +144,7 @@ def _goes_on(bench: VirtualBench) -> bool:
         left = bench.pending
         if left:
             raise ScriptError(
-                f"{left[0].where}: it is due after {LONGEST_S:,.0f} s, the longest run: split the script."
+                f"{arg(left[0].where)}: it is due after {arg(LONGEST_S):,.0f} s, the longest run: split the script."
             )
         return False
     return bench.scripted or bench.time < bench.idle_from + _AFTERWARDS_S

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.virtual.commands import (
     Command,
     command_fields,
@@ -55,7 +55,9 @@ def read_script(path: Path) -> tuple[Timed, ...]:
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
-        raise ScriptError(f"{path}: it cannot be read ({error}): give a text file of commands.") from error
+        raise ScriptError(
+            f"{arg(path)}: it cannot be read ({arg(error)}): give a text file of commands."
+        ) from error
     return parse_script(text, str(path))
 
 
@@ -70,7 +72,9 @@ def parse_script(text: str, name: str = "script") -> tuple[Timed, ...]:
     found: list[Timed] = []
     lines = text.splitlines()
     if len(lines) > _MOST_LINES:
-        raise ScriptError(f"{name}: {len(lines):,} lines are more than {_MOST_LINES:,}: split the script.")
+        raise ScriptError(
+            f"{arg(name)}: {arg(len(lines)):,} lines are more than {arg(_MOST_LINES):,}: split the script."
+        )
     latest = earliest = 0.0
     for number, line in enumerate(lines, 1):
         if not line.strip() or line.lstrip().startswith("#"):
@@ -79,18 +83,19 @@ def parse_script(text: str, name: str = "script") -> tuple[Timed, ...]:
         if timed.at is not None:
             if timed.at < latest:
                 raise ScriptError(
-                    f"{timed.where}: at {timed.at:g} s is before {latest:g} s of a line above: put them in order."
+                    f"{arg(timed.where)}: at {arg(timed.at):g} s is before {arg(latest):g} s of a line"
+                    " above: put them in order."
                 )
             latest = timed.at
         # It may be later yet, by how long the commands above take.
         earliest = timed.at if timed.at is not None else earliest + (timed.after or 0.0)
         if earliest > LONGEST_S:
             raise ScriptError(
-                f"{timed.where}: it is due after {LONGEST_S:,.0f} s, the longest run: split the script."
+                f"{arg(timed.where)}: it is due after {arg(LONGEST_S):,.0f} s, the longest run: split the script."
             )
         found.append(timed)
     if not found:
-        raise ScriptError(f'{name}: it has no commands: add a line such as {{"at": 1, "do": "end"}}.')
+        raise ScriptError(f'{arg(name)}: it has no commands: add a line such as {{"at": 1, "do": "end"}}.')
     return tuple(found)
 
 
@@ -105,20 +110,23 @@ def script_text(commands: Iterable[Timed]) -> str:
 
 def _read_line(line: str, where: str) -> Timed:
     if len(line) > _LONGEST_LINE:
-        raise ScriptError(f"{where}: longer than {_LONGEST_LINE:,} characters: check that it is a script.")
+        raise ScriptError(
+            f"{arg(where)}: longer than {arg(_LONGEST_LINE):,} characters: check that it is a script."
+        )
     fields = read_object(line, where)
     when = {key: fields.pop(key) for key in ("at", "after") if key in fields}
     if len(when) != 1:
-        raise ScriptError(f"{where}: give either at or after, s.")
+        raise ScriptError(f"{arg(where)}: give either at or after, s.")
     ((key, seconds),) = when.items()
     if not is_finite(seconds) or not 0 <= seconds <= LONGEST_S:
         raise ScriptError(
-            f"{where}: {key} {shortened(seconds)}: give seconds, 0 or more and at most {LONGEST_S:,.0f}."
+            f"{arg(where)}: {arg(key)} {arg(shortened(seconds))}: give seconds, 0 or more and at most"
+            f" {arg(LONGEST_S):,.0f}."
         )
     try:
         command = read_command(fields)
     except InputError as error:
-        raise ScriptError(f"{where}: {error}") from error
+        raise ScriptError(f"{arg(where)}: {arg(error)}") from error
     return Timed(command, where=where, **{key: float(seconds)})
 
 
@@ -134,8 +142,8 @@ def read_object(line: str, where: str) -> dict[str, Any]:
         value = json.loads(line)
     except (ValueError, RecursionError) as error:
         raise ScriptError(
-            f'{where}: not valid JSON ({error}): write {{"at": 2, "do": "release"}} or the like.'
+            f'{arg(where)}: not valid JSON ({arg(error)}): write {{"at": 2, "do": "release"}} or the like.'
         ) from error
     if not isinstance(value, dict):
-        raise ScriptError(f'{where}: not a JSON object: write {{"at": 2, "do": "release"}} or the like.')
+        raise ScriptError(f'{arg(where)}: not a JSON object: write {{"at": 2, "do": "release"}} or the like.')
     return value

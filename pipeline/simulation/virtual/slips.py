@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import message
 from contactbench.pipeline.simulation.virtual.given import Slip
 
 if TYPE_CHECKING:
     from contactbench.pipeline.simulation.virtual.given import Done
 
 SLIPPED_S = 0.5
-_SENTENCE = (
+_SENTENCE = message(
     "The tip slid off the probe and presses nothing. Release it, and touch elsewhere or with less tilt."
 )
 

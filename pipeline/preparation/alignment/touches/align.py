@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_transform
@@ -152,12 +153,12 @@ def _starts(mounts: ArrayLike | Sequence[ArrayLike]) -> list[Floats]:
     try:
         array = np.asarray(mounts, dtype=np.float64)
     except (ValueError, TypeError) as error:
-        raise AlignmentError(f"mounts: these are not numbers ({error}): give T_SP (4, 4).") from error
+        raise AlignmentError(f"mounts: these are not numbers ({arg(error)}): give T_SP (4, 4).") from error
     if array.shape == (4, 4):
         array = array[None]
     if array.ndim != 3 or not len(array):
         raise AlignmentError(
-            f"mounts: the shape is {array.shape}: give one T_SP (4, 4), or several (k, 4, 4)."
+            f"mounts: the shape is {arg(array.shape)}: give one T_SP (4, 4), or several (k, 4, 4)."
         )
     return [check_transform(T, f"mount {row + 1}") for row, T in enumerate(array)]
 
@@ -165,7 +166,7 @@ def _starts(mounts: ArrayLike | Sequence[ArrayLike]) -> list[Floats]:
 def _check_noise(noise: WrenchNoise, placement: float) -> None:
     if not 0 <= placement <= _LARGEST_PLACEMENT_M:
         raise AlignmentError(
-            f"placement: {placement} m is not between 0 and 0.05: give metres, such as 0.0003."
+            f"placement: {arg(placement)} m is not between 0 and 0.05: give metres, such as 0.0003."
         )
     if placement == 0 and np.linalg.eigvalsh(noise.covariance[3:, 3:])[0] <= 0:
         raise AlignmentError(
@@ -178,7 +179,7 @@ def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
     pulling = int((~pressed).sum())
     if 2 * pulling > len(pressed):
         raise AlignmentError(
-            f"{pulling} of {len(pressed)} forces pull on the surface. The wrenches must be the"
+            f"{arg(pulling)} of {arg(len(pressed))} forces pull on the surface. The wrenches must be the"
             " force of the tissue on the probe: negate them if the sensor reports the reaction."
             " Otherwise the mesh is inside out, or the first mount is turned over."
         )
@@ -190,9 +191,9 @@ def _alignment(
     # The covariance is about where the touches' centroid was with the first mount: it moves with the fit.
     centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
     how = (
-        (
-            f"Fitted to {int(fit.kept.sum())} of {len(fit.kept)} touches of marked points; they"
-            f" determine {fit.rank} of the six combinations of shift and rotation."
+        message(
+            f"Fitted to {arg(int(fit.kept.sum()))} of {arg(len(fit.kept))} touches of marked points; they"
+            f" determine {arg(fit.rank)} of the six combinations of shift and rotation."
         ),
         *told,
     )

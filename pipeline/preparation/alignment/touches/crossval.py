@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline import contact
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.preparation.alignment.touches.fit import fit_mount
 
 if TYPE_CHECKING:
@@ -70,17 +71,19 @@ class CrossValidation:
     def sentence(self) -> str:
         """The figures, in one sentence."""
         before, after, inside = (
-            f"{1e3 * rms(e):.2f} mm rms (median {1e3 * float(np.median(e)):.2f})"
+            message(f"{arg(1e3 * rms(e)):.2f} mm rms (median {arg(1e3 * float(np.median(e))):.2f})")
             for e in (self.before, self.out_of_sample, self.in_sample)
         )
-        words = (
-            f"On held-out touches the fitted mount errs by {after}, the first mount by {before};"
-            f" on its own touches the fit errs by {inside}; noise and placement alone give"
-            f" {1e3 * rms(self.bound):.2f}."
+        words = message(
+            f"On held-out touches the fitted mount errs by {arg(after)}, the first mount by {arg(before)};"
+            f" on its own touches the fit errs by {arg(inside)}; noise and placement alone give"
+            f" {arg(1e3 * rms(self.bound)):.2f}."
         )
         if not self.kept.all():
             after, before = (f"{1e3 * rms(e[self.kept]):.2f}" for e in (self.out_of_sample, self.before))
-            words += f" Without the left-out touches these are {after} and {before} mm rms."
+            words += message(
+                f" Without the left-out touches these are {arg(after)} and {arg(before)} mm rms."
+            )
         return words
 
 
@@ -135,24 +138,29 @@ def advise(fit: MountFit, check: CrossValidation) -> tuple[Advice, tuple[str, ..
     # Ranks bear a touch of the wrong marker; the root mean square does not, and is taken without it.
     gain = rms(check.out_of_sample[fit.kept]) < rms(check.before[fit.kept])
     if fit.rank == 0:
-        return Advice.KEEP, ("The touches reveal nothing about the mount.",)
+        return Advice.KEEP, (message("The touches reveal nothing about the mount."),)
     if n < _FEWEST:
         return Advice.KEEP, (
-            f"{n} touches cannot prove an improvement: touch at least {_FEWEST} markers, better 15.",
+            message(
+                f"{arg(n)} touches cannot prove an improvement: touch at least {arg(_FEWEST)} markers, better 15."
+            ),
         )
     if kept < (1 - _MOST_OUT) * n:
         return Advice.KEEP, (
-            (
-                f"Only {kept} of {n} touches agree with one mount. Check the order of the markers, the sign of"
-                " the wrenches"
-                " and the mesh."
+            message(
+                f"Only {arg(kept)} of {arg(n)} touches agree with one mount. Check the order of the markers,"
+                " the sign of the wrenches and the mesh."
             ),
         )
     if not gain or check.p_value >= _CHANCE:
-        why = f"is not clearly better (p = {check.p_value:.2g})" if gain else "is no better"
-        return Advice.KEEP, (f"The fitted mount {why} on held-out touches.", check.sentence)
+        why = (
+            message(f"is not clearly better (p = {arg(check.p_value):.2g})")
+            if gain
+            else message("is no better")
+        )
+        return Advice.KEEP, (message(f"The fitted mount {arg(why)} on held-out touches."), check.sentence)
     return Advice.ADOPT, (
-        f"The fitted mount is better on held-out touches (p = {check.p_value:.2g}).",
+        message(f"The fitted mount is better on held-out touches (p = {arg(check.p_value):.2g})."),
         check.sentence,
     )
 

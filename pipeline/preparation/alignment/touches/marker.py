@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import check_numbers
@@ -50,10 +51,13 @@ class MarkerTouches:
         names = tuple(self.names) or tuple(f"touch {row + 1}" for row in range(len(points)))
         if len({len(points), len(wrenches), len(names)}) > 1:
             raise AlignmentError(
-                f"{len(points)} points, {len(wrenches)} wrenches and {len(names)} names: give one of each per touch."
+                f"{arg(len(points))} points, {arg(len(wrenches))} wrenches and {arg(len(names))} names: give"
+                " one of each per touch."
             )
         if len(points) < 3:
-            raise AlignmentError(f"{len(points)} touches cannot show a mount: touch at least three markers.")
+            raise AlignmentError(
+                f"{arg(len(points))} touches cannot show a mount: touch at least three markers."
+            )
         _check_sizes(points, wrenches, names)
         object.__setattr__(self, "points_P", points)
         object.__setattr__(self, "wrenches", wrenches)
@@ -86,12 +90,14 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats,
     worst = int(np.argmax(distance))
     if distance[worst] > _OFF_MESH_M:
         raise AlignmentError(
-            f"{touches.names[worst]}: the marker is {1e3 * distance[worst]:.1f} mm from the mesh."
+            f"{arg(touches.names[worst])}: the marker is {arg(1e3 * distance[worst]):.1f} mm from the mesh."
             " Give the markers in millimetres in the mesh's own frame, and the mesh they were"
             " measured on."
         )
     warnings = [
-        f"{name}: the marker is {1e3 * d:.1f} mm from the mesh; the nearest point of the mesh is used."
+        message(
+            f"{arg(name)}: the marker is {arg(1e3 * d):.1f} mm from the mesh; the nearest point of the mesh is used."
+        )
         for name, d in zip(touches.names, distance, strict=True)
         if d > _NEAR_MESH_M
     ]
@@ -99,8 +105,10 @@ def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> tuple[Floats, Floats,
     if touches.normals_P is not None:
         agree = np.einsum("ij,ij->i", normals, touches.normals_P)
         warnings += [
-            f"{name}: the given normal is {np.degrees(np.arccos(np.clip(a, -1, 1))):.0f}° from the"
-            " mesh normal there. Check its sign and the marker."
+            message(
+                f"{arg(name)}: the given normal is {arg(np.degrees(np.arccos(np.clip(a, -1, 1)))):.0f}° from the"
+                " mesh normal there. Check its sign and the marker."
+            )
             for name, a in zip(touches.names, agree, strict=True)
             if a < _NORMAL_AGREES
         ]
@@ -113,12 +121,14 @@ def _check_sizes(points: Floats, wrenches: Floats, names: tuple[str, ...]) -> No
     weak = int(np.argmin(force))
     if force[weak] < _SMALLEST_FORCE_N:
         raise AlignmentError(
-            f"{names[weak]}: the force is {force[weak]:.3g} N, below {_SMALLEST_FORCE_N:g} N, so"
+            f"{arg(names[weak])}: the force is {arg(force[weak]):.3g} N, below {arg(_SMALLEST_FORCE_N):g} N, so"
             " it is not a touch. Remove the row, or press with 8 to 10 N."
         )
     far = int(np.argmax(np.abs(points).max(axis=1)))
     if np.abs(points[far]).max() > _LARGEST_M:
-        raise AlignmentError(f"{names[far]}: the marker is over 10 m away: give metres in the mesh's frame.")
+        raise AlignmentError(
+            f"{arg(names[far])}: the marker is over 10 m away: give metres in the mesh's frame."
+        )
 
 
 def _unit(values: ArrayLike, names: tuple[str, ...]) -> Floats:
@@ -127,7 +137,7 @@ def _unit(values: ArrayLike, names: tuple[str, ...]) -> Floats:
     short = int(np.argmin(length))
     if length[short] < 1e-9:
         raise AlignmentError(
-            f"{names[short]}: the normal has zero length: leave out all normals, or correct it."
+            f"{arg(names[short])}: the normal has zero length: leave out all normals, or correct it."
         )
     unit: Floats = normals / length[:, None]
     return unit

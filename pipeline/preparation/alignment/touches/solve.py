@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.errors import arg
 from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.rigid import difference, step
 
@@ -47,7 +48,7 @@ class MountBelief:
             value = getattr(self, name)
             if not 0 < value <= most:
                 raise AlignmentError(
-                    f"MountBelief.{name}: {value} is not above 0 and at most {most:.4g} (m, rad)."
+                    f"MountBelief.{arg(name)}: {arg(value)} is not above 0 and at most {arg(most):.4g} (m, rad)."
                 )
 
     @property

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
+from contactbench.pipeline.errors import arg, join, message
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -37,9 +39,9 @@ def unseen_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
         return ()
     things = unseen_motions(fit, belief)
     return (
-        (
-            f"The touches cannot determine {_listed(things)} better than the"
-            f" {1e3 * belief.shift:g} mm and {np.degrees(belief.rotation):g}° that the mount may"
+        message(
+            f"The touches cannot determine {arg(_listed(things))} better than the"
+            f" {arg(1e3 * belief.shift):g} mm and {arg(np.degrees(belief.rotation)):g}° that the mount may"
             " be off, so it stays unchanged there. Touch markers whose normals point in other"
             " directions, or drag a little so that the forces differ in direction."
         ),
@@ -55,8 +57,8 @@ def unseen_motions(fit: MountFit, belief: MountBelief) -> list[str]:
     """
     U = fit.unseen
     shifts, turns = _within(U, slice(0, 3)), _within(U, slice(3, 6))
-    things = [f"a shift along {axis_name(v)}" for v in shifts.T]
-    things += [f"a turn about {axis_name(v)}" for v in turns.T]
+    things = [message(f"a shift along {arg(axis_name(v))}") for v in shifts.T]
+    things += [message(f"a turn about {arg(axis_name(v))}") for v in turns.T]
     pure = np.zeros((6, shifts.shape[1] + turns.shape[1]))
     pure[:3, : shifts.shape[1]], pure[3:, shifts.shape[1] :] = shifts, turns
     rest = U - pure @ (pure.T @ U)
@@ -85,8 +87,8 @@ def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
         return ()
     motion = _mixture(sigma * (fit.seen @ vectors[:, 0]), belief)
     return (
-        (
-            f"Weakly determined: {motion} (1 sigma), little better than before. More touches, or"
+        message(
+            f"Weakly determined: {arg(motion)} (1 sigma), little better than before. More touches, or"
             " touches on other sides, will help."
         ),
     )
@@ -97,19 +99,23 @@ def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_
     words = []
     for row in np.flatnonzero(~fit.kept):
         why = (
-            f"it is {fit.deviates[row]:.1f} sigma from where the others put it"
+            message(f"it is {arg(fit.deviates[row]):.1f} sigma from where the others put it")
             if pressed[row]
-            else "its force pulls on the surface instead of pushing"
+            else message("its force pulls on the surface instead of pushing")
         )
         words.append(
-            f"{names[int(row)]} was left out: {why}. Check whether another marker was touched, or the"
-            " tip slipped."
+            message(
+                f"{arg(names[int(row)])} was left out: {arg(why)}. Check whether another marker was touched, or the"
+                " tip slipped."
+            )
         )
     if fit.scatter > 1:
         words.append(
-            f"The touches scatter {np.sqrt(fit.scatter):.1f} times as much as noise and placement"
-            " explain; all uncertainties have been widened accordingly. Check the compensation,"
-            " the specified noise and the mesh."
+            message(
+                f"The touches scatter {arg(np.sqrt(fit.scatter)):.1f} times as much as noise and placement"
+                " explain; all uncertainties have been widened accordingly. Check the compensation,"
+                " the specified noise and the mesh."
+            )
         )
     return tuple(words)
 
@@ -119,16 +125,20 @@ def bias_sentence(fit: MountFit, model: MarkerModel, belief: MountBelief) -> str
     shift, absorbed = bias_effect(fit, model, belief)
     parts = []
     for columns, size, what in (
-        (slice(0, 3), _BIAS_N, "a force of 0.1 N"),
-        (slice(3, 6), _BIAS_NM, "a torque of 5 mN·m"),
+        (slice(0, 3), _BIAS_N, message("a force of 0.1 N")),
+        (slice(3, 6), _BIAS_NM, message("a torque of 5 mN·m")),
     ):
         moved = 1e3 * size * np.linalg.norm(shift[:3, columns], axis=0)
         worst = int(np.argmax(moved))
-        unseen = " (and would not show in the residuals)" if absorbed[columns][worst] > _ABSORBED else ""
-        parts.append(f"{what} along {'xyz'[worst]} by {moved[worst]:.2g} mm{unseen}")
-    return (
-        f"A compensation error common to all touches looks like a mount error: {parts[0]},"
-        f" {parts[1]}. The mount cannot be better than its calibration."
+        unseen = (
+            message(" (and would not show in the residuals)") if absorbed[columns][worst] > _ABSORBED else ""
+        )
+        parts.append(
+            message(f"{arg(what)} along {arg('xyz'[worst])} by {arg(moved[worst]):.2g} mm{arg(unseen)}")
+        )
+    return message(
+        f"A compensation error common to all touches looks like a mount error: {arg(parts[0])},"
+        f" {arg(parts[1])}. The mount cannot be better than its calibration."
     )
 
 
@@ -162,8 +172,8 @@ def implausible_start(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
     if not far:
         return ()
     return (
-        (
-            f"The touches move the mount by {1e3 * moved:.1f} mm and {np.degrees(turn):.1f}°, more"
+        message(
+            f"The touches move the mount by {arg(1e3 * moved):.1f} mm and {arg(np.degrees(turn)):.1f}°, more"
             " than its declared uncertainty. Check the first mount, the order of the markers, and"
             " the sign of the wrenches."
         ),
@@ -201,11 +211,19 @@ def _mixture(z: Floats, belief: MountBelief) -> str:
     small = _SMALL * float(np.linalg.norm(z))
     parts = []
     if np.linalg.norm(z[:3]) > small:
-        parts.append(f"a shift of {1e3 * float(np.linalg.norm(shift)):.2g} mm along {axis_name(shift)}")
+        parts.append(
+            message(
+                f"a shift of {arg(1e3 * float(np.linalg.norm(shift))):.2g} mm along {arg(axis_name(shift))}"
+            )
+        )
     if np.linalg.norm(z[3:]) > small:
-        parts.append(f"a turn of {np.degrees(float(np.linalg.norm(turn))):.2g}° about {axis_name(turn)}")
-    return " together with ".join(parts)
+        parts.append(
+            message(
+                f"a turn of {arg(np.degrees(float(np.linalg.norm(turn)))):.2g}° about {arg(axis_name(turn))}"
+            )
+        )
+    return join(message(" together with "), parts)
 
 
 def _listed(things: Sequence[str]) -> str:
-    return things[0] if len(things) == 1 else ", ".join(things[:-1]) + " or " + things[-1]
+    return things[0] if len(things) == 1 else join(message(" or "), (join(", ", things[:-1]), things[-1]))

@@ -17,9 +17,6 @@ int where it wants a double, and a list that mixes the two.
 ros2_control takes a weight along z of W, and nothing else. Of a robot that stands it is positive, of one that hangs
 negative; on a wall or a tilted base there is no such weight, and the admittance controller's part is left out.
 force_torque_tools is given the vector, whatever way is down.
-
-Facts that the model does not hold, such as frames, stand in lines of their own below the title, in a fixed order:
-`regenerate_ros2_yaml` and `regenerate_ft_calib_yaml` read them, and return the text that belongs to a model.
 """
 
 from __future__ import annotations
@@ -44,7 +41,7 @@ from contactbench.pipeline.config.vertical import down_along_z, residual_of, ver
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -53,7 +50,6 @@ if TYPE_CHECKING:
 
 # Of ros2_controllers, for Jazzy, Kilted, and Lyrical and Rolling: read, not run.
 CHECKED = ("4.42.1", "5.17.0", "6.9.0")
-TOOL = f"contactbench {__version__}"
 
 # What every version of tf, the robot description and a YAML string in quotes agree upon. tf2 refuses a
 # leading slash.
@@ -61,7 +57,6 @@ _FRAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]*(/[A-Za-z0-9_.\-]+)*", re.ASCI
 _NODE = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
 # Node names are keys; these would be read as a truth value or as nothing.
 _YAML_WORDS = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"}
-_TOOL = re.compile(r"contactbench [0-9][0-9A-Za-z.+\-]*", re.ASCII)
 _LONGEST = 200
 _NOT_GIVEN = message("(not given)")  # no name: the bracket is none of its characters
 
@@ -74,7 +69,6 @@ def ros2_yaml(
     sensor_name: str | None = None,
     broadcaster: str = "force_torque_sensor_broadcaster",
     admittance: str = "admittance_controller",
-    tool: str = TOOL,
     down_W: ArrayLike = DOWN_W,
 ) -> str:
     """Return parameters for ros2_control's force_torque_sensor_broadcaster and admittance_controller.
@@ -110,8 +104,6 @@ def ros2_yaml(
         comments in both places, for a person to fill in.
     broadcaster, admittance : str
         Names of the two controllers, with namespace if they have one.
-    tool : str
-        Who wrote it: ``contactbench`` and a version.
     down_W : array_like (3,)
         Unit vector: where down is in W.
 
@@ -130,7 +122,6 @@ def ros2_yaml(
     if sensor_name is not None:
         _check(_FRAME, "ros2_yaml", sensor_name=sensor_name)
     _check(_NODE, "ros2_yaml", broadcaster=broadcaster, admittance=admittance)
-    _check_tool("ros2_yaml", tool)
     if broadcaster == admittance:
         raise InputError(
             f"ros2_yaml: broadcaster and admittance are both {arg(admittance)!r}: name two nodes"
@@ -146,7 +137,6 @@ def ros2_yaml(
         *_head(
             "ros2_control",
             sensor_frame,
-            tool=tool,
             sensor_frame=sensor_frame,
             world_frame=world_frame,
             sensor_name=sensor_name or _NOT_GIVEN,
@@ -202,7 +192,6 @@ def ft_calib_yaml(
     *,
     com_frame: str,
     child_frame: str = "gripper_com",
-    tool: str = TOOL,
     down_W: ArrayLike = DOWN_W,
 ) -> str:
     """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
@@ -225,8 +214,6 @@ def ft_calib_yaml(
         Frame that the centre of mass is given in: the sensor frame S, as in the header of the raw wrench.
     child_frame : str
         What the node calls the centre of mass when it publishes it to tf; it does not start without.
-    tool : str
-        Who wrote it: ``contactbench`` and a version.
     down_W : array_like (3,)
         Unit vector: where down is in W.
 
@@ -242,7 +229,6 @@ def ft_calib_yaml(
         takes no mass of zero.
     """
     _check(_FRAME, "ft_calib_yaml", com_frame=com_frame, child_frame=child_frame)
-    _check_tool("ft_calib_yaml", tool)
     if com_frame == child_frame:
         raise InputError(
             f"ft_calib_yaml: com_frame and child_frame are both {arg(com_frame)!r}: tf needs two names"
@@ -263,7 +249,6 @@ def ft_calib_yaml(
         *_head(
             "KTH gravity_compensation (force_torque_tools)",
             com_frame,
-            tool=tool,
             com_frame=com_frame,
             child_frame=child_frame,
         ),
@@ -285,68 +270,6 @@ def ft_calib_yaml(
         *_sigma_comment("", _sigma(model, CENTRE_OF_MASS)),
         f"gripper_com_pose: {_list([*model.centre_of_mass_S, 0.0, 0.0, 0.0])}",
     )
-
-
-# ---- read again ----------------------------------------------------------------------------------
-
-
-def regenerate_ros2_yaml(text: str, model: GravityModel, down_W: ArrayLike = DOWN_W) -> str:
-    """Return the text that `ros2_yaml` gives for a model and the facts in the head of a text that it once gave.
-
-    A text is what it must be if the two are the same.
-
-    Parameters
-    ----------
-    text : str
-        Not to be trusted. Only the lines of its head are read.
-    model : GravityModel
-    down_W : array_like (3,)
-        Unit vector: where down is in W.
-
-    Raises
-    ------
-    InputError
-        A line of the head is missing or out of order, or has a name that `ros2_yaml` refuses.
-    """
-    names = "tool", "sensor_frame", "world_frame", "sensor_name", "broadcaster", "admittance"
-    # A bundle names the nodes as `ros2_yaml` does by itself.
-    tool, sensor_frame, world_frame, sensor_name, _, _ = _facts("ros2.yaml", text, names)
-    return ros2_yaml(
-        model,
-        sensor_frame=sensor_frame,
-        world_frame=world_frame,
-        sensor_name=None if sensor_name == _NOT_GIVEN else sensor_name,
-        tool=tool,
-        down_W=down_W,
-    )
-
-
-def regenerate_ft_calib_yaml(text: str, model: GravityModel, down_W: ArrayLike = DOWN_W) -> str:
-    """Return the text that `ft_calib_yaml` gives for a model and the facts in the head of a text, likewise.
-
-    Raises
-    ------
-    InputError
-        As `regenerate_ros2_yaml` and `ft_calib_yaml`.
-    """
-    names = "tool", "com_frame", "child_frame"
-    tool, com_frame, child_frame = _facts("ft_calib.yaml", text, names)
-    return ft_calib_yaml(model, com_frame=com_frame, child_frame=child_frame, tool=tool, down_W=down_W)
-
-
-def _facts(file: str, text: str, names: Sequence[str]) -> list[str]:
-    """Return the values of the lines ``# name: value`` below the title."""
-    lines = text.split("\n", len(names) + 1)[1 : len(names) + 1]
-    found = []
-    for number, name in enumerate(names):
-        start, line = f"# {name}: ", lines[number] if number < len(lines) else ""
-        if not line.startswith(start):
-            raise InputError(
-                f"{arg(file)}, line {arg(number + 2)}: contactbench writes {arg(start + '...')!r} here:"
-                " export the bundle again."
-            )
-        found.append(line.removeprefix(start))
-    return found
 
 
 # ---- YAML ----------------------------------------------------------------------------------------
@@ -400,13 +323,6 @@ def _check(pattern: re.Pattern[str], where: str, **names: str) -> None:
             )
 
 
-def _check_tool(where: str, tool: str) -> None:
-    if len(tool) > _LONGEST or not _TOOL.fullmatch(tool):
-        raise InputError(
-            f"{arg(where)}: tool {arg(tool[:80])!r} is not contactbench and a version: export it again."
-        )
-
-
 # ---- comments ------------------------------------------------------------------------------------
 
 
@@ -417,6 +333,7 @@ def _document(*lines: str) -> str:
 def _head(consumer: str, frame: str, **facts: str) -> list[str]:
     return [
         f"# Gravity calibration for {consumer}.",
+        f"# tool: contactbench {__version__}",
         *(f"# {name}: {value}" for name, value in facts.items()),
         f"# Forces in N, torques in N*m about the origin of {_text(frame)}, lengths in m, all in that frame.",
         "# What remains after compensation is what the tissue does to the probe.",

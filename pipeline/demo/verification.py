@@ -42,7 +42,6 @@ WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")
 WINDOW_N = (7.5, 10.5)
 # Half a second is recorded once the tip rests: a tenth to see that, a quarter taken.
 SAMPLES = 50
-_UNTURNED = (1.0, 0.0, 0.0, 0.0)  # the virtual sensor sits on the flange as it is
 _AT_ONCE = 1_000
 # The runtime's point is of filtered readings, the verification's of averaged ones: they differ by less than either
 # may be off, and another frame, sign or mesh by many times that.

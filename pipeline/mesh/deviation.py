@@ -25,9 +25,6 @@ _SEED = 20240521
 
 _PORTION = 1 << 16
 
-# A facet that looks this far away from what it stands for has been turned over, not tilted.
-_FLIPPED_DEG = 120.0
-
 # Metres: less is the rounding of distances.
 _NOTHING = 1e-9
 
@@ -206,11 +203,6 @@ class SurfaceComparison:
     def __init__(self, there: _Side, back: _Side) -> None:
         self._there = there
         self._back = back
-
-    @property
-    def flipped_share(self) -> float:
-        """Share of the other surface's area that faces away from the reference (over 120 degrees)."""
-        return float(np.mean(self._back.angle_deg > _FLIPPED_DEG))
 
     def deviation(
         self,

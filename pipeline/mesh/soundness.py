@@ -123,12 +123,6 @@ class Soundness:
         return np.unique(self.pairs[np.isin(self.kinds, kinds)]).astype(np.int64)
 
     @property
-    def facets_at_fault(self) -> npt.NDArray[np.int64]:
-        """Facets that cross, overlap, fold, have no area, or lie in another part, ascending."""
-        crossing = self.facets_of(CROSSING, OVERLAP)
-        return np.unique(np.concatenate((crossing, self.folded_facets, self.flat_facets, self.nested_facets)))
-
-    @property
     def faults(self) -> tuple[str, ...]:
         """What makes the mesh unfit, and what to do, a sentence or two per defect; empty when it is sound."""
         # Several parts are no fault by themselves, as long as none is inside another.

@@ -195,13 +195,12 @@ def _extra(content: Any, rng: np.random.Generator) -> None:
     _at(content, path)["extra"] = 0
 
 
-# What physics or another part of the bundle tells: (path, factor). A bias times 1000 is caught by ros2.yaml.
+# What physics or another part of the bundle tells: (path, factor).
 _UNITS: tuple[tuple[tuple[Any, ...], float], ...] = (
     (("gravity", "gravity_W_N"), 1e3),
     (("gravity", "gravity_W_N"), 1e-3),
     (("gravity", "force_bias_N"), 1e3),
     (("gravity", "torque_bias_Nm"), 1e3),
-    (("gravity", "torque_bias_Nm"), 1e-3),
     (("gravity", "centre_of_mass_S_m"), 1e3),
     (("gravity", "centre_of_mass_S_m"), 1e-3),
     (("noise", "force_N"), 1e3),
@@ -444,68 +443,6 @@ def _json_byte(files: Files, rng: np.random.Generator) -> Files:
     return {**files, CONFIG: bytes(config), CHECKSUM: checksum(bytes(config))}
 
 
-def _yaml_text(files: Files, rng: np.random.Generator) -> Files:
-    name = (ROS2, FT_CALIB)[int(rng.integers(2))]
-    lines = files[name].decode().split("\n")
-    at = int(rng.integers(len(lines) - 1))
-    line = lines[at]
-    changes: list[list[str]] = [
-        [line, line],
-        [],
-        [line + " "],
-        [line + "\r"],
-        ["\t" + line],
-        [line.replace(":", ": &a", 1) + " "],
-        [line + " # x"],
-        [line, "    offset:", "      force:", "        x: 0.0"],
-        ["a: &a [x, x]", "b: &b [*a, *a, *a, *a]", "c: &c [*b, *b, *b, *b]", line],
-        ['x: !!python/object/apply:os.system ["true"]', line],
-        [line, "---"],
-        [line, "..."],
-        ["%YAML 1.1", line],
-        ["# \r" + line],
-        [line.replace("0", "00", 1) + "0"],
-        [line.replace("force_torque_sensor_broadcaster", "another_node") + "_"],
-    ]
-    lines[at : at + 1] = changes[int(rng.integers(len(changes)))]
-    text = "\n".join(lines).encode()
-    text = (text, text + b"\n", text.removesuffix(b"\n"), b"\xef\xbb\xbf" + text)[
-        int(rng.choice(4, p=[0.7, 0.1, 0.1, 0.1]))
-    ]
-    return seal({**files, name: text if text != files[name] else text + b"#\n"})
-
-
-def _yaml_names(files: Files, rng: np.random.Generator) -> Files:
-    """Name frames or nodes otherwise, in the whole file: some names are none."""
-    name = (ROS2, FT_CALIB)[int(rng.integers(2))]
-    old = (
-        b"ft_sensor",
-        b"base_link",
-        b"admittance_controller",
-        b"gripper_com",
-        b"(not given)",
-        b"contactbench 0",
-    )
-    new = (
-        b"a/b",
-        b"/a",
-        b"a//b",
-        b"9a",
-        b"a-b.c",
-        b"no",
-        b"No",
-        b"",
-        b"a b",
-        b"\xc3\xa4",
-        b"_",
-        b"x" * 201,
-        b'a"',
-        b"base_link",
-    )
-    chosen = old[int(rng.integers(len(old)))], new[int(rng.integers(len(new)))]
-    return seal({**files, name: files[name].replace(*chosen)})
-
-
 def _csv_text(files: Files, rng: np.random.Generator) -> Files:
     lines = files[PLANES].decode().split("\n")
     at = int(rng.integers(len(lines) - 2))
@@ -698,8 +635,6 @@ _SEALED: dict[str, tuple[Expected, Mutate]] = {
     "sealed flip": ("any", lambda files, rng: seal(_flip(files, rng))),
     "any value": ("any", _any_value),
     "JSON byte": ("any", _json_byte),
-    "YAML text": ("refused", _yaml_text),
-    "YAML names": ("any", _yaml_names),
     "CSV text": ("refused", _csv_text),
     "PLY bytes": ("any", _ply_bytes),
     "other mesh": ("any", _other_mesh),

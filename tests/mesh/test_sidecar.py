@@ -38,7 +38,8 @@ def test_everything_comes_back(content, tmp_path):
 
 def test_what_nothing_can_touch_comes_back_in_both_files(content, tmp_path):
     lens, edge = content.regions.regions
-    marked = replace(content, regions=content.regions.with_regions((lens, replace(edge, untouchable=True))))
+    painted = replace(content.regions, regions=(lens, replace(edge, untouchable=True)))
+    marked = replace(content, regions=painted)
     assert marked.probe.untouchable == (2,)
     assert marked.after("simplify", bundled("linear", 100), {}, {}).probe.untouchable == (2,)
     file = tmp_path / "probe.ply"

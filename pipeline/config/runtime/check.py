@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
-from contactbench.pipeline.config.consumers import regenerate_ft_calib_yaml, regenerate_ros2_yaml
 from contactbench.pipeline.config.runtime.canonical import first_difference
 from contactbench.pipeline.config.runtime.checks import RATE_OFF, failed_checks
 from contactbench.pipeline.config.runtime.errors import ConfigError
 from contactbench.pipeline.config.runtime.model import VERSION
-from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
+from contactbench.pipeline.config.runtime.pack import PLANES, PROBE
 from contactbench.pipeline.config.runtime.planes import check_planes
 from contactbench.pipeline.config.runtime.self_test import check_self_test
 from contactbench.pipeline.config.runtime.values import (
@@ -28,11 +27,10 @@ from contactbench.pipeline.mesh.ply import read_ply
 from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.config.runtime.model import LowPassPart, RuntimeModel, VerificationPart
     from contactbench.pipeline.mesh import Probe
 
@@ -44,7 +42,6 @@ _LARGEST_NOISE_N, _LARGEST_NOISE_NM = 100.0, 10.0
 _SURE = 3.0  # sigma: what is lighter than this many weighs nothing that anybody could tell
 _DOWN_SINCE = 4  # the version from which on somebody has said where down is
 _MOST_LEAN = 0.5  # cosine of 60 degrees: bases are mounted in multiples of 90
-_TEXTS_SINCE = 3  # the version from which on the files for other programs read as they do today
 _SLOWEST = 1e-6  # of the rate: a filter that is slower has no sections that doubles can hold
 _UNIT, _SECTIONS, _ROUNDING = 1e-9, 1e-12, 1e-9
 _FARTHEST_VERTEX_M = 1_000.0
@@ -121,7 +118,7 @@ def check_config(
         _check_noise(model)
         _check_filters(model)
         _check_controller(model)
-        _check_files(model, probe, files, version)
+        _check_files(model, probe, files)
         _check_touch(model)
         _check_verified(model, probe)
     except ConfigError as error:
@@ -310,7 +307,7 @@ def _check_controller(model: RuntimeModel) -> None:
         )
 
 
-def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], version: int) -> None:
+def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes]) -> None:
     for field, told, name in (
         ("probe.file", model.probe.file, PROBE),
         ("planes.file", model.planes.file, PLANES),
@@ -320,33 +317,7 @@ def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], 
     check_self_test(model, files)
     check_planes(files[PLANES], probe, PLANES)
     if model.planes.count != len(probe.faces):
-        _refuse(
-            "planes.count",
-            message(f"is {arg(model.planes.count)}, but {arg(PLANES)} has {arg(len(probe.faces))}."),
-        )
-    # The text of these files belongs to a version of the schema; those of older ones are read by nobody here.
-    if version < _TEXTS_SINCE:
-        return
-    for name, regenerate in ((ROS2, regenerate_ros2_yaml), (FT_CALIB, regenerate_ft_calib_yaml)):
-        if name in files:
-            _check_yaml(files[name], regenerate, model, name)
-
-
-def _check_yaml(
-    data: bytes, regenerate: Callable[[str, GravityModel, list[float]], str], model: RuntimeModel, name: str
-) -> None:
-    try:
-        with np.errstate(all="ignore"):  # what overflows is refused
-            wanted = regenerate(data.decode("ascii"), gravity_of(model), model.world.down_W).encode("ascii")
-    except UnicodeDecodeError:
-        raise ConfigError(f"{arg(name)}: not ASCII. {arg(_AGAIN)}") from None
-    except InputError as error:
-        raise ConfigError(
-            f"{arg(name)}: this file belongs to another bundle ({arg(error)}). {arg(_AGAIN)}"
-        ) from None
-    if data != wanted:
-        line = wanted.count(b"\n", 0, first_difference(data, wanted)) + 1
-        _refuse(f"{name}: line {line}", message("does not match contactbench.json."))
+        _refuse("planes.count", f"is {model.planes.count}, but {PLANES} has {len(probe.faces)}.")
 
 
 def _check_touch(model: RuntimeModel) -> None:

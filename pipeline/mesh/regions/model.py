@@ -255,12 +255,6 @@ class RegionModel:
         return None if step is None else step.text
 
     @property
-    def redo_text(self) -> str | None:
-        """What `redo` would do again, or None."""
-        step = self._history.next_redo
-        return None if step is None else step.text
-
-    @property
     def undo_key(self) -> str | None:
         """The `RegionEdit.key` of what `undo` would undo, or None."""
         step = self._history.next_undo

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -166,10 +166,6 @@ class RegionSet:
         count = len(self.regions) + 1
         sums = np.bincount(self.labels, weights=facet_areas, minlength=count)
         return sums[1:count].astype(np.float64)
-
-    def with_regions(self, regions: Sequence[Region]) -> RegionSet:
-        """Return the same facets with other names, colours or marks."""
-        return replace(self, regions=tuple(regions))
 
 
 def check_list(regions: Sequence[Region]) -> None:

@@ -156,7 +156,6 @@ def test_planes_come_in_the_order_of_priority():
         ({"gravity__gravity_W_N": [0.0, 0.0, -0.062]}, "check whether forces were in kN"),
         ({"gravity__gravity_W_N": [0.0, 0.0, 6.2]}, "points up"),
         ({"gravity__centre_of_mass_S_m": [0.0, 0.0, 90.0]}, "check whether they were mm"),
-        ({"gravity__force_bias_N": [1.0, 2.0, 3.0]}, "ros2.yaml: line [0-9]+ does not match"),
         ({"gravity__torque_bias_Nm": [0.0, 250.0, 0.0]}, "N\\*mm"),
         ({"gravity__covariance__0__11": 1.0}, "gravity.covariance is not symmetric"),
         ({"gravity__covariance__0__0": 1e-320}, "gravity.covariance has a correlation beyond 1"),
@@ -231,7 +230,6 @@ def test_what_cannot_be_true_is_refused_and_named(changes, words):
     [
         ({"frames__world": "W, z up"}, "frames.world is 'W, z up'"),
         ({"world__down_W": [0.0, 0.0, 1.0]}, "points up .* against world.down_W"),
-        ({"world__down_W": [0.0, -0.6, -0.8]}, "ros2.yaml: line [0-9]+ does not match"),
         ({"world__down_W": [0.0, -1.0, 0.0]}, "gravity_W_N is more than 60 degrees from world.down_W"),
         ({"world__down_W": [0.0, 0.0, -1.0001]}, "world.down_W has the length 1.0001"),
         ({"world__down_W": None}, "world.down_W"),
@@ -314,24 +312,12 @@ def test_forces_that_the_sensor_just_measures_and_a_rate_that_is_nearly_it_are_t
 @pytest.mark.parametrize(
     ("name", "change"),
     [
-        ("ros2.yaml", lambda text: text.replace("    offset:", "    offset:\n    offset:", 1)),
-        ("ros2.yaml", lambda text: text.replace("\nadmittance_controller:", "\nanother:", 1)),
-        ("ros2.yaml", lambda text: text + 'x: !!python/object/apply:os.system ["true"]\n'),
-        ("ros2.yaml", lambda text: text + "a: &a [x, x]\nb: &b [*a, *a, *a]\n"),
-        ("ros2.yaml", lambda text: text.replace("# 1 sigma", "# 2 sigma", 1)),
-        ("ros2.yaml", lambda text: text.replace("# sensor_frame: ft_sensor", "# sensor_frame: other")),
-        ("ros2.yaml", lambda text: text.replace("# sensor_frame: ft_sensor\n", "")),
-        ("ros2.yaml", lambda text: text.replace("\n", "\r\n")),
-        ("ros2.yaml", lambda text: text.removesuffix("\n")),
-        ("ros2.yaml", lambda text: "\ufeff" + text),
-        ("ft_calib.yaml", lambda text: text.replace("gripper_mass: ", "gripper_mass: !!float ")),
-        ("ft_calib.yaml", lambda text: text.replace("gripper_mass: 0", "gripper_mass: 1")),
         ("planes.csv", lambda text: text.replace("\n", "\r\n")),
         ("planes.csv", lambda text: text.removesuffix("\n")),
         ("planes.csv", lambda text: text.replace("0.0,", "0,", 1)),
     ],
 )
-def test_files_for_other_programs_are_those_that_the_bundle_makes_to_the_byte(name, change):
+def test_planes_are_those_that_the_bundle_makes_to_the_byte(name, change):
     files = example().encoded()
     changed = change(files[name].decode()).encode()
     assert changed != files[name]

@@ -9,13 +9,11 @@
 #include "ply.hpp"
 #include "sha256.hpp"
 #include "tables.hpp"
-#include "yaml.hpp"
 
 namespace contactbench::runtime {
 
 namespace {
 
-constexpr std::int64_t texts_since = 3;  // the version from which on the files for other programs read as they do today
 constexpr double flat = 1e-12;  // of the cube about a probe: less volume is rounding
 
 void check_hashes(const Files& files, const Config& c) {
@@ -46,13 +44,6 @@ std::vector<std::string> colours_of(const Json& regions) {
         if (!names.insert(region["name"].text).second) refuse("regions", "two have the same name");
     }
     return colours;
-}
-
-std::vector<double> covariance_of(const Json& gravity) {
-    std::vector<double> out;
-    for (const Json& row : gravity["covariance"].items)
-        for (const Json& x : row.items) out.push_back(x.number);
-    return out;
 }
 
 void check_probe(const ProbeMesh& mesh, const Config& c) {
@@ -122,9 +113,6 @@ Bundle load_bundle(const std::string& folder) {
     ProbeMesh mesh = read_probe(files.at(bundle.config.probe_file), bundle.config, colours_of(root["regions"]));
     check_probe(mesh, bundle.config);
     check_planes(files.at(planes_name), mesh, bundle.config);
-    // The text of those files belongs to a version of the schema; those of older ones are read by nobody here.
-    if (bundle.config.version >= texts_since)
-        check_gravity_files(files, bundle.config.settings.gravity, covariance_of(root["gravity"]), bundle.config.down_W);
     const double size = largest_extent(bundle.config);
     const bool outward = signed_volume(mesh, bundle.config) > flat * size * size * size;
     const std::vector<double> bonus = bonus_of(mesh, bundle.config);

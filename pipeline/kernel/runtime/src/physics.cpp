@@ -111,11 +111,8 @@ void check_figures(const Json& v) {
             refuse(std::string("verification.") + name, "more than verification.max_error_m");
 }
 
-}  // namespace
-
-void refuse(const std::string& field, const std::string& what) { fail(CB_ERROR_VALUE, field, what); }
-
-// The mean over the 24 rotations of a cube, which for a second degree is that over all rotations.
+// Adds what the calibration leaves in a compensated wrench: the mean over the 24 rotations of a cube, which for a
+// second degree is that over all rotations.
 void mean_share(const GravityLoad& load, const std::vector<double>& C, double out[6][6]) {
     constexpr int turns[6][4] = {{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}, {0, 2, 1, -1}, {2, 1, 0, -1}, {1, 0, 2, -1}};
     for (const auto& axes : turns)
@@ -126,6 +123,10 @@ void mean_share(const GravityLoad& load, const std::vector<double>& C, double ou
             add_share(load, C, R, 1.0 / 24.0, out);
         }
 }
+
+}  // namespace
+
+void refuse(const std::string& field, const std::string& what) { fail(CB_ERROR_VALUE, field, what); }
 
 double weight_sigma(Vec3 weight, const std::vector<double>& C) {
     const double worst = std::sqrt(largest_eigenvalue({{{C[0], C[1], C[2]}, {C[12], C[13], C[14]}, {C[24], C[25], C[26]}}}));

@@ -25,7 +25,5 @@ void check_noise(const std::vector<double>& force, const std::vector<double>& to
 void check_verified(const Json& root);
 // Standard deviation of the weight's size, N; in the worst direction, where the weight's own is hardly known.
 double weight_sigma(Vec3 weight, const std::vector<double>& calibration);
-// Adds what the calibration leaves in a compensated wrench: the mean over all rotations.
-void mean_share(const GravityLoad& load, const std::vector<double>& calibration, double out[6][6]);
 
 }  // namespace contactbench::runtime

@@ -101,7 +101,7 @@ _EXTRAS = {
     **dict.fromkeys(("imageio", "imageio_ffmpeg"), "video"),
     "mujoco": "sim",
     "weasyprint": "pdf",
-    **dict.fromkeys(("dask", "distributed", "fast_simplification", "trimesh"), "study"),
+    **dict.fromkeys(("dask", "distributed"), "study"),
     "pyarrow": "fleet",
     **dict.fromkeys(("pymeshlab", "igl"), "meshlab"),
     "embreex": "embree",

@@ -246,7 +246,10 @@ class Gates(GateSettings):
     def told(self) -> dict[str, Any]:
         """Return them as a file tells them: a later one only where it is not the default."""
         usual, later = Gates(), {name for name, form in gate_forms() if form.later}
-        return {name: value for name, value in self if name not in later or value != getattr(usual, name)}
+        names = [name for name in GateSettings.model_fields if name != "ambiguity_distance"]
+        names.insert(names.index("region_odds"), "ambiguity_distance")  # where verifications always had it
+        told = {name: getattr(self, name) for name in names}
+        return {name: told[name] for name in names if name not in later or told[name] != getattr(usual, name)}
 
     def stored(self) -> dict[str, Any]:
         """Return them as a bundle holds them, SI; the odds of regions are in the regions themselves."""

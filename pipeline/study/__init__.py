@@ -1,1 +1,1 @@
-"""Speed against error, and stability on hard cases: commands that measure, not tests that assert times."""
+"""Speed against error, stability and confidence: commands that measure, not tests that assert times."""

@@ -11,7 +11,6 @@ from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.settings import (
     ConfidenceSettings,
-    HardCasesSettings,
     SceneSettings,
     StabilitySettings,
     StudySettings,
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.sweep.plan import SweepPlan
 
-study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
+study_app = Noun("Measure speed against error, stability, confidence, and what a bench costs.")
 
 _NOT_GOOD_ENOUGH = 1
 
@@ -62,23 +61,7 @@ def _judge(passed: bool) -> None:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-# ---- hard cases, stability, confidence, scenes -------------------------------------------------------
-
-
-@study_app.command("hard-cases", example="study hard-cases --samples 500")
-def hard_cases(settings: HardCasesSettings) -> None:
-    """Run hard cases of contact location, and judge each answer against an independent truth.
-
-    Exit code 1: a case fails.
-    """
-    from contactbench.pipeline.durable import write_file
-    from contactbench.pipeline.study import hard_cases as study
-    from contactbench.pipeline.study.hard_trials import markdown
-
-    report = study.run(samples=settings.samples, seed=settings.seed, progress=say)
-    if settings.out:
-        write_file(settings.out, markdown(report.rows).encode())
-    _finish(report, settings)
+# ---- stability, confidence, scenes -------------------------------------------------------
 
 
 @study_app.command(example="study stability --out stability-study")
@@ -215,8 +198,8 @@ def page(studies: list[Path], /, *, out: Path | None = None) -> None:
     """
     from contactbench.pipeline.study.pages import PAGE, gather, make_page
     from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.growth import targets
     from contactbench.pipeline.study.sweep.run import KIND
-    from contactbench.pipeline.study.sweep.targets import targets
 
     if out is None:
         for folder in studies:

@@ -70,8 +70,6 @@ class CasesReport(Generic[R]):
     about: Mapping[str, Any]
     rows: tuple[R, ...]
     headings: tuple[str, ...] = ("probe", "case", "figure", "measured", "bound")
-    name: str = "rows"  # of the rows in JSON
-    whole: bool = False  # the terminal has every row, not only those that miss their bound
 
     @property
     def passed(self) -> bool:
@@ -80,22 +78,22 @@ class CasesReport(Generic[R]):
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
-        return {"passed": self.passed, **self.about, self.name: [row.to_json() for row in self.rows]}
+        return {"passed": self.passed, **self.about, "rows": [row.to_json() for row in self.rows]}
 
     def tables(self) -> list[Table]:
-        """Build a table for the terminal, what misses its bound in red."""
+        """Build what misses its bound, or may, for the terminal."""
         from rich.table import Table
         from rich.text import Text
 
         judged = [row for row in self.rows if row.cells[-1]]
         off = [row for row in judged if row.verdict is not FigureVerdict.MET]
         built = Table(title=self.title, caption_justify="left")
-        built.caption = f"{len(judged) - len(off)} of {len(judged)} bounds kept"
-        if not self.whole:
-            built.caption += "; those missed or open are shown, --out or --json gives every figure"
+        built.caption = (
+            f"{len(judged) - len(off)} of {len(judged)} bounds kept; --out or --json gives every figure"
+        )
         for heading in (*self.headings, "verdict"):
             built.add_column(heading)
-        for row in self.rows if self.whole else off:
+        for row in off:
             built.add_row(*map(Text, (*row.cells, str(row.verdict))), style=STYLES[row.verdict])
         return [built]
 

@@ -45,13 +45,6 @@ class SeededSettings(StudySettings):
     seed: Annotated[int, Field(ge=0)] = knob(0, "Seed of the touches and the noise.")
 
 
-class HardCasesSettings(SeededSettings):
-    """How much is tried of each hard case."""
-
-    out: Path | None = knob(None, "Also write the tables to this Markdown file.", metavar="FILE")
-    samples: int = knob(2_000, "Wrenches for each case.")
-
-
 class ProbesSettings(SeededSettings):
     """Whose probes are measured."""
 

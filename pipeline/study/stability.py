@@ -1,9 +1,8 @@
 """
 How steady answers are on a probe's mesh: what an error of the wrench does, rounding, edges, thin facets.
 
-The hard cases of :mod:`contactbench.pipeline.study.hard_cases` ask whether answers are right; here is measured by how
-much they are off, against a truth in long double that shares no code with the solver. What only the solver itself is
-judged by - other compilers, single precision, exact arithmetic - is beside its tests.
+By how much answers are off, against a truth in long double that shares no code with the solver. What only the solver
+itself is judged by - hard cases, other compilers, single precision, exact arithmetic - is beside its tests.
 """
 
 from __future__ import annotations
@@ -16,13 +15,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise, methods
+from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_trials import EXACT
 from contactbench.pipeline.study.harness import CaseRow, CasesReport, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
+from contactbench.pipeline.study.solid import SolidBody, press
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 
 if TYPE_CHECKING:
@@ -30,14 +28,16 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.study.hard_meshes import Bools, Float, Ints, Long, SolidBody
     from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.solid import Bools, Float, Ints, Long
 
 KIND = "stability"
 FEWEST = 50
 # No preference for the surface that is met first: it is no part of the closed form.
 OPEN = Gates(friction_angle=89.9999999, min_force=0.0, first_odds=1.0)
 QUIET = WrenchNoise(0.0, 0.0)
+# Any torsion, as far as a model allows, and a mesh that is the very body: where the likelihood is the closed form.
+EXACT = TouchModel(torsion_arm=1000.0, model_error=QUIET, mesh_curved=False)
 ROUNDOFF = 2.0**-53  # half a unit in the last place of 1
 # Stated, up to 100,000 facets: an answer is the exact one of a wrench and a mesh this many roundoffs away.
 MOST_ROUNDOFFS = 16.0
@@ -273,7 +273,7 @@ def touch(
     Parameters
     ----------
     angle, arm
-        As for :func:`contactbench.pipeline.study.hard_meshes.press`.
+        As for :func:`contactbench.pipeline.study.solid.press`.
     shares : (count, 3), optional
         Areal coordinates of the points; by default random ones of at least 0.1.
     among : (k,) of facets, optional
@@ -285,7 +285,7 @@ def touch(
     if shares is None:
         shares = 0.1 + 0.7 * rng.dirichlet([1.0, 1.0, 1.0], count)
     points = np.einsum("nc,ncx->nx", shares.astype(np.longdouble), body.corners[chosen])
-    drawn = hm.press(points, body.normals[chosen], rng, angle=angle, arm=arm)
+    drawn = press(points, body.normals[chosen], rng, angle=angle, arm=arm)
     return FacetTouches(drawn.wrenches, drawn.points, chosen)
 
 
@@ -362,7 +362,7 @@ def _skew(v: Float) -> Float:
 def body_of(name: str, facets: int = _FACETS) -> SolidBody:
     """Return a bundled probe of about so many facets, or a file's own mesh; InputError."""
     probe = mesh_of(name, file_facets(name) or facets)
-    return hm.SolidBody(np.asarray(probe.vertices), probe.faces.astype(np.int64))
+    return SolidBody(np.asarray(probe.vertices), probe.faces.astype(np.int64))
 
 
 def title_of(name: str) -> str:

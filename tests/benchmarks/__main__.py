@@ -23,7 +23,6 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # Name: where the function is. The first line of its module's docstring is its help.
 BENCHMARKS = {
-    "ablation": "ablation.study:run",
     "alignment": "preparation.alignment:run",
     "bundles": "bundle_fuzz:run",
     "calibration-doubt": "calibration_doubt:run",
@@ -35,6 +34,7 @@ BENCHMARKS = {
     "faults": "faults:run",
     "fleet": "fleet:run",
     "gravity": "gravity:run",
+    "hard-cases": "solver.hard_cases:run",
     "live": "live.report:run",
     "memory": "memory:run",
     "mesh-fuzz": "mesh_fuzz.fuzz:run",

@@ -1,6 +1,7 @@
 """A calibration as a whole: right, honest about how right, and plain about what is wrong."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from contactbench.pipeline.calibration.fit import UNKNOWN
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.calibration.verdict import _off_down, judge
 from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
@@ -323,6 +325,25 @@ def test_gravity_that_points_up_is_refused():
     assert level == Level.REFUSE
     assert "away from down" in words
     assert "contactbench calibrate diagnose" in words
+
+
+@pytest.mark.parametrize(("sigma_N", "degrees"), [(0.4, 70.0), (0.5, 0.0)])
+def test_gravity_is_off_down_only_where_two_sigmas_do_not_bring_it_back(sigma_N, degrees):
+    """6 N at 70° from down are 2.05 N along it; a base tilted by 60° leaves 3 N."""
+    calibration = calibrate(held(10), NOISE)
+    slanted = 6 * np.array([np.sin(np.radians(70)), 0, -np.cos(np.radians(70))])
+    findings = SimpleNamespace(
+        gravity_W=slanted, down_W=-VERTICAL, covariance=sigma_N**2 * np.eye(len(calibration.covariance))
+    )
+    assert _off_down(findings) == pytest.approx(degrees)
+
+
+@pytest.mark.parametrize(("factor", "level"), [(4.9, Level.GOOD), (6.0, Level.REFUSE)])
+def test_residuals_that_no_cause_explains_are_refused_from_five_times_the_noise(factor, level):
+    findings = replace(calibrate(held(10), NOISE), noise_factor=(factor, factor), causes=())
+    verdict = judge(findings, True, Limits())
+    assert verdict.level is level
+    assert ("residuals are 6 times what" in " ".join(verdict.reasons)) == (level is Level.REFUSE)
 
 
 @pytest.mark.parametrize(

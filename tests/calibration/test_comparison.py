@@ -1,11 +1,14 @@
 """What explains the poses: causes told from one another on sets drawn by a generator that knows no estimator."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from benchmarks import wrong_models as wrong
 from scipy.integrate import quad
 
-from contactbench.pipeline.calibration import Level, calibrate
+from contactbench.pipeline.calibration import Level, calibrate, nuisance
+from contactbench.pipeline.calibration.causes import _rezero
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise, over_unknowns
@@ -164,3 +167,15 @@ def test_restricted_likelihood_is_unbiased_for_few_poses():
         noisy = fit_with_noise(stack(session.poses()), prior)
         ratios.append((noisy.noise.sigmas / session.sigmas)[[0, 3]] ** 2)
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.25)  # a plain maximum would make it 0.67
+
+
+@pytest.mark.parametrize(("second", "names"), [(0.12, "pose 3 or pose 6,"), (0.08, "pose 3,")])
+def test_a_re_zero_names_every_pose_that_is_a_tenth_as_likely(second, names):
+    session, _ = drawn(5, poses=(8, 8))
+    poses = session.poses()
+    arrays = stack(poses)
+    tried = [SimpleNamespace(key=nuisance.REZERO, moment=arrays.moments[at]) for at in (5, 2)]
+    added = SimpleNamespace(fit=SimpleNamespace(added={None: np.ones((8, 6))}))
+    compared = SimpleNamespace(candidates=tried, probabilities=np.array([second, 1 - second]), poses=arrays)
+    sentence = _rezero(SimpleNamespace(noisy=added, moment=arrays.moments[2]), poses, compared)
+    assert f"before {names}" in sentence

@@ -87,6 +87,17 @@ def test_the_defaults_have_margin_on_tissue_five_times_softer_and_stiffer(founda
     assert plain[moduli[2]] < plain[moduli[1]] / 3, "the plain one pays for stiff tissue"
 
 
+def test_a_modulus_taken_wrongly_is_what_the_aware_variant_divides_by(foundation):
+    settings = ControlSettings.for_probe(foundation)
+    loop = loop_of(settings, foundation, USUAL_MODULUS, "force", assumed=5 * USUAL_MODULUS)
+    real, taken = (
+        foundation.at(settings.desired_force, each).stiffness for each in (USUAL_MODULUS, 5 * USUAL_MODULUS)
+    )
+    assert loop.ratio == pytest.approx(real / taken)
+    assert loop.ratio < 0.5
+    assert loop_of(settings, foundation, USUAL_MODULUS, "force").ratio == 1.0
+
+
 @pytest.mark.parametrize("wrong", [{"modulus": 0.0}, {"modulus": np.nan}, {"modulus": 3e6, "unknown": 2.0}])
 def test_what_cannot_be_is_refused(foundation, wrong):
     with pytest.raises(InputError, match="margins"):

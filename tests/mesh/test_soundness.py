@@ -366,18 +366,30 @@ def test_between_both_sides_of_a_sheet_there_is_no_direction():
         assert found.largest_deviation_deg == pytest.approx(90, abs=1e-6)
 
 
-def test_a_sliver_that_folds_back_with_or_without_an_original():
-    """A vertex beside an edge that was pulled over it: the thin facet lies on its neighbour, upside down."""
+def pulled_over_its_edge(by):
+    """Return a cube with a vertex beside the diagonal of a side that was pulled over it, by this share of its half."""
     vertices, faces = cube()
     middle = (vertices[1] + vertices[7]) / 2
-    beside = middle + 0.002 * (vertices[5] - middle)  # over the diagonal of the facets 1 5 7 and 1 7 3
+    beside = middle + by * (vertices[5] - middle)  # over the diagonal of the facets 1 5 7 and 1 7 3
     faces = np.concatenate((faces[:11], [[1, 7, 8], [7, 3, 8], [3, 1, 8]])).astype(np.int32)
-    mesh = np.concatenate((vertices, [beside + [0, 0, 1e-6]])), faces
+    return np.concatenate((vertices, [beside])), faces
+
+
+def test_a_sliver_that_folds_back_with_or_without_an_original():
+    """A vertex beside an edge that was pulled over it: the thin facet lies on its neighbour, upside down."""
+    mesh = pulled_over_its_edge(0.002)
+    mesh[0][8, 2] += 1e-6
     found, sentence = sentence_of(mesh)
     assert found.folded_facets.tolist() == [11]
     assert "Thin facets fold back onto their neighbours (facets: 1)" in sentence
     # That it was so before is no excuse: nobody who looks at the result alone would know.
     assert check_soundness(*mesh, mesh).folded_facets.tolist() == [11]
+
+
+def test_a_sliver_without_area_is_not_folded_as_well():
+    found = check_soundness(*pulled_over_its_edge(1e-15))
+    assert found.flat_facets.tolist() == [11]
+    assert found.folded_facets.tolist() == []
 
 
 def test_an_original_with_a_part_inside_out_says_nothing_of_sides():

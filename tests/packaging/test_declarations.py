@@ -5,7 +5,8 @@ from runpy import run_path
 
 import pytest
 
-from contactbench.pipeline.gates import gate_forms
+from contactbench.pipeline.config.runtime import model
+from contactbench.pipeline.gates import Gates, gate_forms
 
 ROOT = Path(__file__).parents[2]
 FILES: dict[str, bytes] = run_path(str(ROOT / "packaging" / "declarations.py"))["files"]()
@@ -20,3 +21,12 @@ def test_the_specification_of_a_bundle_has_every_gate() -> None:
     page = (ROOT / "docs" / "bundle.md").read_text(encoding="utf-8")
     rows = "".join(line for line in page.splitlines() if line.startswith("| `gates."))
     assert [form.stored for _, form in gate_forms() if f"{form.stored}`" not in rows] == []
+
+
+@pytest.mark.parametrize("only", [False, True])
+def test_a_later_gate_stands_in_a_bundle_only_where_it_is_not_the_default(
+    monkeypatch: pytest.MonkeyPatch, *, only: bool
+) -> None:
+    monkeypatch.setattr(model, "_LATER_GATES", {"region_only": False})
+    part = model.GatesPart.model_validate(Gates(region_only=only).stored())
+    assert ("region_only" in part.model_dump(mode="json")) is only

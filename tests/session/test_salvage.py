@@ -360,6 +360,14 @@ def test_a_file_that_is_lost_makes_stale_what_rests_on_it(folder, tmp_path, wron
         assert check(done.out).sound
 
 
+def test_a_file_that_is_not_what_its_name_says_stays_behind(folder):
+    (folder / "raw" / "0123456789ab-poses.csv").write_bytes(b"changed since")
+    spoil(folder, wipe(MESH))
+    done = salvage(folder)
+    assert not (done.out / "raw" / "0123456789ab-poses.csv").exists()
+    assert "raw/0123456789ab-poses.csv" not in done.unclaimed
+
+
 def test_what_was_being_recorded_comes_along(folder):
     (folder / "raw" / "unfinished-a.mcap").write_bytes(b"begun")
     (folder / "raw" / ".stored.0123456789abcdef.tmp").write_bytes(b"half")

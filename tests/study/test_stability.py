@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.solver import hard_meshes as hm
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.save import save_probe
-from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study import stability as study
 from contactbench.pipeline.study.harness import CasesReport
 from contactbench.pipeline.study.stability import PARTS, StabilityRow

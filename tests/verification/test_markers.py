@@ -120,6 +120,13 @@ def test_spread_markers_are_where_a_press_is_told_and_a_tip_has_room(name):
     assert (made.points[down, 2] / -made.normals[down, 2] > 0.045).all()
 
 
+def test_markers_keep_clear_of_where_a_press_is_not_told(monkeypatch):
+    monkeypatch.setattr(
+        "contactbench.pipeline.verification.spread._told", lambda _, points, __: points[:, 0] > 0
+    )
+    assert spread_markers(mesh(2_000), 17).points[:, 0].min() > 0.001
+
+
 def test_no_marker_is_put_where_nothing_can_touch():
     probe = mesh(2_000)
     low = (probe.vertices[probe.faces, 2].mean(axis=1) < 0.5 * probe.bounds[1, 2]).astype(np.int32)

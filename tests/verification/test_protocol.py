@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from verification.touch_cases import MODEL, NOISE, Push, markers, probe, protocol, stream, touches
@@ -6,9 +8,11 @@ from contactbench import assets
 from contactbench.pipeline.contact import TouchModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.verification.figures import TouchFigure, VerificationLimits
 from contactbench.pipeline.verification.markers import make_markers, with_normals
 from contactbench.pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, ProtocolState, Why
 from contactbench.pipeline.verification.touch_location import TouchLocator
+from contactbench.pipeline.verification.verdict import unresolved
 
 
 def only(found):
@@ -212,3 +216,10 @@ def test_a_probe_that_moves_on_without_release_takes_its_touch_back():
 
 def test_a_probe_that_stays_keeps_its_touch():
     assert only(touches(Push(held=3.0))).why is None
+
+
+@pytest.mark.parametrize(("mm", "count"), [(1.9, 0), (2.1, 1), (None, 1)])
+def test_an_ambiguous_touch_is_unresolved_unless_its_first_answer_was_right(mm, count):
+    sure = TouchFigure(1, 0.0, 1.0, True, "", "M1", 1, 9.0, distance_mm=0.1)
+    doubtful = replace(sure, accepted=False, reason=Why.AMBIGUOUS, distance_mm=mm)
+    assert unresolved([sure, doubtful], VerificationLimits(max_m=0.002)).touches == count

@@ -68,3 +68,10 @@ def test_fewer_than_five_markers_have_no_interval():
     assert intervals(errors, groups=np.arange(20) % 4) is None
     assert intervals(errors, groups=np.arange(20) % 5) is not None
     assert intervals(errors[:4]) is None
+
+
+def test_the_interval_of_the_bias_holds_all_three_at_once():
+    """Of 400 normal errors: 2.39 standard errors to each side, where 1.96 would hold each component alone."""
+    errors = np.random.default_rng(4).normal(0.0, [2e-4, 5e-4, 9e-4], (400, 3))
+    sides = 0.5 * np.ptp(intervals(errors).bias_mm, axis=1) / (1e3 * errors.std(axis=0) / np.sqrt(400))
+    assert sides == pytest.approx([2.39] * 3, abs=0.12)

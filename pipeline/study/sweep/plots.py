@@ -9,9 +9,22 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from contactbench.pipeline.study.pages import STYLE, png
-from contactbench.pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, each_of, front, knee, merged
+from contactbench.pipeline.study.sweep.growth import (
+    COMPILED,
+    ERROR,
+    OURS,
+    TIME,
+    Row,
+    each_of,
+    front,
+    is_noisy,
+    knee,
+    merged,
+    of_meshes,
+    plain,
+    usual,
+)
 from contactbench.pipeline.study.sweep.tables import exponents
-from contactbench.pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,22 +11,20 @@ from contactbench.pipeline.study.pages import number, table
 from contactbench.pipeline.study.sweep.growth import (
     COMPILED,
     ERROR,
+    OURS,
+    STEEP_DEG,
     TIME,
     Row,
     each_of,
     front,
+    is_noisy,
     knee,
     merged,
-    power,
-    settling,
-)
-from contactbench.pipeline.study.sweep.targets import (
-    OURS,
-    STEEP_DEG,
-    is_noisy,
     needed_facets,
     of_meshes,
     plain,
+    power,
+    settling,
     targets,
     usual,
 )

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.solver import hard_meshes as hm
 
 from contactbench import assets
 from contactbench.pipeline import kernel
@@ -22,7 +23,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.gates import BEHIND_M
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide
-from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.solid import press
 from contactbench.pipeline.study.stability import StabilityRow as Row
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch, Gates
 
     Rows = NDArray[np.void]
-    from contactbench.pipeline.study.hard_meshes import Float
+    from contactbench.pipeline.study.solid import Float
 
 # Where on an axis a figure belongs: `x`, `axis`, and `most`.
 Where = dict[str, Any]
@@ -249,10 +250,10 @@ def hard_wrenches(samples: int, seed: int) -> tuple[ContactSolver, Float]:
     body, rng = hm.bundled("t-shape", 1000), np.random.default_rng(seed)
     slide = add_noise(draw_slide(assets.surface("t-shape"), samples, rng).wrenches, WrenchNoise(), rng)
     drawn = [
-        hm.press(*hm.places(body, samples, rng, "edge"), rng),
-        hm.press(*hm.places(body, samples, rng, "vertex"), rng, arm=0.0),
-        hm.press(*hm.places(body, samples, rng), rng, angle=(70.0, 89.9)),
-        hm.press(*hm.places(body, samples, rng), rng, pitch=10.0 ** rng.uniform(-4, 2, samples)),
+        press(*hm.places(body, samples, rng, "edge"), rng),
+        press(*hm.places(body, samples, rng, "vertex"), rng, arm=0.0),
+        press(*hm.places(body, samples, rng), rng, angle=(70.0, 89.9)),
+        press(*hm.places(body, samples, rng), rng, pitch=10.0 ** rng.uniform(-4, 2, samples)),
     ]
     wild = rng.standard_normal((samples, 6)) * 10.0 ** rng.uniform(-3, 3, (samples, 1))
     return ContactSolver(body.probe()), np.vstack([slide, *(d.wrenches for d in drawn), wild])

@@ -8,20 +8,22 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.solver import hard_meshes as hm
 from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differing, kernel_rows
 
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_trials import EXACT
 from contactbench.pipeline.study.report import Figure, StudyReport
-from contactbench.pipeline.study.stability import DOUBLE, OPEN, QUIET, ROUNDOFF, answers_on, touch
+from contactbench.pipeline.study.solid import press
+from contactbench.pipeline.study.stability import DOUBLE, EXACT, OPEN, QUIET, ROUNDOFF, answers_on, touch
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
 if TYPE_CHECKING:
+    from benchmarks.solver.hard_meshes import SolidBody
+
     from contactbench.pipeline.contact import Contact
-    from contactbench.pipeline.study.hard_meshes import Drawn, Float, SolidBody
+    from contactbench.pipeline.study.solid import Drawn, Float
 
     Vector = tuple[Fraction, Fraction, Fraction]
     from benchmarks.solver.bits import Rows
@@ -66,24 +68,24 @@ def exact_rows(samples: int, seed: int) -> list[Row]:
     rng = np.random.default_rng(seed)
     rows: list[Row] = []
     for case, body, drawn in (
-        ("ellipsoid, inside facets", round_body, hm.press(*hm.places(round_body, samples, rng), rng)),
+        ("ellipsoid, inside facets", round_body, press(*hm.places(round_body, samples, rng), rng)),
         (
             "ellipsoid, on edges",
             round_body,
-            hm.press(*hm.places(round_body, samples, rng, "edge"), rng, arm=0.003),
+            press(*hm.places(round_body, samples, rng, "edge"), rng, arm=0.003),
         ),
         (
             "ellipsoid, on vertices",
             round_body,
-            hm.press(*hm.places(round_body, samples, rng, "vertex"), rng, arm=0.0),
+            press(*hm.places(round_body, samples, rng, "vertex"), rng, arm=0.0),
         ),
         (
             "ellipsoid, in the gaps at vertices, where no facet answers",
             round_body,
-            hm.press(*hm.places(round_body, samples, rng, "cone"), rng, pitch=0.03),
+            press(*hm.places(round_body, samples, rng, "cone"), rng, pitch=0.03),
         ),
-        ("T-shape, inside facets", bent, hm.press(*hm.places(bent, samples, rng), rng)),
-        ("T-shape, on edges", bent, hm.press(*hm.places(bent, samples, rng, "edge"), rng)),
+        ("T-shape, inside facets", bent, press(*hm.places(bent, samples, rng), rng)),
+        ("T-shape, on edges", bent, press(*hm.places(bent, samples, rng, "edge"), rng)),
     ):
         rows += _compared(case, body, drawn)
     return rows
@@ -280,12 +282,9 @@ class _Scene:
         return kernel_rows(solver.locate_batch(wrenches))
 
     def _gates(self, length: float, force: float) -> Gates:
-        return replace(
-            self.gates,
-            min_force=self.gates.min_force * force,
-            ambiguity_distance=self.gates.ambiguity_distance * length,
-            follow_distance=self.gates.follow_distance * length,
-        )
+        scaled = {"min_force": force, "ambiguity_distance": length, "follow_distance": length}
+        values = {name: getattr(self.gates, name) * scale for name, scale in scaled.items()}
+        return self.gates.model_copy(update=values)
 
     def scaled(
         self, case: str, length: float, force: float, more: Where, *, exact: bool = False

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from benchmarks.solver import bits, exact
+from benchmarks.solver import hard_meshes as hm
 from benchmarks.solver.bits import Build, Row, Workshop
 
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.solid import press
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
@@ -112,7 +113,7 @@ def test_exact_arithmetic_agrees() -> None:
 
 def test_exact_arithmetic_notices_a_lost_answer_and_one_where_there_is_none() -> None:
     body, rng = hm.ellipsoid(), np.random.default_rng(0)
-    inside, gaps = (hm.press(*hm.places(body, 5, rng, place), rng, pitch=0.03) for place in ("facet", "cone"))
+    inside, gaps = (press(*hm.places(body, 5, rng, place), rng, pitch=0.03) for place in ("facet", "cone"))
     lost = {row.figure: row.worst for row in missed(exact._compared("case", bent(-0.99), inside))}
     assert lost[exact.NONE] == 5.0
     assert lost[exact.DEPTH] > 1e-3
@@ -121,7 +122,7 @@ def test_exact_arithmetic_notices_a_lost_answer_and_one_where_there_is_none() ->
 
 def test_exact_arithmetic_notices_a_mesh_that_is_off_by_a_picometre() -> None:
     rng = np.random.default_rng(0)
-    drawn = hm.press(*hm.places(hm.ellipsoid(), 5, rng), rng)
+    drawn = press(*hm.places(hm.ellipsoid(), 5, rng), rng)
     assert not missed(exact._compared("case", bent(0.0), drawn))
     assert exact.ERROR in {row.figure for row in missed(exact._compared("case", bent(1e-11), drawn))}
 

@@ -9,11 +9,14 @@ from contactbench.pipeline.study.sweep.growth import (
     front,
     knee,
     merged,
+    needed_facets,
+    on_front,
+    over_bound,
     power,
     settling,
+    targets,
 )
 from contactbench.pipeline.study.sweep.tables import torque_table
-from contactbench.pipeline.study.sweep.targets import needed_facets, on_front, over_bound, targets
 
 _FACETS = (100, 300, 1_000, 3_000, 20_000)
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.solver import hard_meshes as hm
 
 from contactbench.pipeline.contact import (
     Batch,
@@ -18,13 +19,11 @@ from contactbench.pipeline.contact import (
     methods,
 )
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
-from contactbench.pipeline.study.harness import CaseRow
-from contactbench.pipeline.study.report import FigureVerdict
+from contactbench.pipeline.study.solid import Bools, Drawn, Float, SolidBody
+from contactbench.pipeline.study.stability import EXACT
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from contactbench.pipeline.study.report import Cell
 
 
 @dataclass(frozen=True)
@@ -76,7 +75,7 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class HardCase(CaseRow):
+class HardCase:
     """One hard case, as it went."""
 
     # name, what, expectation: in words
@@ -91,38 +90,25 @@ class HardCase(CaseRow):
     faults: tuple[str, ...] = ()  # what was wrong
 
     @property
-    def verdict(self) -> FigureVerdict:
-        """Whether the rule was kept."""
-        return FigureVerdict.MET if self.passed else FigureVerdict.MISSED
-
-    @property
-    def figures(self) -> tuple[str, str, str]:
-        """What was answered, the largest error, and what was wrong unflagged; Algorithm 1's after the stroke."""
-        both = (self.contactbench, self.algorithm1)
-        return (
-            " / ".join(f"{100 * o.answered:.4g} %" for o in both),
-            " / ".join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
-            " / ".join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
-        )
-
-    @property
-    def cells(self) -> tuple[str, ...]:
-        """See `CaseRow`."""
-        return self.name, f"{self.tries:,}", *self.figures, "; ".join(self.faults) or "passed"
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain values."""
-        return asdict(self)
+    def row(self) -> tuple[Cell, ...]:
+        """It as a row of `COLUMNS`."""
+        figures = [
+            (100 * o.answered, o.max_mm, 100 * o.wrong_unflagged)
+            for o in (self.contactbench, self.algorithm1)
+        ]
+        both = [figure for pair in zip(*figures, strict=True) for figure in pair]
+        return self.name, self.tries, *both, "; ".join(self.faults) or "passed"
 
 
-_SAME_TOUCH, _ROUNDING_M, _TIED = 4.5, 1e-9, 1e-9
-_NO_ERROR = WrenchNoise(0.0, 0.0)
-# Any torsion, as far as a model allows, and a mesh that is the very body: where the likelihood is the closed form.
-EXACT = TouchModel(torsion_arm=1000.0, model_error=_NO_ERROR, mesh_curved=False)
-# The same, but the mesh stands for a curved body: facets then answer for the gaps between their normals, too.
+COLUMNS = (
+    "case", "tries", "answered, %", "by Algorithm 1, %", "largest error, mm", "of Algorithm 1, mm",
+    "wrong, not flagged, %", "of Algorithm 1, %", "verdict",
+)  # fmt: skip
+_SAME_TOUCH, _SAME_M, _ROUNDING_M, _TIED = 4.5, 0.005, 1e-9, 1e-9
+# As `EXACT`, but the mesh stands for a curved body: facets then answer for the gaps between their normals, too.
 CURVED = replace(EXACT, mesh_curved=True)
 
-Check = Callable[[methods.ContactMethod, Batch], Bools]
+Check = Callable[[Batch], Bools]
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,22 +130,20 @@ class HardTrial:
 
     def run(self) -> HardCase:
         """Try both methods and judge."""
-        ours = self._outcome(self.method())
-        theirs = self._outcome(methods.algorithm1(self.probe, self.noise, self.gates))
-        faults = (
-            self.rule.faults(ours) if len(self.drawn) else ("no wrench fits the case: give more samples",)
-        )
+        wrenches = self.drawn.wrenches
+        literal = methods.algorithm1(self.probe, self.noise, self.gates)
+        ours = self._outcome(self.solver().locate_batch(wrenches), self.check)
+        theirs = self._outcome(literal.locate_batch(wrenches), None)
+        faults = self.rule.faults(ours) if len(wrenches) else ("no wrench fits the case: give more samples",)
         return HardCase(
-            self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults
+            self.name, self.what, len(wrenches), self.rule.words, ours, theirs, not faults, faults
         )
 
-    def method(self) -> methods.ContactMethod:
-        """Return the solver that is tried."""
-        solver = ContactSolver(self.probe, self.noise, self.gates, self.model)
-        return methods.ContactMethod("contactbench", solver.locate, solver.locate_batch, solver)
+    def solver(self) -> ContactSolver:
+        """Return what is tried."""
+        return ContactSolver(self.probe, self.noise, self.gates, self.model)
 
-    def _outcome(self, method: methods.ContactMethod) -> HardOutcome:
-        batch = method.locate_batch(self.drawn.wrenches)
+    def _outcome(self, batch: Batch, check: Check | None) -> HardOutcome:
         error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
         far = error > self.rule.tolerance_mm
         health = self.probe.health
@@ -175,7 +159,7 @@ class HardTrial:
             {Reason(code).name: int(n) for code, n in zip(codes, counts, strict=True)},
             float(unflagged.sum() / tries),
             float(far.sum() / tries),
-            int(self.check(method, batch).sum()) if self.check else 0,
+            int(check(batch).sum()) if check else 0,
         )
 
 
@@ -197,7 +181,7 @@ def refused(*reasons: Reason) -> Rule:
 def certified(body: SolidBody, wrenches: Float) -> Check:
     """Refuse points that are not the exact solution where they say (a convex body has only one)."""
 
-    def check(_: methods.ContactMethod, batch: Batch) -> Bools:
+    def check(batch: Batch) -> Bools:
         off, false = hm.certify(body, wrenches, batch)
         return np.asarray(false | (off > 1e-9 * body.size))
 
@@ -207,16 +191,14 @@ def certified(body: SolidBody, wrenches: Float) -> Check:
 def complete(drawn: Drawn) -> Check:
     """Refuse answers that have the truth neither as point nor as candidate."""
 
-    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        solver, broken = method.engine, np.zeros(len(drawn), dtype=bool)
-        if not isinstance(solver, ContactSolver):
-            return broken
+    def check(batch: Batch) -> Bools:
+        broken = np.zeros(len(drawn), dtype=bool)
         for i, truth in enumerate(drawn.points):
             found = batch[i]
             points = [c.point for c in found.candidates] + ([] if found.point is None else [found.point])
             off = np.linalg.norm(np.reshape(points, (-1, 3)) - truth, axis=1)
             # What is nearer to a candidate is the same touch.
-            broken[i] = off.min(initial=np.inf) > solver.gates.ambiguity_distance
+            broken[i] = off.min(initial=np.inf) > _SAME_M
         return broken
 
     return check
@@ -225,9 +207,7 @@ def complete(drawn: Drawn) -> Check:
 def within(drawn: Drawn) -> Check:
     """Refuse points that are further from the truth than they say: 4.5 standard deviations."""
 
-    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        if not isinstance(method.engine, ContactSolver):
-            return np.zeros(len(drawn), dtype=bool)
+    def check(batch: Batch) -> Bools:
         off = np.linalg.norm(batch.points - drawn.points, axis=1)
         return np.asarray(off > np.maximum(_ROUNDING_M, _SAME_TOUCH * batch.sigma_max))
 
@@ -237,10 +217,8 @@ def within(drawn: Drawn) -> Check:
 def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
     """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
 
-    def check(method: methods.ContactMethod, batch: Batch) -> Bools:
-        if not isinstance(method.engine, ContactSolver):
-            return np.zeros(len(batch), dtype=bool)
-        before = base.method().locate_batch(base.drawn.wrenches)
+    def check(batch: Batch) -> Bools:
+        before = base.solver().locate_batch(base.drawn.wrenches)
         off = np.linalg.norm(batch.points - move(before.points), axis=1)
         # Of places that explain a wrench equally well, rounding chooses: one of them it must be.
         for i in np.flatnonzero((before.confidences < 0.5 + _TIED) & np.isfinite(batch.points[:, 0])):
@@ -250,15 +228,3 @@ def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
         return np.asarray((batch.reasons != before.reasons) | (off > 1e-9 * size))
 
     return check
-
-
-HEADINGS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
-
-
-def markdown(cases: Sequence[HardCase]) -> str:
-    """Write cases as Markdown: the table, then each case in words."""
-    lines = ["| " + " | ".join(HEADINGS) + " |", "|---|---:|---:|---:|---:|---|"]
-    lines += [f"| {case.name} | {case.tries} | {' | '.join(case.cells[2:])} |" for case in cases]
-    lines += ["", "Figures are contactbench / algorithm1.", ""]
-    lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in cases]
-    return "\n".join(lines) + "\n"

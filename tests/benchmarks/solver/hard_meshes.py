@@ -10,44 +10,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contactbench import assets
 from contactbench.pipeline.mesh import MeshWarning, Probe, load_probe
+from contactbench.pipeline.study import solid
+from contactbench.pipeline.study.solid import Bools, Float, Ints, Long, cross, dot
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch
 
-Float = NDArray[np.float64]
-Long = NDArray[np.longdouble]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 # Shares of an edge or facet: nearer to its border than this, rounding decides who answers.
 _BORDER = 1e-9
 
 
-@dataclass(frozen=True, eq=False)
-class SolidBody:
-    """A closed triangle mesh in S, m."""
-
-    vertices: Float  # (n, 3) m
-    faces: Ints  # (m, 3) counter-clockwise seen from outside
-
-    @cached_property
-    def corners(self) -> Long:
-        """(m, 3, 3) the corners of each facet, m."""
-        return np.asarray(self.vertices.astype(np.longdouble)[self.faces])
-
-    @cached_property
-    def areas(self) -> Long:
-        """(m, 3) normals, each as long as twice its facet's area, m²."""
-        return _cross(self.corners[:, 1] - self.corners[:, 0], self.corners[:, 2] - self.corners[:, 0])
-
-    @cached_property
-    def normals(self) -> Long:
-        """(m, 3) outward unit normals."""
-        return np.asarray(self.areas / np.sqrt(_dot(self.areas, self.areas))[:, None])
+class SolidBody(solid.SolidBody):
+    """A closed triangle mesh in S, m, and what the truth asks of it."""
 
     @cached_property
     def spokes(self) -> tuple[Ints, Ints, Ints]:
@@ -61,10 +40,6 @@ class SolidBody:
         """Largest extent, m."""
         return float(np.ptp(self.vertices[self.faces].reshape(-1, 3), axis=0).max())
 
-    def probe(self, faces: ArrayLike | None = None) -> Probe:
-        """Return the mesh as a probe of any size, or these `faces` over the same vertices."""
-        return Probe.from_arrays(self.vertices, self.faces if faces is None else faces, check_size=False)
-
     def moved(self, by: ArrayLike) -> SolidBody:
         """Return the mesh moved by a vector (3,), m."""
         return SolidBody(self.vertices + np.asarray(by, dtype=np.float64), self.faces)
@@ -72,10 +47,8 @@ class SolidBody:
     def holds(self, point: Long) -> bool:
         """Whether a point (3,), m, off the surface, is inside (by its winding number, as a solid angle)."""
         a, b, c = np.moveaxis(self.corners - point, 1, 0)
-        x, y, z = (np.sqrt(_dot(v, v)) for v in (a, b, c))
-        solid = np.arctan2(
-            _dot(a, _cross(b, c)), x * y * z + _dot(a, b) * z + _dot(b, c) * x + _dot(c, a) * y
-        )
+        x, y, z = (np.sqrt(dot(v, v)) for v in (a, b, c))
+        solid = np.arctan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y)
         return bool(np.abs(solid.sum()) > np.pi)
 
 
@@ -145,57 +118,6 @@ def through_stl(body: SolidBody) -> Probe:
             return load_probe(file, "mm")
 
 
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """Wrenches and where they were made to touch."""
-
-    wrenches: Float  # (n, 6) N and N·m, S
-    points: Float  # (n, 3) m, S
-
-    def __len__(self) -> int:
-        return len(self.points)
-
-    def take(self, rows: Bools | Ints | slice) -> Drawn:
-        """Return some of the rows."""
-        return Drawn(self.wrenches[rows], self.points[rows])
-
-
-def press(
-    points: ArrayLike,
-    normals: ArrayLike,
-    rng: np.random.Generator,
-    *,
-    angle: tuple[float, float] | Float = (0.0, 60.0),
-    arm: ArrayLike = 0.0003,
-    pitch: ArrayLike | None = None,
-) -> Drawn:
-    """Press on points (n, 3), m, with outward normals (n, 3), by 8 to 10 N.
-
-    Parameters
-    ----------
-    angle : (low, high) or (n,)
-        Friction angle, degrees, in a random direction.
-    arm : float or (n,)
-        Standard deviation of the local torque over the force, m.
-    pitch : float or (n,), optional
-        Torque about the axis over the force, M·F / |F|², m; its sign is random. Takes the place of `arm`.
-    """
-    p, n = np.asarray(points, np.longdouble), np.asarray(normals, np.longdouble)
-    count = len(p)
-    side = _cross(n, rng.standard_normal((count, 3)).astype(np.longdouble))
-    side /= np.sqrt(_dot(side, side))[:, None]
-    degrees = rng.uniform(angle[0], angle[1], count) if isinstance(angle, tuple) else np.resize(angle, count)
-    theta = np.radians(degrees.astype(np.longdouble))[:, None]
-    size = rng.uniform(8.0, 10.0, count)[:, None]
-    force = (size * (np.sin(theta) * side - np.cos(theta) * n)).astype(np.float64).astype(np.longdouble)
-    if pitch is None:
-        k = np.asarray(arm) * rng.standard_normal(count) * size[:, 0]
-    else:
-        k = np.asarray(pitch) * rng.choice([-1.0, 1.0], count) * _dot(force, force) / _dot(n, force)
-    moment = _cross(p, force) + np.asarray(k, np.longdouble)[:, None] * n
-    return Drawn(np.hstack([force, moment]).astype(np.float64), p.astype(np.float64))
-
-
 Place = Literal["facet", "edge", "vertex", "cone"]
 
 
@@ -217,7 +139,7 @@ def places(
     among : (m,) bool, optional
         Only these facets.
     """
-    weight = np.sqrt(_dot(body.areas, body.areas)).astype(np.float64)
+    weight = np.sqrt(dot(body.areas, body.areas)).astype(np.float64)
     weight = weight if among is None else weight * among
     face = rng.choice(len(weight), count, p=weight / weight.sum())
     shares = rng.dirichlet([1.0, 1.0, 1.0], count)
@@ -297,7 +219,7 @@ def certify(body: SolidBody, wrenches: Float, batch: Batch) -> tuple[Float, Bool
             false[i] = areal(one, np.zeros(1, np.int64), exact).min() < -_BORDER or one.normals[0] @ F >= 0
             continue
         off[i] = float(np.linalg.norm(batch.points[i] - body.vertices[v]))
-        moment = M - _cross(body.vertices[v].astype(np.longdouble), F)
+        moment = M - cross(body.vertices[v].astype(np.longdouble), F)
         size = np.sqrt(moment @ moment)
         if size < 1e-12 * body.size * np.sqrt(F @ F):
             continue  # the axis runs through the vertex: any normal of its cone will do
@@ -311,22 +233,22 @@ def areal(body: SolidBody, faces: Ints, points: Long) -> Long:
     """Return the areal coordinates (n, 3) of points (n, 3) on the planes of `faces` (n,)."""
     a, b, c = np.moveaxis(body.corners[faces], 1, 0)
     n = body.areas[faces]
-    parts = [_dot(_cross(q - points, r - points), n) for q, r in ((b, c), (c, a), (a, b))]
-    return np.asarray(np.stack(parts, axis=1) / _dot(n, n)[:, None])
+    parts = [dot(cross(q - points, r - points), n) for q, r in ((b, c), (c, a), (a, b))]
+    return np.asarray(np.stack(parts, axis=1) / dot(n, n)[:, None])
 
 
 def entry(body: SolidBody, wrench: Float) -> Float:
     """Return where the wrench axis first meets the body (3,), m, or NaN: a ray against every facet."""
     F, M = wrench[:3].astype(np.longdouble), wrench[3:].astype(np.longdouble)
-    f, foot = F / np.sqrt(F @ F), _cross(F, M) / (F @ F)
+    f, foot = F / np.sqrt(F @ F), cross(F, M) / (F @ F)
     a, b, c = np.moveaxis(body.corners, 1, 0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        p = _cross(np.broadcast_to(f, c.shape), c - a)
-        scale = _dot(b - a, p)
-        u = _dot(foot - a, p) / scale
-        q = _cross(foot - a, b - a)
+        p = cross(np.broadcast_to(f, c.shape), c - a)
+        scale = dot(b - a, p)
+        u = dot(foot - a, p) / scale
+        q = cross(foot - a, b - a)
         v = (q @ f) / scale
-        t = _dot(c - a, q) / scale
+        t = dot(c - a, q) / scale
         t = np.where((u >= 0) & (v >= 0) & (u + v <= 1), t, np.inf)
     return np.asarray(foot + t.min() * f, dtype=np.float64) if np.isfinite(t.min()) else np.full(3, np.nan)
 
@@ -337,7 +259,7 @@ def _facet_points(body: SolidBody, F: Long, M: Long) -> tuple[Long, bool]:
     along = n @ F
     with np.errstate(divide="ignore", invalid="ignore"):
         # p x F + k n = M with n . p = n . a: cross with n, and p (n . F) - F (n . a) = n x M.
-        p = (_cross(n, np.broadcast_to(M, n.shape)) + _dot(n, a)[:, None] * F) / along[:, None]
+        p = (cross(n, np.broadcast_to(M, n.shape)) + dot(n, a)[:, None] * F) / along[:, None]
     p[~np.isfinite(p).all(axis=1)] = np.nan  # edge-on: nowhere, which is inside nothing
     return np.asarray(p), bool(np.all(np.abs(along) > _BORDER * np.sqrt(F @ F)))
 
@@ -346,13 +268,13 @@ def _pressed_vertices(body: SolidBody, F: Long, M: Long) -> list[tuple[int, Long
     """Vertices that answer, with their normals and how far their edges are from level (a sine)."""
     start, end, first = body.spokes
     at = body.vertices.astype(np.longdouble)
-    moment = np.subtract(M, _cross(at, np.broadcast_to(F, at.shape)), dtype=np.longdouble)
+    moment = np.subtract(M, cross(at, np.broadcast_to(F, at.shape)), dtype=np.longdouble)
     with np.errstate(divide="ignore", invalid="ignore"):
-        n = np.asarray(moment / np.sqrt(_dot(moment, moment))[:, None], np.longdouble)
+        n = np.asarray(moment / np.sqrt(dot(moment, moment))[:, None], np.longdouble)
     n = np.negative(n) if M @ F > 0 else n
     spoke = np.subtract(at[end], at[start], dtype=np.longdouble)
-    length = np.sqrt(_dot(spoke, spoke))
-    rise = _dot(n[start], spoke) / length
+    length = np.sqrt(dot(spoke, spoke))
+    rise = dot(n[start], spoke) / length
     low, high = np.minimum.reduceat(rise, first), np.maximum.reduceat(rise, first)
     found = []
     for row in np.flatnonzero((low > 0) | (high < 0)):
@@ -364,11 +286,3 @@ def _pressed_vertices(body: SolidBody, F: Long, M: Long) -> list[tuple[int, Long
             continue
         found.append((v, n[v], float(min(abs(low[row]), abs(high[row])))))
     return found
-
-
-def _cross(a: Long, b: Long) -> Long:
-    return np.asarray(np.cross(a, b))
-
-
-def _dot(a: Long, b: Long) -> Long:
-    return np.asarray(np.einsum("...i,...i->...", a, b))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, degrees, erfc, exp, inf, isinf, log, radians, sqrt
-from statistics import NormalDist
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, ValidationError
@@ -52,6 +51,8 @@ def _cost(odds: float) -> float:
 
 
 def _misfit(probability: float) -> float:
+    from statistics import NormalDist  # slow to import, and seldom needed
+
     return NormalDist().inv_cdf(1 - probability / 2) ** 2
 
 

@@ -55,7 +55,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     assert "probe.ply" in page.files.text()
     page.settings.texts["operator"].setText("Ada Lovelace")
     page.settings.texts["operator"].editingFinished.emit()
-    page.settings.force.setValue(20.0)
+    page.settings.rows["max_force"].field.setValue(20.0)
     page.settings.texts["sensor_name"].setText("wrist")
     page.settings.texts["sensor_name"].editingFinished.emit()
     window.wait(lambda: "Ada Lovelace" in page.figures.text() and "20 N" in page.figures.text())

@@ -197,7 +197,7 @@ def repeats(made):
 def force(made):
     page = made.page(Step.EXPORT)
     made.wait(lambda: page.view is not None)
-    page.settings.force.setValue(21.0)
+    page.settings.rows["max_force"].field.setValue(21.0)
 
 
 def leave_out(made):

@@ -9383,10 +9383,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>ist nicht das, was das Rauschen eines Messwerts, der Filter und gravity.covariance zusammen ergeben.</translation>
     </message>
     <message>
-        <source>does not match contactbench.json.</source>
-        <translation>ist nicht das, was contactbench.json sagt.</translation>
-    </message>
-    <message>
         <source>down in it is {0}</source>
         <translation>unten ist darin {0}</translation>
     </message>
@@ -13983,10 +13979,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}, radierend</translation>
     </message>
     <message>
-        <source>{0}, line {1}: contactbench writes {2} here: export the bundle again.</source>
-        <translation>{0}, Zeile {1}: contactbench schreibt hier {2}: Exportieren Sie das Paket noch einmal.</translation>
-    </message>
-    <message>
         <source>{0}, possibly out of memory</source>
         <translation>{0}, vielleicht kein Arbeitsspeicher mehr</translation>
     </message>
@@ -14505,10 +14497,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: none of the regions lies on this surface: they were painted on another mesh, or in another place. Paint them again, or leave them out.</source>
         <translation>{0}: Nichts von den Regionen liegt auf dieser Oberfläche: Sie wurden auf einem anderen Netz oder an einer anderen Stelle gemalt. Malen Sie sie neu, oder lassen Sie sie weg.</translation>
-    </message>
-    <message>
-        <source>{0}: not ASCII. {1}</source>
-        <translation>{0}: Das ist kein ASCII. {1}</translation>
     </message>
     <message>
         <source>{0}: not CSV text ({1}): save it as UTF-8 CSV.</source>
@@ -15231,10 +15219,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0}: Diese Datei gibt es schon: Wählen Sie einen anderen Namen.</translation>
     </message>
     <message>
-        <source>{0}: this file belongs to another bundle ({1}). {2}</source>
-        <translation>{0}: Diese Datei gehört zu einem anderen Bundle ({1}). {2}</translation>
-    </message>
-    <message>
         <source>{0}: this file belongs to another program: move it away, or choose another folder.</source>
         <translation>{0}: Diese Datei gehört zu einem anderen Programm: Verschieben Sie sie, oder wählen Sie einen anderen Ordner.</translation>
     </message>
@@ -15317,10 +15301,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0}: this recording has already ended.</source>
         <translation>{0}: Diese Aufzeichnung ist schon beendet.</translation>
-    </message>
-    <message>
-        <source>{0}: tool {1} is not contactbench and a version: export it again.</source>
-        <translation>{0}: tool {1} ist nicht contactbench mit einer Version: Exportieren Sie noch einmal.</translation>
     </message>
     <message>
         <source>{0}: two files of one input have the same name: rename one.</source>

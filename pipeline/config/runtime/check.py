@@ -317,7 +317,10 @@ def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes]) 
     check_self_test(model, files)
     check_planes(files[PLANES], probe, PLANES)
     if model.planes.count != len(probe.faces):
-        _refuse("planes.count", f"is {model.planes.count}, but {PLANES} has {len(probe.faces)}.")
+        _refuse(
+            "planes.count",
+            message(f"is {arg(model.planes.count)}, but {arg(PLANES)} has {arg(len(probe.faces))}."),
+        )
 
 
 def _check_touch(model: RuntimeModel) -> None:

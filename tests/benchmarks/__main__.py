@@ -23,6 +23,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # Name: where the function is. The first line of its module's docstring is its help.
 BENCHMARKS = {
+    "ablation": "ablation.study:run",
     "alignment": "preparation.alignment:run",
     "bundles": "bundle_fuzz:run",
     "calibration-doubt": "calibration_doubt:run",

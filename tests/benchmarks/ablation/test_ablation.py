@@ -1,0 +1,82 @@
+"""Each choice alone: its error is there without it, and gone with it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks.ablation import locating, reading, study
+from benchmarks.ablation.records import SceneRecord, drawn
+from benchmarks.ablation.study import FILTERED, compared, effect, run
+
+from contactbench.pipeline.errors import InputError
+
+
+@pytest.fixture(scope="module")
+def record() -> SceneRecord:
+    return drawn("linear", 300, np.random.default_rng(1))
+
+
+def test_figures_are_of_rows_that_are_sure_and_not_grossly_off() -> None:
+    truth = np.zeros((4, 3))
+    without = 1e-3 * np.array([[2.0, 0, 0], [20.0, 0, 0], [4.0, 0, 0], [np.nan] * 3])
+    made = 1e-3 * np.array([[1.0, 0, 0], [1.0, 0, 0], [1.0, 0, 0], [1.0, 0, 0]])
+    found = compared(truth, without, made, np.ones(4, dtype=bool), np.array([True, True, False, True]))
+    assert (found["without"], found["with"], found["taken"]) == pytest.approx((2, 1, 1))
+    assert (found["located_without"], found["located_with"]) == (0.5, 0.75)
+
+
+def test_without_axial_torque_no_local_torque_is_left(record: SceneRecord) -> None:
+    plain = locating.without_axial(record.contacts)
+    assert np.allclose(np.einsum("nd,nd->n", plain[:, :3], plain[:, 3:]), 0.0, atol=1e-12)
+    made = locating.locators("linear", 500, 0.0).ours.locate_batch(plain)
+    explained = made.misfits < 1e-9  # at the others' edges and corners the axis passes the coarse mesh by
+    assert explained.mean() > 0.95
+    assert np.abs(made.torques[explained]).max() < 1e-9
+
+
+def test_local_torque_takes_more_away_the_more_it_twists(record: SceneRecord) -> None:
+    little = effect(locating.LOCAL_TORQUE, record, 2_000, 0.0, 0)
+    twisted = drawn("linear", 300, np.random.default_rng(1), torsion=0.003)
+    much = effect(locating.LOCAL_TORQUE, twisted, 2_000, 0.0, 0)
+    assert 0 < little["taken"] < 0.2 < much["taken"]
+
+
+@pytest.mark.parametrize("choice", reading.CHOICES)
+def test_what_a_sensor_does_wrong_is_taken_off_again(
+    record: SceneRecord, choice: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = effect(choice, record, 2_000, FILTERED, 0)
+    clean = effect(locating.LOCAL_TORQUE, record, 2_000, FILTERED, 0)["with"]
+    assert found["without"] > 1.3 * clean
+    assert found["with"] < 1.15 * clean
+    monkeypatch.setitem(reading.AMOUNTS, choice, 0.0)
+    assert abs(effect(choice, record, 2_000, FILTERED, 0)["taken"]) < 0.1 * clean
+
+
+def test_ten_times_the_facets_are_nearer(record: SceneRecord) -> None:
+    found = effect(locating.FINER, record, 500, 0.0, 0)
+    assert found["with"] < 0.3 * found["without"]
+
+
+def test_the_same_seed_gives_the_same(record: SceneRecord) -> None:
+    one, other = (effect(locating.GATE, record, 500, 1.0, 5) for _ in range(2))
+    assert one == other
+    assert one != effect(locating.GATE, record, 500, 1.0, 6)
+
+
+def test_every_choice_has_its_figures() -> None:
+    pytest.importorskip("mujoco")
+    report = run(["linear"], seeds=1, facets=500, touches=60, tips=4, rounds=1)
+    choices = report.sheets[0].to_json()
+    assert {row["choice"] for row in choices} == set(study.CHOICES)
+    assert {row["scene"] for row in choices if row["choice"] == study.INERTIA} == {"platform", "arm"}
+    said = {(row["choice"], row["scene"]): row["worth modelling"] for row in choices}
+    assert said[reading.MOUNT, "platform"] == "yes"
+    assert said[locating.SMOOTH, "platform"] == "no"
+    assert {row["choice"] for row in report.sheets[1].to_json()} == set(locating.CHOICES)
+
+
+@pytest.mark.parametrize("wrong", [{"probes": ["banana"]}, {"seeds": 0}])
+def test_impossible_arguments_are_refused(wrong: dict[str, object]) -> None:
+    with pytest.raises(InputError):
+        run(**wrong)  # type: ignore[arg-type]

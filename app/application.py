@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 
 from contactbench.app.errors import Faults, LogFile
 from contactbench.app.settings import WindowSettings
-from contactbench.app.translation import load
+from contactbench.app.translation import in_use, keep_said, load, recall_said
 from contactbench.app.window import MainWindow
 from contactbench.widgets.software_gl import spare_cores
 from contactbench.widgets.theme import follow_system, use_theme
@@ -46,7 +46,8 @@ def run(session: Path | None = None, *, virtual: bool = False, language: str = "
     """
     application = prepared()
     settings, faults, log = WindowSettings(), Faults(), LogFile()
-    load(application, language or settings.now.language)
+    if load(application, language or settings.now.language) != "en":
+        recall_said(settings.file.parent)
     use_theme(settings.now.theme)
     window = MainWindow(settings, faults, log)
     faults.install()
@@ -63,6 +64,8 @@ def run(session: Path | None = None, *, virtual: bool = False, language: str = "
     try:
         return application.exec()
     finally:
+        if in_use() != "en":
+            keep_said(settings.file.parent)
         faults.uninstall()
         log.close()
 

@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -22,6 +23,8 @@ from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import all_said_lately, say_again
 from contactbench.widgets.messages import CONTEXT
 
 if TYPE_CHECKING:
@@ -33,6 +36,7 @@ _HERE = Path(__file__).parent
 _FOLDER = _HERE / "translations"
 _SOURCE = "en"
 _IN_USE = "language"
+_SAID, _MOST_SAID = "messages.json", 2**23
 # Rooms whose texts are seen in a terminal or in a document, not in a window.
 _IN_TERMINALS = {("pipeline", room) for room in ("commands", "study", "demo", "report", "page", "fleet")}
 _OF_SETTINGS = {"knob": 1, "Row": 0}  # which argument has the words that a form shows
@@ -83,6 +87,22 @@ def in_use() -> str:
     """Return the code of the language that the running application speaks."""
     application = QCoreApplication.instance()
     return _SOURCE if application is None else str(application.property(_IN_USE) or _SOURCE)
+
+
+def keep_said(folder: Path) -> None:
+    """Keep the messages said lately for the next start: a session's files have their English text alone."""
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        write_durably(folder / _SAID, json.dumps(all_said_lately()).encode())
+
+
+def recall_said(folder: Path) -> None:
+    """Take what `keep_said` kept; a file that is missing, damaged or too long counts as empty."""
+    with suppress(OSError, ValueError):
+        with (folder / _SAID).open("rb") as stream:
+            said = json.loads(stream.read(_MOST_SAID))
+        if isinstance(said, dict):
+            say_again({text: marked for text, marked in said.items() if isinstance(marked, str)})
 
 
 def unfinished(language: str) -> tuple[str, ...]:

@@ -10,11 +10,12 @@ use: in a file, a log or a terminal. A window asks for it in another language, b
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, SupportsIndex
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from typing import Self
 
 # Noncharacters, which Unicode keeps for use inside a program: they show where a message and what is filled in begin
@@ -114,6 +115,19 @@ def arg(value: object) -> _Argument:
 def said_lately(text: str) -> str:
     """Return a text that came back from a file or from Qt as the message that it was, if it was said lately."""
     return Message(_LATELY[text]) if text in _LATELY and not isinstance(text, Message) else text
+
+
+def all_said_lately() -> dict[str, str]:
+    """Return the texts said lately, each with its marks: what `say_again` takes when the next program starts."""
+    return dict(_LATELY)
+
+
+def say_again(said: Mapping[str, str]) -> None:
+    """Count texts as said lately that an earlier program said; one that its marks do not give is left out."""
+    for text, marked in said.items():
+        with suppress(RecursionError):
+            if _said(marked, str) == text:
+                Message(marked)
 
 
 def join(separator: str, parts: Iterable[str]) -> str:

@@ -1,6 +1,8 @@
 import copy
 import json
 
+from contactbench.app.translation import keep_said, recall_said
+from contactbench.pipeline import errors
 from contactbench.pipeline.errors import InputError, arg, capitalised, join, message, said_lately
 
 GERMAN = {
@@ -95,3 +97,23 @@ def test_a_text_that_went_through_a_file_is_the_message_that_it_was():
     back = json.loads(json.dumps([said]))[0]
     assert said_lately(back).translated(german) == "b.csv: 0.3 mm daneben in Zeile 7."
     assert said_lately("never said") == "never said"
+
+
+def test_a_later_program_says_it_again(monkeypatch, tmp_path):
+    said = off("c.csv")
+    keep_said(tmp_path)
+    kept = tmp_path / "messages.json"
+    monkeypatch.setattr(errors, "_LATELY", {})
+    assert type(said_lately(said[:])) is str
+    recall_said(tmp_path)
+    assert said_lately(said[:]).translated(german) == "c.csv: 0.3 mm daneben in Zeile 7."
+    for content in (
+        "{",
+        "[1]",
+        '{"a": 3}',
+        json.dumps({"true": "\ufdd0false\ufdd1", "deep": "\ufdd2" * 5000}),
+    ):
+        kept.write_text(content)
+        errors._LATELY.clear()
+        recall_said(tmp_path)
+        assert errors._LATELY == {}

@@ -77,3 +77,40 @@ def _as_it_was():
     application.setPalette(QPalette())
     # What is to be deleted later is deleted by the next event loop: after the last test there is none.
     QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    """Make a session with a calibration and a probe once; everybody gets a copy."""
+    from workbench.touch_session import make_session
+
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "files").mkdir()
+    return make_session(folder / "s", folder / "files")
+
+
+@pytest.fixture(scope="module")
+def sessions(calibrated):
+    """Make two sessions once: one that is calibrated, one that is verified, too."""
+    from workbench.touch_session import verify
+
+    folder = calibrated.parent
+    shutil.copytree(calibrated, folder / "calibrated")
+    verify(shutil.copytree(calibrated, folder / "verified"))
+    return folder
+
+
+@pytest.fixture(scope="session")
+def elfin():
+    """The arm of the paper."""
+    pytest.importorskip("mujoco")
+    from contactbench.pipeline.robot import Robot
+
+    return Robot.named("elfin3")
+
+
+@pytest.fixture
+def rng():
+    import numpy as np
+
+    return np.random.default_rng(0)

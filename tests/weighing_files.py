@@ -19,6 +19,7 @@ TRUTH = GravityModel(
     np.array([0.004, -0.002, 0.062]),
     np.array([0.2, -0.1, 0.05]),
 )
+LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])
 NOISE = PoseNoise(0.05, 0.002)
 Range = tuple[float, float]
 
@@ -84,3 +85,10 @@ def _write(file: Path, weighing: Weighing, columns: tuple[str, ...], values: Any
         for number, (pose, cells) in enumerate(zip(weighing.poses, values, strict=True)):
             rows.writerow([10.0 * number, *pose.force, *pose.torque, *cells])
     return file
+
+
+def columns(file: Path) -> dict[str, list[str]]:
+    """Read a table by its columns."""
+    with file.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    return {name: [row[name] for row in rows] for name in rows[0]}

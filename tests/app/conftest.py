@@ -59,6 +59,15 @@ def plain_pages(monkeypatch):
 
 
 @pytest.fixture
+def made(qtbot, tmp_path):
+    """A whole window, as the application makes it."""
+    from .failures import whole
+
+    with whole(qtbot, tmp_path) as window:
+        yield window
+
+
+@pytest.fixture
 def make_window(qtbot):
     """Make windows that are closed, with their session, when the test ends."""
     made = []

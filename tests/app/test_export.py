@@ -6,12 +6,11 @@ import socket
 
 import pytest
 from PySide6.QtGui import QGuiApplication
-from typer.testing import CliRunner
-from workbench.touch_session import STEPWISE, make_session, verify
+from terminal import invoke
+from workbench.touch_session import STEPWISE
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.export import ExportPage
-from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.settings import ControlSettings
@@ -28,20 +27,10 @@ class Window(PageWindow):
         self.wait(lambda: self.page.view is not None)
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """Make two sessions once: one that is calibrated, one that is verified, too."""
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    make_session(folder / "calibrated", folder / "files")
-    verify(shutil.copytree(folder / "calibrated", folder / "verified"))
-    return folder
-
-
 @pytest.fixture
-def window(qtbot, made, tmp_path, request):
+def window(qtbot, sessions, tmp_path, request):
     name = getattr(request, "param", "verified")
-    opened = Window(qtbot, shutil.copytree(made / name, tmp_path / "s"))
+    opened = Window(qtbot, shutil.copytree(sessions / name, tmp_path / "s"))
     yield opened
     opened.close()
 
@@ -67,9 +56,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     window.wait(lambda: "Verified and exported" in page.standing.text())
     assert page.show_folder.isVisible()
     folder = window.desk.folder
-    done = CliRunner().invoke(
-        cli.app, ["bundle", "export", str(folder), "--out", str(tmp_path / "command.zip")]
-    )
+    done = invoke("bundle", "export", folder, "--out", tmp_path / "command.zip")
     assert done.exit_code == 0, done.stderr
     assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
     assert b'sensor_name: "wrist"' in (tmp_path / "window.zip").read_bytes()
@@ -96,7 +83,7 @@ def test_the_robots_payload_is_the_line_of_the_command(window, tmp_path):
     window.page.write(tmp_path / "runtime.zip")
     window.wait(lambda: window.page.exported is not None)
     words = ["--robot", "kuka", "--mount", "0,0,0", "--sensor-at", "0,0,37.5", "--sensor-body", "0.29,0,0,18"]
-    done = CliRunner().invoke(cli.app, ["bundle", "payload", str(tmp_path / "runtime.zip"), *words])
+    done = invoke("bundle", "payload", tmp_path / "runtime.zip", *words)
     assert done.exit_code == 0, done.stderr
     assert panel.line.text() in done.stdout
     window.bench.undo.undo()
@@ -135,9 +122,7 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     page.write(tmp_path / "with.zip")
     window.wait(lambda: page.exported is not None)
     assert RuntimeConfig.load(tmp_path / "with.zip").model.controller == controller
-    result = CliRunner().invoke(
-        cli.app, ["bundle", "export", str(window.desk.folder), "--out", str(tmp_path / "same.zip")]
-    )
+    result = invoke("bundle", "export", window.desk.folder, "--out", tmp_path / "same.zip")
     assert result.exit_code == 0, result.output
     assert (tmp_path / "same.zip").read_bytes() == (tmp_path / "with.zip").read_bytes()
     page.settings.no_gains.click()

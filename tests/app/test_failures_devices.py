@@ -14,20 +14,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step
 
-from .failures import prepared, whole
-
 STILL = "still://?rpy=180,0,0"
-
-
-@pytest.fixture
-def made(qtbot, tmp_path):
-    with whole(qtbot, tmp_path) as window:
-        yield window
-
-
-@pytest.fixture(scope="module")
-def ready(tmp_path_factory):
-    return prepared(tmp_path_factory.mktemp("made"))
 
 
 def equipped(folder, sensor, poses=STILL):
@@ -95,8 +82,8 @@ def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path
     assert not made.unexpected
 
 
-def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
-    folder = shutil.copytree(ready, tmp_path / "s")
+def test_unplugged_while_verifying_and_closed(made, calibrated, tmp_path):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
     with emulator("sri", "tcp", rate=200.0) as sensor:
         with Session.open(folder) as session:
             session.set_parameter("devices.sensor", sensor.url)

@@ -23,18 +23,7 @@ from contactbench.pipeline.steps import Step
 
 from .conftest import close as close_window
 from .conftest import shown
-from .failures import LONG, prepared, whole
-
-
-@pytest.fixture
-def made(qtbot, tmp_path):
-    with whole(qtbot, tmp_path) as window:
-        yield window
-
-
-@pytest.fixture(scope="module")
-def ready(tmp_path_factory):
-    return prepared(tmp_path_factory.mktemp("made"))
+from .failures import LONG
 
 
 @pytest.fixture
@@ -72,8 +61,8 @@ def close(made):
 # ---- meshes --------------------------------------------------------------------------------------
 
 
-def test_bad_meshes_are_refused_one_after_the_other_and_the_probe_stays(made, ready, tmp_path):
-    folder = shutil.copytree(ready, tmp_path / "s")
+def test_bad_meshes_are_refused_one_after_the_other_and_the_probe_stays(made, calibrated, tmp_path):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
     before = results(folder)
     bench = made.open(folder)
     page = made.page(Step.PROBE)
@@ -118,8 +107,8 @@ def export(made, tmp_path):
 
 
 @pytest.mark.parametrize("what", [use_devices, begin_gravity, place_markers, export])
-def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
-    folder = shutil.copytree(ready, tmp_path / "s")
+def test_a_disk_that_is_full_and_free_again(made, calibrated, tmp_path, full, what):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
     with Session.open(folder) as session:
         session.set_parameter("config.rate", 200.0)
     before = results(folder)
@@ -224,8 +213,8 @@ def test_a_home_that_cannot_be_written_is_no_reason_to_stop(made, tmp_path, full
 # ---- sessions ------------------------------------------------------------------------------------
 
 
-def damaged(ready, folder, damage):
-    shutil.copytree(ready, folder)
+def damaged(calibrated, folder, damage):
+    shutil.copytree(calibrated, folder)
     journal = folder / "journal"
     content = bytearray(journal.read_bytes())
     if damage == "flipped":
@@ -248,8 +237,8 @@ def damaged(ready, folder, damage):
 
 
 @pytest.mark.parametrize("damage", ["flipped", "empty", "no journal"])
-def test_a_damaged_journal_is_said_and_left_as_it_is(made, ready, tmp_path, damage):
-    folder = damaged(ready, tmp_path / "s", damage)
+def test_a_damaged_journal_is_said_and_left_as_it_is(made, calibrated, tmp_path, damage):
+    folder = damaged(calibrated, tmp_path / "s", damage)
     before = {file.name: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
     made.window.sessions.open(folder)
     made.wait(lambda: made.window.start.question.sentence != "")
@@ -265,8 +254,8 @@ def test_a_damaged_journal_is_said_and_left_as_it_is(made, ready, tmp_path, dama
 
 
 @pytest.mark.parametrize("damage", ["result is gone", "result is changed"])
-def test_results_that_are_damaged_are_said_and_every_page_still_opens(made, ready, tmp_path, damage):
-    made.open(damaged(ready, tmp_path / "s", damage))
+def test_results_that_are_damaged_are_said_and_every_page_still_opens(made, calibrated, tmp_path, damage):
+    made.open(damaged(calibrated, tmp_path / "s", damage))
     for step in Step:
         made.page(step)
         made.idle()
@@ -275,8 +264,8 @@ def test_results_that_are_damaged_are_said_and_every_page_still_opens(made, read
     assert not made.unexpected
 
 
-def test_a_session_that_vanishes_while_it_is_open(made, ready, tmp_path):
-    folder = shutil.copytree(ready, tmp_path / "s")
+def test_a_session_that_vanishes_while_it_is_open(made, calibrated, tmp_path):
+    folder = shutil.copytree(calibrated, tmp_path / "s")
     made.open(folder)
     made.idle()
     shutil.move(folder, tmp_path / "elsewhere")

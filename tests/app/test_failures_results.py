@@ -11,7 +11,6 @@ import pytest
 from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
-from workbench.touch_session import make_session, verify
 
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.session import Session
@@ -22,23 +21,6 @@ from contactbench.pipeline.workbench.undo_history import value_in
 from contactbench.widgets.scene.scene import Pick
 
 from .conftest import close as close_window
-from .failures import whole
-
-
-@pytest.fixture
-def made(qtbot, tmp_path):
-    with whole(qtbot, tmp_path) as window:
-        yield window
-
-
-@pytest.fixture(scope="module")
-def sessions(tmp_path_factory):
-    """Make sessions once: calibrated, and verified."""
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    make_session(folder / "calibrated", folder / "files")
-    verify(shutil.copytree(folder / "calibrated", folder / "verified"))
-    return folder
 
 
 def click(made, button):

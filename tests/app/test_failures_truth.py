@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 import pytest
-from workbench.touch_session import make_session, verify
+from workbench.touch_session import verify
 
 from contactbench.app.pages.gravity_run import Phase
 from contactbench.app.trouble_notice import TroubleNotice
@@ -17,28 +17,18 @@ from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.why import DISK, CheckState
 from contactbench.pipeline.steps import Step, StepState
 
-from .failures import whole
 from .test_failures_devices import equipped, port_of
 from .test_failures_files import click, close, full, mounted
 
 __all__ = ["full"]  # a fixture
 
 
-@pytest.fixture
-def made(qtbot, tmp_path):
-    with whole(qtbot, tmp_path) as window:
-        yield window
-
-
 @pytest.fixture(scope="module")
-def verified(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    make_session(folder / "s", folder / "files")
-    verify(folder / "s")
-    with Session.open(folder / "s") as session:
+def verified(calibrated):
+    verify(calibrated)
+    with Session.open(calibrated) as session:
         session.set_parameter("config.rate", 200.0)
-    return folder / "s"
+    return calibrated
 
 
 def status(made, step):

@@ -14,7 +14,7 @@ from driving.hand import Hand
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractButton, QListWidget
 from workbench.probe_files import egg
-from workbench.touch_session import make_session, verify
+from workbench.touch_session import verify
 
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
@@ -22,7 +22,6 @@ from contactbench.pipeline.session.why import DISK
 from contactbench.pipeline.steps import Step
 
 from .conftest import close as close_window
-from .failures import whole
 from .probe_hand import STAGES
 from .test_failures_files import mounted
 
@@ -31,22 +30,13 @@ LONG = 120.0
 
 
 @pytest.fixture
-def made(qtbot, tmp_path):
-    with whole(qtbot, tmp_path) as window:
-        yield window
-
-
-@pytest.fixture
 def hand(made, tmp_path):
     return Hand(made.window, tmp_path / "pictures")
 
 
 @pytest.fixture(scope="module")
-def verified(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    verify(make_session(folder / "s", folder / "files"))
-    return folder / "s"
+def verified(calibrated):
+    return verify(calibrated)
 
 
 def open_recent(hand, name):

@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
-from workbench.touch_session import STEPWISE, make_session, surface
+from workbench.touch_session import STEPWISE, surface
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity import GravityPage
@@ -27,13 +27,6 @@ class Window(PageWindow):
 
     def results(self):
         return self.desk.state.current_results
-
-
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    return make_session(folder / "s", folder / "files")
 
 
 def opened(folder, place):

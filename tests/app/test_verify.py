@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QInputDialog
-from workbench.touch_session import STEPWISE, make_session, press
+from workbench.touch_session import STEPWISE, press
 
 from contactbench.app.bench import Weight
 from contactbench.app.pages.verify import VerifyPage
@@ -31,14 +31,6 @@ class Window(PageWindow):
 
     def kept(self):
         return kept(self.desk.folder, self.desk.state)
-
-
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    """Make a session once; everybody gets a copy."""
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    return make_session(folder / "s", folder / "files")
 
 
 @pytest.fixture

@@ -369,13 +369,6 @@ def _meet_in_plane(
 # --- against the original ---------------------------------------------------------------------------------------------
 
 
-class Distances(NamedTuple):
-    """How far points are from a mesh, mm."""
-
-    p95: float
-    largest: float
-
-
 def sample(mesh: Mesh, count: int, rng: np.random.Generator) -> tuple[Floats, Longs]:
     """Draw points (count, 3), evenly by area, and the facets that they are on."""
     areas = np.cumsum(mesh.areas)

@@ -286,16 +286,6 @@ def scale(
     return _misconnected(session, np.diag(gains))
 
 
-def swap(session: Session, rng: np.random.Generator, *, channels: tuple[int, int] | None = None) -> Session:
-    """Exchange two channels (left out: any two forces, or any two torques)."""
-    if channels is None:
-        first, second = rng.choice(3, 2, replace=False) + 3 * rng.integers(2)
-        channels = int(first), int(second)
-    order = np.arange(6)
-    order[list(channels)] = channels[::-1]
-    return _misconnected(session, np.eye(6)[order])
-
-
 def _misconnected(session: Session, channels: Floats) -> Session:
     return replace(session, wrenches=session.wrenches @ channels.T, channels=channels @ session.channels)
 

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
-from weighing_files import draw_weighing
+from weighing_files import LOAD, NOISE, draw_weighing
 
 from contactbench.pipeline.calibration import (
     PARAMETERS,
@@ -30,9 +30,7 @@ from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.verdict import _off_down, judge
 from contactbench.pipeline.simulation.loads import draw_load, weigh
 
-NOISE = PoseNoise(0.05, 0.002)
 EXACT = PoseNoise(1e-12, 1e-12)
-LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])
 VERTICAL = np.array([0.0, 0.0, 1.0])
 
 

@@ -4,15 +4,13 @@ import io
 import json
 import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from calibration.streams import Recording, find_captures, stream
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
     Capturing,
@@ -43,10 +41,6 @@ def file(recording: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path
     out = tmp_path_factory.mktemp("recording") / "recording.csv"
     write_csv(out, COLUMNS, np.column_stack([recording.t, recording.wrenches, quaternions]).tolist())
     return out
-
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
 
 
 def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
@@ -102,7 +96,7 @@ def test_calibrate_captures_by_itself(recording: Recording, file: Path, tmp_path
     assert [sentence.startswith("left out, 15.4 to 16.1 s: ") for sentence in found.left_out] == [True]
     for sentence in found.left_out:
         assert sentence in " ".join(facts["warnings"])
-        assert sentence in " ".join(result.stderr.split())
+        assert sentence in said(result)
 
 
 @pytest.mark.parametrize(("dwell", "bumps"), [(2.0, 0.5), (1.2, 0.0)])

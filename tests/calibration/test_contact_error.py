@@ -21,11 +21,6 @@ from contactbench.pipeline.mesh import Probe
 SENSOR = np.repeat([0.05, 0.0014], 3)
 
 
-@pytest.fixture
-def rng() -> np.random.Generator:
-    return np.random.default_rng(0)
-
-
 def solve(wrench: np.ndarray, point: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """Where a wrench meets the plane through `point`: p x F + k n = M and n.p = n.point, by a general solver."""
     fx, fy, fz = wrench[:3]

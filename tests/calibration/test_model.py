@@ -20,11 +20,6 @@ from contactbench.pipeline.errors import InputError
 MODEL = GravityModel([0.3, -0.2, -6.0], [5.0, -3.0, 400.0], [0.01, -0.02, 0.06], [0.1, -0.2, 0.3])
 
 
-@pytest.fixture
-def rng() -> np.random.Generator:
-    return np.random.default_rng(0)
-
-
 def some_covariance(rng: np.random.Generator) -> np.ndarray:
     """Of correlated parameters, of the size that a calibration leaves."""
     mixed = rng.standard_normal((12, 12)) * np.repeat([0.02, 0.02, 5e-4, 1e-3], 3)[:, None] / np.sqrt(12)

@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.robot import Robot
 
 ANGLE = st.floats(-720, 720, allow_subnormal=False)
 ANGLES = st.tuples(ANGLE, ANGLE, ANGLE)
@@ -128,29 +127,23 @@ def test_columns_are_in_the_order_in_which_they_are_read():
 # ---- joints ------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    pytest.importorskip("mujoco")
-    return Robot.named("elfin3")
-
-
-def test_joints_give_the_flange(robot):
+def test_joints_give_the_flange(elfin):
     q = np.random.default_rng(1).uniform(-2, 2, (4, 6))
     in_rad = rotations(q, Convention(Kind.JOINTS, robot="elfin3", degrees=False))
     in_degrees = rotations(np.degrees(q), Convention(Kind.JOINTS, robot="elfin3"))
     upside_down = rotations(q, Convention(Kind.JOINTS, robot="elfin3", degrees=False, inverse=True))
     for row, joints in enumerate(q):
-        R_BE, _ = robot.flange_pose(joints)
+        R_BE, _ = elfin.flange_pose(joints)
         assert np.allclose(in_rad[row], R_BE, atol=1e-12)
         assert np.allclose(in_degrees[row], R_BE, atol=1e-12)
         assert np.allclose(upside_down[row], R_BE.T, atol=1e-12)
 
 
-def test_joints_out_of_their_limits_name_their_row(robot):
+def test_joints_out_of_their_limits_name_their_row(elfin):
     q = np.zeros((3, 6))
     q[1, 2] = 3.0
     with pytest.raises(RowError, match=r"^row 2: joint J3 is at 3\.0000 rad") as error:
-        rotations(q, Convention(Kind.JOINTS, robot=robot.description.name, degrees=False))
+        rotations(q, Convention(Kind.JOINTS, robot=elfin.description.name, degrees=False))
     assert error.value.row == 1
     with pytest.raises(RowError, match="check whether these are degrees"):
         rotations(np.full((1, 6), 45.0), Convention(Kind.JOINTS, robot="elfin3", degrees=False))

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import ndtr
-from weighing_files import draw_weighing
+from weighing_files import LOAD, NOISE, draw_weighing
 
 from contactbench.pipeline.calibration import (
     Calibration,
-    GravityModel,
     Level,
     PoseNoise,
     PoseSample,
@@ -21,9 +20,6 @@ from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, 
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
 from contactbench.pipeline.simulation.loads import bump, draw_load, weigh
-
-NOISE = PoseNoise(0.05, 0.002)
-LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])
 
 
 def held(count: int, seed: int = 0) -> list[PoseSample]:

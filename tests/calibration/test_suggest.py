@@ -6,6 +6,7 @@ from itertools import pairwise, permutations
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from weighing_files import LOAD, NOISE
 
 from contactbench.pipeline.calibration import (
     Calibration,
@@ -22,11 +23,8 @@ from contactbench.pipeline.calibration.number_text import plain
 from contactbench.pipeline.calibration.reachable import Reachable, by_hand, by_robot, describe
 from contactbench.pipeline.calibration.suggest import PosePlan, plan_error, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.loads import weigh
 
-NOISE = PoseNoise(0.05, 0.002)
-LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])
 ARM = np.array([0.0, -0.3, 1.2, 0.0, 0.9, 0.0])  # holds its tool over a table
 DOWN = Rotation.from_rotvec([np.pi, 0, 0]).as_matrix()  # the sensor, as a robot holds it over a table
 FACES = Rotation.from_rotvec(
@@ -42,12 +40,6 @@ def hand() -> Reachable:
 @pytest.fixture(scope="module")
 def plan(hand: Reachable) -> PosePlan:
     return plan_poses(6, hand)
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    pytest.importorskip("mujoco")
-    return Robot.named("elfin3")
 
 
 def read(R_WS: np.ndarray, seed: int = 0, load: GravityModel = LOAD, noise: PoseNoise = NOISE):
@@ -411,33 +403,33 @@ def test_orientations_in_words(turn, words):
 
 
 @pytest.mark.parametrize("wrist_only", [True, False])
-def test_what_a_robot_reaches(robot, wrist_only):
+def test_what_a_robot_reaches(elfin, wrist_only):
     R_ES = Rotation.from_rotvec([0, 0, 0.7]).as_matrix()
     R_WB = Rotation.from_rotvec([0.2, 0, 0]).as_matrix()
-    reachable = by_robot(robot, ARM, R_ES=R_ES, R_WB=R_WB, count=20, wrist_only=wrist_only)
+    reachable = by_robot(elfin, ARM, R_ES=R_ES, R_WB=R_WB, count=20, wrist_only=wrist_only)
     assert 12 <= len(reachable) <= 20
-    assert robot.within_limits(reachable.joints).all()
+    assert elfin.within_limits(reachable.joints).all()
     for index, (R_WS, joints) in enumerate(zip(reachable.R_WS, reachable.joints, strict=True)):
-        R_BE, _ = robot.flange_pose(joints)
+        R_BE, _ = elfin.flange_pose(joints)
         assert np.allclose(R_WS, R_WB @ R_BE @ R_ES, atol=1e-12)
-        assert reachable.travel[index] == pytest.approx(robot.travel(ARM, joints))
+        assert reachable.travel[index] == pytest.approx(elfin.travel(ARM, joints))
         assert reachable.joint_vector(index) is not None
     assert np.array_equal(reachable.joints[:, :3], np.tile(ARM[:3], (len(reachable), 1))) is wrist_only
     between = reachable.between([0, 3, 5])
-    assert between[1, 2] == pytest.approx(robot.travel(reachable.joints[3], reachable.joints[5]))
-    plain = by_robot(robot, ARM, count=20, wrist_only=wrist_only)
+    assert between[1, 2] == pytest.approx(elfin.travel(reachable.joints[3], reachable.joints[5]))
+    plain = by_robot(elfin, ARM, count=20, wrist_only=wrist_only)
     assert np.allclose(R_WB @ plain.R_WS @ R_ES, reachable.R_WS)
 
 
-def test_a_plan_and_a_suggestion_for_a_robot(robot):
-    reachable = by_robot(robot, ARM, count=60)
+def test_a_plan_and_a_suggestion_for_a_robot(elfin):
+    reachable = by_robot(elfin, ARM, count=60)
     made = plan_poses(5, reachable)
     assert made.joints.shape == (5, 6)
-    assert robot.within_limits(made.joints).all()
-    assert np.allclose(robot.flange_rotations(made.joints), made.R_WS)
+    assert elfin.within_limits(made.joints).all()
+    assert np.allclose(elfin.flange_rotations(made.joints), made.R_WS)
     suggestion = suggest_pose(calibrate(read(made.R_WS[:3]), NOISE), reachable)
-    assert np.allclose(robot.flange_rotations(suggestion.joints[None])[0], suggestion.R_WS)
-    assert suggestion.travel == pytest.approx(robot.travel(ARM, suggestion.joints))
+    assert np.allclose(elfin.flange_rotations(suggestion.joints[None])[0], suggestion.R_WS)
+    assert suggestion.travel == pytest.approx(elfin.travel(ARM, suggestion.joints))
     assert reachable.check.path_conflict(ARM, suggestion.joints) is None
     for number, (here, there) in enumerate(zip(ARM, suggestion.joints, strict=True), 1):
         moved = abs(there - here) > np.radians(0.5)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy as np
+from terminal import said
 from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
@@ -74,7 +75,7 @@ def test_no_file_that_is_there_is_written_over(tmp_path):
     ):
         result = invoke("run", script, "--out", out, "--truth", truth)
         assert result.exit_code == 2
-        assert message in " ".join(result.stderr.split())
+        assert message in said(result)
     assert (script.read_text(encoding="utf-8"), taken.read_text(encoding="utf-8")) == (SCRIPT, "mine")
     assert sorted(tmp_path.iterdir()) == [script, taken]
 
@@ -84,7 +85,7 @@ def test_a_script_that_fails_midway_leaves_nothing_that_looks_complete(tmp_path)
     script.write_text('{"at": 0.3, "do": "touch", "marker": 99}\n', encoding="utf-8")
     result = invoke("run", script, "--out", tmp_path / "a.mcap", "--truth", tmp_path / "a.csv")
     assert result.exit_code == 2
-    assert "line 1: touch: there is no marker 99" in " ".join(result.stderr.split())
+    assert "line 1: touch: there is no marker 99" in said(result)
     assert list(tmp_path.iterdir()) == [script]
 
 
@@ -94,7 +95,7 @@ def test_a_touch_that_slides_off_is_said_and_recorded(tmp_path):
         '{"at": 0.1, "do": "touch", "marker": 3, "tilt": 80, "seconds": 1.5}\n', encoding="utf-8"
     )
     result = invoke("run", script, "--out", tmp_path / "a.mcap", "--json")
-    assert "touch at 0.10 s pressed nothing" in " ".join(result.stderr.split())
+    assert "touch at 0.10 s pressed nothing" in said(result)
     assert json.loads(result.stdout)["slipped"] == [0.1]
     (event,) = [event for event in read_recording(tmp_path / "a.mcap").events if event.name == "slipped"]
     assert (event.fields["touched_at"], event.fields["marker"]) == (0.1, 3)
@@ -105,7 +106,7 @@ def test_a_bad_script_ends_with_its_line(tmp_path):
     script.write_text('{"at": 1, "do": "dance"}\n', encoding="utf-8")
     result = invoke("run", script, "--out", tmp_path / "a.mcap")
     assert result.exit_code == 2
-    assert "line 1: do 'dance': choose one of turn_to" in " ".join(result.stderr.split())
+    assert "line 1: do 'dance': choose one of turn_to" in said(result)
     assert not (tmp_path / "a.mcap").exists()
 
 

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from benchmarks.verification import mesh
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 from weighing_files import TRUTH, spun, weighed, write_quaternions
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.kernel import SurfaceIndex
@@ -21,14 +20,6 @@ from contactbench.pipeline.session import Session
 G, RATE = 9.80665, 200
 SAMPLE = np.repeat([0.05, 0.002], 3)
 TILTED = Rotation.from_euler("xyz", [[170, 0, 0], [100, 10, 0], [150, 60, 0]], degrees=True).as_matrix()
-
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
-
-
-def said(result: Any) -> str:
-    return " ".join(result.stderr.split())
 
 
 @pytest.fixture(autouse=True)

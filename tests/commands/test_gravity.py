@@ -10,24 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quaternions
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration, load_record
 from contactbench.pipeline.calibration.payload import payload_of
 from contactbench.pipeline.settings import RobotMaker
 from contactbench.pipeline.simulation.loads import bump, weigh
 
 EULER = ("--euler", "xyz")
-
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
-
-
-def said(result: Any) -> str:
-    return " ".join(result.stderr.split())
 
 
 @pytest.fixture(autouse=True)
@@ -318,7 +309,7 @@ def test_a_report_says_who_and_with_which_sensor(tmp_path: Path, poses: Path) ->
     ):
         refused = invoke(*fit, *wrong)
         assert refused.exit_code == 2
-        assert message in " ".join(refused.stderr.split())
+        assert message in said(refused)
 
 
 @pytest.mark.parametrize(

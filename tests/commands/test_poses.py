@@ -3,29 +3,19 @@
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 from weighing_files import NOISE, TRUTH, spun, write_euler
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.loads import weigh
 
 ARM = ("--robot", "elfin3", "--joints", "0,-17,69,0,52,0")
-
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
-
-
-def said(result: Any) -> str:
-    return " ".join(result.stderr.split())
 
 
 @pytest.fixture

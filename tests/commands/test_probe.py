@@ -9,6 +9,7 @@ import pytest
 import trimesh
 from contact_cases import bundled
 from mesh.shell.housings import housing
+from terminal import said
 from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
@@ -20,10 +21,6 @@ from contactbench.pipeline.preparation.ladder.touches import draw_parts
 
 def invoke(*arguments):
     return CliRunner().invoke(cli.app, ["probe", *map(str, arguments)])
-
-
-def said(result):
-    return " ".join(result.stderr.split())
 
 
 def write_stl(file, probe, scale=1000.0):

@@ -15,10 +15,9 @@ import numpy as np
 import pytest
 from benchmarks.fault_lines import resting
 from recording.recording_cases import record
-from typer.testing import CliRunner
+from terminal import invoke, said
 from waiting import be_slow
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
 from contactbench.pipeline.console import Ended
 from contactbench.pipeline.devices.emulate import emulator
@@ -33,10 +32,6 @@ from contactbench.pipeline.recording import (
     read_recording,
 )
 from contactbench.pipeline.recording.recorder import Recorder
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
 
 
 def moving():
@@ -121,7 +116,7 @@ def test_a_sensor_that_is_not_there(tmp_path):
         "record", "start", "sri+serial:///dev/no-such-port", "--out", tmp_path / "a.mcap", "--seconds", 0.3
     )
     assert result.exit_code == 1
-    assert "cannot be opened" in " ".join(result.stderr.split())
+    assert "cannot be opened" in said(result)
     assert "Wrote" not in result.stderr
     assert list(tmp_path.iterdir()) == []  # the next try may have the name
 
@@ -159,7 +154,7 @@ def test_a_stream_that_fails_is_told_and_what_came_is_kept(tmp_path, monkeypatch
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
         result = invoke("record", "start", device.url, "--out", out, "--seconds", 30)
     assert result.exit_code == 1
-    assert "of the recorder" in " ".join(result.stderr.split())
+    assert "of the recorder" in said(result)
     assert read_recording(out).complete
 
 
@@ -196,7 +191,7 @@ def test_a_rezero_is_told_at_the_end(tmp_path):
             "record", "start", device.url, "--out", tmp_path / "a.mcap", "--seconds", 1.3, "--json"
         )
     assert "re-zeroed" in json.loads(result.stdout)["suspicions"][0]
-    assert "re-zeroed" in " ".join(result.stderr.split())
+    assert "re-zeroed" in said(result)
 
 
 @pytest.mark.parametrize("number", ["SIGINT", "SIGTERM", "SIGHUP"])
@@ -298,7 +293,7 @@ def test_a_replay_that_breaks_off_is_kept_and_told(tmp_path, monkeypatch):
     result = invoke("record", "start", f"replay://{first}?speed=step", "--out", again)
     monkeypatch.undo()
     assert result.exit_code == 1
-    assert "copy the file" in " ".join(result.stderr.split())
+    assert "copy the file" in said(result)
     assert 0 < len(samples_of(again)) < 100
 
 
@@ -325,7 +320,7 @@ def test_sources_that_do_not_give_it_leave_no_file(tmp_path, sensor, pose, part)
     arguments = ["record", "start", sensor.format(tmp_path), "--out", tmp_path / "out.mcap"]
     result = invoke(*arguments, *(["--pose", pose.format(tmp_path)] if pose else []))
     assert result.exit_code == 2
-    assert part in " ".join(result.stderr.split())
+    assert part in said(result)
     assert sorted(tmp_path.iterdir()) == before
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
+from terminal import said
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
@@ -26,10 +27,6 @@ def done(*arguments: object) -> dict[str, Any]:
     assert result.exit_code == 0, result.stderr
     found: dict[str, Any] = json.loads(result.stdout)
     return found
-
-
-def said(result: Any) -> str:
-    return " ".join(result.stderr.split())
 
 
 def unchanged(mesh: Path, why: str, *arguments: object) -> None:

@@ -5,9 +5,8 @@ import json
 import numpy as np
 import pytest
 from contact_cases import REAL_PROBES
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import ContactSolver, Reason
 from contactbench.pipeline.mesh import MeshWarning, load_probe
 
@@ -63,7 +62,7 @@ def test_the_command_runs_on_it_and_says_what_is_wrong(real_probe, tmp_path):
     rows = "\n".join(f"{i / 200},{','.join(map(repr, map(float, row)))}" for i, row in enumerate(wrenches))
     (tmp_path / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n", encoding="utf-8")
     arguments = ["locate", "--probe", str(path), "--units", "mm", "--place", "0,0,160,90,0,0", "--json"]
-    result = CliRunner().invoke(app, [*arguments, str(tmp_path / "w.csv"), "--out", str(tmp_path / "c.csv")])
+    result = invoke(*arguments, tmp_path / "w.csv", "--out", tmp_path / "c.csv")
     assert result.exit_code == 0, result.stderr
     summary = json.loads(result.stdout)
     assert summary["rows"] == 200

@@ -1,11 +1,11 @@
 from __future__ import annotations
 
-import csv
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from weighing_files import columns
 
 from contactbench.pipeline import demo
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
@@ -36,12 +36,6 @@ CHECKED = (
     "runtime/ros2.yaml",
     "runtime/ft_calib.yaml",
 )
-
-
-def columns(file: Path) -> dict[str, list[str]]:
-    with file.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def numbers(table: dict[str, list[str]], names: tuple[str, ...]) -> np.ndarray:

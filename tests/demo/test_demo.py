@@ -1,15 +1,15 @@
 from __future__ import annotations
 
-import csv
 import json
 import subprocess
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
+from weighing_files import columns
 
 from contactbench.pipeline import cli, demo
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
@@ -22,17 +22,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
 
-if TYPE_CHECKING:
-    pass
-
 TOUCHES = 40
 CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
-
-
-def columns(file: Path) -> dict[str, list[str]]:
-    with file.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def invoke(*arguments: object) -> Any:

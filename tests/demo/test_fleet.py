@@ -6,9 +6,9 @@ import json
 from typing import TYPE_CHECKING
 
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline import cli, demo
+from contactbench.pipeline import demo
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.session import Session
 
@@ -28,7 +28,7 @@ def test_the_demo_s_probes_make_a_fleet(
                 if (folder / f"{kind}.json").exists():
                     session.add_input(folder / f"{kind}.json", kind, sensor="V-1")
     out = tmp_path / "f.parquet"
-    ran = CliRunner().invoke(cli.app, ["fleet", str(tmp_path / "all"), "--out", str(out), "--json"])
+    ran = invoke("fleet", tmp_path / "all", "--out", out, "--json")
     assert json.loads(ran.stdout)["skipped"] == []
     rows = {row["place"].rpartition("/")[2]: row for row in pq.read_table(out).to_pylist()}
     assert rows.keys() == folders.keys()

@@ -8,9 +8,8 @@ import sys
 import threading
 
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import EmulatorError
@@ -173,7 +172,7 @@ def test_a_plug_in_streams_from_its_emulator():
 @pytest.mark.usefixtures("tiny")
 def test_a_plug_in_is_emulated_by_the_command_with_faults():
     words = ["bench", "emulate", "tiny", "--seconds", "0.05", "--fault", "bad-checksum@0+1", "--json"]
-    ended = CliRunner().invoke(app, words)
+    ended = invoke(*words)
     assert ended.exit_code == 0
     assert json.loads(ended.stdout)["url"].startswith("tiny+tcp://127.0.0.1:")
 

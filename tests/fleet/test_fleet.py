@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from terminal import invoke
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
 from contactbench.pipeline.calibration.files.calibration_file import decode_record, load_record
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
 from contactbench.pipeline.fleet.page import fleet_html
@@ -33,7 +33,7 @@ BEGIN = datetime(2026, 1, 1, tzinfo=UTC)
 
 
 def fleet(*arguments: object, code: int = 0) -> dict[str, Any]:
-    result = CliRunner().invoke(app, ["fleet", *map(str, arguments), "--json"])
+    result = invoke("fleet", *arguments, "--json")
     assert result.exit_code == code, result.output
     answer: dict[str, Any] = json.loads(result.stdout)
     return answer
@@ -528,7 +528,7 @@ def test_exit_codes(sessions: Path, tmp_path: Path, calibrated: datetime) -> Non
     assert "SN 7" in page
     assert over in page
     fleet(sessions / "a", "--max-age", 160, code=0)  # soon, not yet
-    result = CliRunner().invoke(app, ["fleet", str(sessions / "a"), "--max-age", "100"])
+    result = invoke("fleet", sessions / "a", "--max-age", "100")
     assert f"due after 100 days, on {over}" in " ".join(result.stderr.split())
 
 

@@ -5,13 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 from weighing_files import weighed
 
 from contactbench.assets import make
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.mesh import Probe, save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
@@ -67,7 +66,7 @@ def bench(tmp_path_factory):
 
 
 def run(*arguments, code=0):
-    done = CliRunner().invoke(app, [str(each) for each in arguments])
+    done = invoke(*arguments)
     assert done.exit_code == code, done.output
     return done
 

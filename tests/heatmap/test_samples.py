@@ -6,11 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from report.report_cases import probe_file, verification
-from typer.testing import CliRunner
+from terminal import invoke
 from weighing_files import weighed
 
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
 from contactbench.pipeline.heatmap.contacts import touches_of
@@ -81,9 +80,7 @@ def verified(tmp_path_factory):
 
 
 def drawn(folder, *arguments, code=0):
-    done = CliRunner().invoke(
-        app, ["heatmap", "draw", *map(str, arguments), "--out", str(folder / "e.ply"), "--json"]
-    )
+    done = invoke("heatmap", "draw", *arguments, "--out", folder / "e.ply", "--json")
     assert done.exit_code == code, done.output
     return done
 

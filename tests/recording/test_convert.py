@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 import pytest
 from recording.recording_cases import ABOUT, record, wrench_samples
 from scipy.spatial.transform import Rotation
+from weighing_files import columns
 
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
@@ -24,12 +24,6 @@ from contactbench.pipeline.recording import (
 from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at, write_csv, write_npz
 
 
-def table(file: Path) -> dict[str, list[str]]:
-    with file.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    return {name: [row[name] for row in rows] for name in rows[0]}
-
-
 def test_wrenches_are_read_by_the_rest_of_the_program_bit_for_bit(tmp_path: Path) -> None:
     found = read_recording(record(tmp_path / "r.mcap", 300, 0))
     assert write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out == ()
@@ -38,7 +32,7 @@ def test_wrenches_are_read_by_the_rest_of_the_program_bit_for_bit(tmp_path: Path
     track = found.wrenches["/wrench"]
     np.testing.assert_array_equal(np.vstack([rows.wrenches for rows in blocks]), track.wrenches)
     np.testing.assert_array_equal(np.concatenate([rows.t for rows in blocks]), track.times)
-    cells = table(tmp_path / "r.csv")
+    cells = columns(tmp_path / "r.csv")
     assert list(cells) == ["t", "fx", "fy", "fz", "mx", "my", "mz", "status", "sequence", "temperature"]
     assert cells["sequence"][:3] == ["0", "1", "2"]
 
@@ -55,7 +49,7 @@ def test_poses_stand_beside_the_wrenches(tmp_path: Path) -> None:
         for sample in wrench_samples(240):
             writer.wrench(sample)
     (said,) = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out
-    cells = table(tmp_path / "r.csv")
+    cells = columns(tmp_path / "r.csv")
     t = np.array(cells["t"], float) - 1000
     assert said == f"{240 - len(t)} readings left out: no pose within {LONGEST_GAP} s."
     assert ((t <= 0.4) | (t >= 0.7)).all()
@@ -77,7 +71,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
         writer.wrench(WrenchSample(1001.0, (np.nan, 0.0, 0.0), (0.0, 0.0, 0.0)))
     (said,) = write_csv(tmp_path / "r.csv", tmp_path / "r.mcap").left_out
     assert said.startswith("5 readings left out")
-    cells = table(tmp_path / "r.csv")
+    cells = columns(tmp_path / "r.csv")
     assert cells["status"] == ["0", "8"]
     assert "sequence" not in cells
 
@@ -85,7 +79,7 @@ def test_readings_that_are_no_measurements_are_left_out(tmp_path: Path) -> None:
 def test_the_poses_alone(tmp_path: Path) -> None:
     found = read_recording(record(tmp_path / "r.mcap", 1, 20))
     write_csv(tmp_path / "r.csv", tmp_path / "r.mcap", "/flange")
-    cells = table(tmp_path / "r.csv")
+    cells = columns(tmp_path / "r.csv")
     names = ["t", "qw", "qx", "qy", "qz", "px", "py", "pz", "j1", "j2", "j3", "j4", "j5", "j6"]
     assert list(cells) == names
     track = found.flanges["/flange"]
@@ -120,7 +114,7 @@ def test_topics_that_are_not_clear(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="no samples on /c; it has: /a, /b"):
         write_csv(tmp_path / "r.csv", file, "/c")
     write_csv(tmp_path / "r.csv", file, "/b")
-    assert table(tmp_path / "r.csv")["fx"] == ["9.0"]
+    assert columns(tmp_path / "r.csv")["fx"] == ["9.0"]
 
 
 def test_nothing_to_write_leaves_what_is_there(tmp_path: Path) -> None:
@@ -155,7 +149,7 @@ def test_counts_keep_all_their_digits(tmp_path: Path) -> None:
         for sample, count in zip(wrench_samples(3), counts, strict=True):
             writer.wrench(replace(sample, sequence=count))
     write_csv(tmp_path / "r.csv", tmp_path / "r.mcap")
-    assert [int(cell) for cell in table(tmp_path / "r.csv")["sequence"]] == counts
+    assert [int(cell) for cell in columns(tmp_path / "r.csv")["sequence"]] == counts
 
 
 def test_unknown_positions_are_empty_cells(tmp_path: Path) -> None:
@@ -163,5 +157,5 @@ def test_unknown_positions_are_empty_cells(tmp_path: Path) -> None:
         for number in range(2):
             writer.flange(FlangeSample(1000.0 + number, np.eye(3), np.array([np.nan, 0.5, np.nan])))
     write_csv(tmp_path / "r.csv", tmp_path / "r.mcap")
-    cells = table(tmp_path / "r.csv")
+    cells = columns(tmp_path / "r.csv")
     assert (cells["px"], cells["py"], cells["qw"]) == (["", ""], ["0.5", "0.5"], ["1.0", "1.0"])

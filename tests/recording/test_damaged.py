@@ -15,14 +15,11 @@ import zstandard
 from mcap.stream_reader import StreamReader
 from recording.recording_cases import record
 
-from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.recording import Event, RecordingError, RecordingReader, read_recording
+from contactbench.pipeline.recording import RecordingError, RecordingReader, read_recording
 from contactbench.pipeline.recording.convert import write_npz
 from contactbench.pipeline.recording.ros2_survey import survey
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
 from contactbench.pipeline.recording.wire import record as wire_record
-
-Samples = list[tuple[str, WrenchSample | FlangeSample | Event]]
 
 
 def samples(file: Path) -> tuple[list[str], list[str], bool]:

@@ -24,22 +24,21 @@ def recording(tmp_path):
     return record(tmp_path / "a.mcap")
 
 
+def of_one_stream(file, write, samples):
+    with RecordingWriter(file, RecordingInfo(10**18, 1000.0)) as writer:
+        for sample in samples:
+            write(writer, sample)
+    return file
+
+
 @pytest.fixture
 def wrenches_only(tmp_path):
-    file = tmp_path / "w.mcap"
-    with RecordingWriter(file, RecordingInfo(10**18, 1000.0)) as writer:
-        for sample in wrench_samples(100):
-            writer.wrench(sample)
-    return file
+    return of_one_stream(tmp_path / "w.mcap", RecordingWriter.wrench, wrench_samples(100))
 
 
 @pytest.fixture
 def poses_only(tmp_path):
-    file = tmp_path / "p.mcap"
-    with RecordingWriter(file, RecordingInfo(10**18, 1000.0)) as writer:
-        for sample in flange_samples(100):
-            writer.flange(sample)
-    return file
+    return of_one_stream(tmp_path / "p.mcap", RecordingWriter.flange, flange_samples(100))
 
 
 def same_pose(one: FlangeSample, two: FlangeSample) -> bool:

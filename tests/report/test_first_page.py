@@ -27,13 +27,6 @@ LONG = "Dipl.-Ing. Friedrich-Wilhelm Oberhuber-Schmidt von der Donaudampfschifff
 UNITS = "mm|µm|N|mN·m|N·m|kg|g|ms|µs|s|Hz|%|×|sigma|UTC"
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _small_pictures():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contactbench.pipeline.report.page._PIXELS", 60)
-        yield
-
-
 @pytest.fixture(scope="module")
 def record(tmp_path_factory):
     file = tmp_path_factory.mktemp("calibration") / "c.json"

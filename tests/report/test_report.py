@@ -12,12 +12,11 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 from report.report_cases import CREATED, content, with_marker_named
-from typer.testing import CliRunner
+from terminal import invoke, said
 from weighing_files import weighed
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_record, save_calibration
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.page.details import ReportDetails
@@ -28,13 +27,6 @@ from contactbench.pipeline.report.figures import draw
 from contactbench.pipeline.report.report_file import report as make
 from contactbench.pipeline.report.touches import error_map, marker_views
 from contactbench.pipeline.verification.figures import ForceAccuracy, ModelError
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _small_pictures():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("contactbench.pipeline.report.page._PIXELS", 60)
-        yield
 
 
 @pytest.fixture(scope="module")
@@ -275,14 +267,12 @@ def test_the_command(files):
         "--probe",
     ]
     arguments += [files / "p.ply", "--out", out, "--serial", "M8128=SN 7", "--operator", "A. B.", "--json"]
-    done = CliRunner().invoke(app, [str(each) for each in arguments])
+    done = invoke(*arguments)
     assert done.exit_code == 0, done.output
     assert json.loads(done.stdout)["bytes"] == out.stat().st_size
     assert "SN 7" in out.read_text("utf-8")
     arguments[3] = files / "p.ply"
-    wrong = CliRunner().invoke(
-        app, [str(each) for each in ["report", "--verification", files / "c.json", *arguments[5:]]]
-    )
+    wrong = invoke(*["report", "--verification", files / "c.json", *arguments[5:]])
     assert wrong.exit_code == 2
 
 
@@ -372,11 +362,11 @@ def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
     (tmp_path / "w.json").write_text(json.dumps(known("known_weight")), encoding="utf-8")
     arguments = ["verify", "report", "--verification", files / "v.json", "--probe", files / "p.ply", "--out"]
     options = ["--known-weight", tmp_path / "w.json"]
-    result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
+    result = invoke(*arguments, tmp_path / "r.html", *options)
     assert result.exit_code == 0, result.stderr
     assert "The sensor reads 1.001 kg" in words_of((tmp_path / "r.html").read_text("utf-8"))
     for wrong in ({"version": 2}, {"outcome": "perhaps"}, {"sentence": None}):
         (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong), encoding="utf-8")
-        result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
+        result = invoke(*arguments, tmp_path / "r.html", *options)
         assert result.exit_code == 2
-        assert "not a contactbench.known_weight of version 1" in " ".join(result.stderr.split())
+        assert "not a contactbench.known_weight of version 1" in said(result)

@@ -2,14 +2,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.robot import Robot
-
-
-@pytest.fixture(scope="session")
-def elfin() -> Robot:
-    pytest.importorskip("mujoco")
-    return Robot.named("elfin3")
-
 
 @pytest.fixture(scope="session")
 def link_poses():

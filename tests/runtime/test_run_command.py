@@ -17,10 +17,9 @@ import pytest
 from config.runtime.bundles import example, example_bundle
 from mcap.reader import make_reader
 from runtime.runtime_recordings import BEGIN, record, samples
-from typer.testing import CliRunner
+from terminal import invoke
 from waiting import until
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.commands import run as command_of_run
 from contactbench.pipeline.commands.run import PatchLines
 from contactbench.pipeline.contact.patch import Bed, PatchReader
@@ -51,7 +50,7 @@ def command(*arguments: object) -> list[str]:
 
 def run(*arguments: object) -> Result:
     """Run it in this process, which has imported everything: only --out, --mcap and --udp can be looked at."""
-    return CliRunner().invoke(app, ["run", *map(str, arguments)])
+    return invoke("run", *arguments)
 
 
 def replay(folder: Path, speed: str = "step") -> tuple[str, ...]:

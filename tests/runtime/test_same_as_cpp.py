@@ -16,9 +16,8 @@ from config.runtime import bundles
 from config.runtime.bundles import example_bundle
 from runtime.runtime_recordings import BEGIN, flange, input_lines, record, samples, wrench
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.runtime.lines import number
 
@@ -51,7 +50,7 @@ def test_a_recording_gives_the_same_bytes(
     address = f"replay://{file}?speed=step"
     told = tmp_path / "told.jsonl"
     arguments = ["run", str(folder), "--source", address, "--pose", address, "--out", str(told)]
-    assert CliRunner().invoke(app, arguments).exit_code == 0
+    assert invoke(*arguments).exit_code == 0
     out = told.read_text(encoding="utf-8").splitlines()
     expected = run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
     assert len(out) == 2_000
@@ -80,7 +79,7 @@ def test_what_a_contact_lies_on_is_told_alike(example: Path, tmp_path: Path) -> 
     file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
     address = f"replay://{file}?speed=step"
     arguments = ["run", str(tmp_path / "bundle"), "--source", address, "--pose", address, "--out", str(told)]
-    done = CliRunner().invoke(app, arguments)
+    done = invoke(*arguments)
     assert done.exit_code == 0, done.stderr
     lines = told.read_text(encoding="utf-8").splitlines()
     assert lines == run(example, tmp_path / "bundle", given="\n".join(input_lines(mixed))).splitlines()
@@ -108,7 +107,7 @@ def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig
     file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
     address = f"replay://{file}?speed=step"
     arguments = ["run", str(folder), "--source", address, "--pose", address, "--out", str(told)]
-    done = CliRunner().invoke(app, arguments)
+    done = invoke(*arguments)
     assert done.exit_code == 0, done.stderr
     out = told.read_text(encoding="utf-8").splitlines()
     assert out == run(example, folder, given="\n".join(input_lines(mixed))).splitlines()

@@ -24,12 +24,6 @@ from contactbench.pipeline.session.live import LiveRecording
 ABOUT = RecordingInfo(1_700_000_000_000_000_000, 0.0)
 
 
-@pytest.fixture
-def folder(tmp_path):
-    Session.create(tmp_path / "s", by="ada").close()
-    return tmp_path / "s"
-
-
 def samples(count, begin=0.0):
     return [WrenchSample(begin + n / 100, (1.0, 2.0, 3.0), (0.1, 0.2, 0.3), n) for n in range(count)]
 

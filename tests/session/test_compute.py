@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 from weighing_files import TRUTH, planned, weighed, write_euler
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter
 from contactbench.pipeline.session import Session, SessionError
@@ -26,24 +25,10 @@ HOLD, MOVE, RATE = 3.0, 1.0, 100
 SIMPLE = ("--set", "facets=40", "--set", "engine=fast-simplification", "--set", "alpha=6")
 
 
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
-
-
 def done(*arguments):
     result = invoke("session", *arguments, "--json")
     assert result.exit_code == 0, result.stderr + str(result.exception)
     return json.loads(result.stdout)
-
-
-def said(result):
-    return " ".join(result.stderr.split())
-
-
-@pytest.fixture
-def folder(tmp_path):
-    Session.create(tmp_path / "s", by="ada").close()
-    return tmp_path / "s"
 
 
 @pytest.fixture(scope="module")

@@ -18,12 +18,6 @@ from contactbench.pipeline.session.check import check, repair
 posix = pytest.mark.skipif(os.name == "nt", reason="pipes and links of POSIX")
 
 
-@pytest.fixture
-def folder(tmp_path):
-    Session.create(tmp_path / "s", by="ada").close()
-    return tmp_path / "s"
-
-
 # ---- the lock ----------------------------------------------------------------------------------
 
 

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 from calibration.streams import stream
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke
 from weighing_files import weighed, write_euler
 from workbench.gravity_bench import batches, record
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.errors import InputError
@@ -69,10 +68,7 @@ def test_two_tables_are_joined_as_by_the_command(tmp_path):
     assert "no pose within 0.25 s." in told[0]
     options = ["--robot-poses", str(robot), "--euler", "xyz", "--delay", "0.03", "--out"]
     written = tmp_path / "command.csv"
-    assert (
-        CliRunner().invoke(cli.app, ["calibrate", "captures", str(sensor), *options, str(written)]).exit_code
-        == 0
-    )
+    assert invoke("calibrate", "captures", sensor, *options, written).exit_code == 0
     assert made == {"poses.csv": written.read_bytes()}
 
 
@@ -89,7 +85,7 @@ def test_orientation_noise_and_down_are_those_of_the_command(tmp_path):
     made = json.loads(calibration({"poses": file}, given, created)["c.json"])
     options = ["--orientation-noise", "tracker", "--down", "0,0,-1", "--euler", "xyz", "--out"]
     out = tmp_path / "c.json"
-    assert CliRunner().invoke(cli.app, ["calibrate", "fit", str(file), *options, str(out)]).exit_code == 0
+    assert invoke("calibrate", "fit", file, *options, out).exit_code == 0
     command = json.loads(out.read_bytes())
     assert {**made, "created": ""} == {**command, "created": ""}
     with pytest.raises(InputError, match="down_W"):

@@ -11,10 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 from waiting import until
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -27,18 +26,8 @@ from contactbench.pipeline.session.live import LiveRecording
 ROOT = Path(__file__).parents[2]
 
 
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
-
-
 def moving():
     return sine((0.5, 0.4, 0.3, 0.02, 0.03, 0.01), 3.0, (1.0, -2.0, 3.5, 0.1, -0.2, 0.05))
-
-
-@pytest.fixture
-def folder(tmp_path):
-    Session.create(tmp_path / "s", by="ada").close()
-    return tmp_path / "s"
 
 
 def samples(count, begin=0.0, level=0.0, status=Status.OK, seed=0):

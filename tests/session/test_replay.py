@@ -5,16 +5,11 @@ import json
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 from weighing_files import weighed, write_euler
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import RECOMPUTE, ReplayOutcome, compute, replay
-
-
-def invoke(*arguments):
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
 
 
 @pytest.fixture(scope="module")

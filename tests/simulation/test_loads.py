@@ -11,11 +11,6 @@ from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.simulation.loads import Weighing, bump, draw_load, weigh
 
 
-@pytest.fixture
-def rng() -> np.random.Generator:
-    return np.random.default_rng(0)
-
-
 def off(weighing: Weighing) -> np.ndarray:
     """(n, 6) read minus true."""
     arrays = stack(weighing.poses)

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.study import reality_costs
@@ -28,7 +27,7 @@ def test_a_table_has_each_effect_alone_and_what_is_saved_without_it(tmp_path: Pa
         "--out",
         str(tmp_path),
     ]
-    done = CliRunner().invoke(cli.app, command)
+    done = invoke(*command)
     assert done.exit_code == 0, done.stderr
     (rows,) = (value for name, value in json.loads(done.stdout).items() if name.startswith("costs-"))
     page = (tmp_path / "page.md").read_text(encoding="utf-8")

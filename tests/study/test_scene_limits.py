@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.study import scene_limits as study
 from contactbench.pipeline.study.pages import make_page
 from contactbench.pipeline.study.report import StudyReport
@@ -53,7 +52,7 @@ def test_the_command_gives_one_object_and_one_page(
     asked = []
     monkeypatch.setattr(study, "run", lambda probes, *_, **__: asked.append(probes) or report)
     command = ["study", "scene", "--moving", "--probe", "convex", "--probe", "linear", "--json"]
-    done = CliRunner().invoke(cli.app, [*command, "--out", str(tmp_path)])
+    done = invoke(*command, "--out", tmp_path)
     assert done.exit_code == 0, done.stderr
     assert asked == [("convex", "linear")]
     assert json.loads(done.stdout)["effects"][1]["change"] == study.ARM
@@ -66,7 +65,7 @@ def test_the_command_gives_one_object_and_one_page(
 
 
 def test_a_probe_that_is_not_bundled_is_named() -> None:
-    unknown = CliRunner().invoke(cli.app, ["study", "scene", "--moving", "--probe", "round"])
+    unknown = invoke("study", "scene", "--moving", "--probe", "round")
     assert unknown.exit_code == 2
     assert "no probe 'round'" in unknown.stderr
 

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from benchmarks.solver import hard_meshes as hm
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.save import save_probe
 from contactbench.pipeline.study import stability as study
@@ -81,7 +80,7 @@ def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
     monkeypatch.setattr(study, "run", lambda *_, **__: broken(report) if code else report)
     out = tmp_path / "one"
     words = ["study", "stability", "--samples", "50", "--seed", "1", "--out", str(out), "--json"]
-    ran = CliRunner().invoke(app, words)
+    ran = invoke(*words)
     assert ran.exit_code == code
     data = json.loads(ran.stdout)
     assert data["passed"] is (code == 0)
@@ -99,7 +98,7 @@ def test_the_command_keeps_a_page_that_is_made_from_its_results_alone(
     assert ("1e+09" in text) is (code == 1)
     assert {line.count("|") - line.count("\\|") for line in text.splitlines() if line.startswith("|")} == {10}
     assert "### Rounding" in text
-    assert CliRunner().invoke(app, ["study", "stability"]).exit_code == code
+    assert invoke("study", "stability").exit_code == code
 
 
 def test_results_with_parts_of_earlier_versions_still_make_a_page(report: Report, tmp_path: Path) -> None:

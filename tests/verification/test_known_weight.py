@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from weighing_files import TRUTH
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
 from contactbench.pipeline.calibration.reachable import by_hand
@@ -16,12 +17,6 @@ from contactbench.pipeline.verification.known_check import CheckOutcome
 from contactbench.pipeline.verification.known_weight import WeightParameters, check_weight
 
 G = 9.80665
-TRUTH = GravityModel(
-    np.array([0.0, 0.0, -6.1]),
-    np.array([3.0, -2.0, 8.0]),
-    np.array([0.004, -0.002, 0.062]),
-    np.array([0.2, -0.1, 0.05]),
-)
 MEAN = PoseNoise(0.01, 0.0004)  # of a mean over a still pose
 SAMPLE = 0.05  # N, of one sample; 200 of them are a second
 TILTS = Rotation.from_euler("xyz", [[0, 0, 0], [80, 0, 0], [50, 40, 0]], degrees=True).as_matrix()

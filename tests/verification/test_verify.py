@@ -6,6 +6,7 @@ import pytest
 from benchmarks.verification import bench
 from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
+from terminal import invoke
 from typer.testing import CliRunner
 from weighing_files import draw_weighing
 
@@ -210,7 +211,7 @@ def test_the_status_of_a_table_marks_clipped_readings(tmp_path):
 
 def test_a_session_and_the_command_write_the_same_bytes(files, tmp_path):
     out = tmp_path / "v.json"
-    ended = CliRunner().invoke(app, [*arguments(files), "--out", str(out), "--json"])
+    ended = invoke(*arguments(files), "--out", out, "--json")
     assert ended.exit_code == 0, ended.output
     assert "Model error: 0.0" in ended.output
     told = json.loads(ended.stdout)

@@ -5,10 +5,8 @@ import shutil
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
-from workbench.touch_session import make_session, verify
+from terminal import invoke
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
 from contactbench.pipeline.config.runtime.differ import ConfigDifference, Differences
 from contactbench.pipeline.session import Session
@@ -17,28 +15,18 @@ from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.export import PLACE, SHA256, export, survey, told
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    """Make two sessions once: one that is calibrated, one that is verified, too."""
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    make_session(folder / "calibrated", folder / "files")
-    verify(shutil.copytree(folder / "calibrated", folder / "verified"))
-    return folder
+@pytest.fixture
+def verified(sessions, tmp_path):
+    return shutil.copytree(sessions / "verified", tmp_path / "s")
 
 
 @pytest.fixture
-def verified(made, tmp_path):
-    return shutil.copytree(made / "verified", tmp_path / "s")
-
-
-@pytest.fixture
-def calibrated(made, tmp_path):
-    return shutil.copytree(made / "calibrated", tmp_path / "s")
+def bare(sessions, tmp_path):
+    return shutil.copytree(sessions / "calibrated", tmp_path / "s")
 
 
 def command(*arguments):
-    return CliRunner().invoke(cli.app, ["bundle", "export", *map(str, arguments)])
+    return invoke("bundle", "export", *arguments)
 
 
 def states(session):
@@ -78,17 +66,17 @@ def test_the_sensors_name_reaches_ros2_yaml_from_the_session_and_from_the_comman
     assert (stored / "ros2.yaml").read_text("ascii") == text
 
 
-def test_a_result_of_this_sitting_is_listed_as_one_read_from_the_journal(calibrated, tmp_path):
-    with Session.open(calibrated, by="ada") as session:
+def test_a_result_of_this_sitting_is_listed_as_one_read_from_the_journal(bare, tmp_path):
+    with Session.open(bare, by="ada") as session:
         probe = session.state.current_results["probe", "probe.ply"]
         files = {
-            name: (calibrated / file.path).read_bytes()
+            name: (bare / file.path).read_bytes()
             for name, file in sorted(probe.action.files.items(), reverse=True)
         }
         session.set_parameter("config.rate", 200)
         session.add_result("probe", "probe.ply", files, {}, {"again": 1})
         export(session, tmp_path / "window.zip", unverified=True)
-    command(calibrated, "--unverified", "--out", tmp_path / "command.zip")
+    command(bare, "--unverified", "--out", tmp_path / "command.zip")
     assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
 
 
@@ -161,8 +149,8 @@ def test_one_check_is_enough_and_one_that_failed_is_said(verified):
         assert results_of(session.state) != before
 
 
-def test_what_was_rejected_or_is_missing_is_said(calibrated, tmp_path):
-    with Session.open(calibrated, by="ada") as session:
+def test_what_was_rejected_or_is_missing_is_said(bare, tmp_path):
+    with Session.open(bare, by="ada") as session:
         found = states(session)
         assert (found["Verification"], found["Report"], found["Probe"]) == ("missing", "missing", "done")
         session.mark("probe", "probe.ply", "rejected", "bent")
@@ -178,8 +166,8 @@ def test_what_was_rejected_or_is_missing_is_said(calibrated, tmp_path):
         assert "no calibration" in view.problem
 
 
-def test_an_unverified_bundle_is_written_only_when_somebody_says_so(calibrated, tmp_path):
-    with Session.open(calibrated, by="ada") as session:
+def test_an_unverified_bundle_is_written_only_when_somebody_says_so(bare, tmp_path):
+    with Session.open(bare, by="ada") as session:
         session.set_parameter("config.rate", 200)
         with pytest.raises(UnverifiedError):
             export(session, tmp_path / "b.zip")

@@ -17,18 +17,11 @@ from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.kernel import Reason
-from contactbench.pipeline.workbench.live import Live, LiveMoment, Ring, Tap
+from contactbench.pipeline.workbench.live import LiveMoment, Ring, Tap
 from contactbench.pipeline.workbench.live_trial import trial_of
 
 STEPWISE = "virtual://bench?probe=convex&sensor=paper&speed=step"
 EMPTY = np.zeros(3)
-
-
-@pytest.fixture
-def live():
-    found = Live()
-    yield found
-    found.close()
 
 
 def turned(degrees, time):

@@ -32,13 +32,6 @@ def config(tmp_path_factory: pytest.TempPathFactory) -> RuntimeConfig:
 
 
 @pytest.fixture
-def live() -> Iterator[Live]:
-    found = Live()
-    yield found
-    found.close()
-
-
-@pytest.fixture
 def listener() -> Iterator[socket.socket]:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as found:
         found.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4_000_000)

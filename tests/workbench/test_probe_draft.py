@@ -10,12 +10,10 @@ from workbench.probe_files import egg
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.why import statuses
 from contactbench.pipeline.steps import Step, StepState
-from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork
+from contactbench.pipeline.workbench.probe import ProbePlan
 from contactbench.pipeline.workbench.probe_draft import DRAFT, draft_of, keep_draft, use_draft
 
 PLAN = ProbePlan(
@@ -26,20 +24,6 @@ PLAN = ProbePlan(
     facets=300,
     engine="fast-simplification",
 )
-
-
-@pytest.fixture
-def desk(tmp_path):
-    desk = Desk(Session.create(tmp_path / "s", by="ada"))
-    yield desk
-    desk.close()
-
-
-@pytest.fixture
-def work(desk):
-    work = ProbeWork(desk)
-    yield work
-    work.close()
 
 
 def keep(desk, mesh, plan):

@@ -13,9 +13,7 @@ from workbench.probe_files import bad_meshes, egg
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import ReplayOutcome, compute, newest_inputs, replay
-from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit, trade_of
 from contactbench.pipeline.workbench.probe_alignment import (
     back_to_mesh,
@@ -28,20 +26,6 @@ from contactbench.pipeline.workbench.probe_alignment import (
 from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
 
 PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
-
-
-@pytest.fixture
-def desk(tmp_path):
-    desk = Desk(Session.create(tmp_path / "s", by="ada"))
-    yield desk
-    desk.close()
-
-
-@pytest.fixture
-def work(desk):
-    work = ProbeWork(desk)
-    yield work
-    work.close()
 
 
 def used(work, mesh, plan=PLAN):

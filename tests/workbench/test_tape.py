@@ -8,7 +8,6 @@ from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.tape import SessionTape
 
 BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"
@@ -18,13 +17,6 @@ PATIENCE = 30
 @pytest.fixture
 def desk(tmp_path):
     found = Desk(Session.create(tmp_path / "session"))
-    yield found
-    found.close()
-
-
-@pytest.fixture
-def live():
-    found = Live()
     yield found
     found.close()
 

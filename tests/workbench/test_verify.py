@@ -3,10 +3,9 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
-from workbench.touch_session import STEPWISE, make_session, press, touch_all
+from terminal import invoke
+from workbench.touch_session import STEPWISE, press, touch_all
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import why_locked
@@ -34,14 +33,6 @@ class Work:
 
     def set(self, key, value):
         self.desk.do(lambda session: session.set_parameter(key, value)).result()
-
-
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    """Make a session once; everybody gets a copy."""
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "files").mkdir()
-    return make_session(folder / "s", folder / "files")
 
 
 @pytest.fixture
@@ -76,9 +67,7 @@ def test_the_recording_is_judged_and_anybody_gets_the_same_bytes(bench, folder):
     bench.live.close()
     bench.desk.close()
     made = state.current_results["verification", "verification.json"]
-    done = CliRunner().invoke(
-        cli.app, ["session", "compute", str(folder), "verification", "verification.json"]
-    )
+    done = invoke("session", "compute", folder, "verification", "verification.json")
     assert done.exit_code == 0, done.stderr
     with Session.open(folder, write=False) as session:
         assert session.state.current_results["verification", "verification.json"].outcome == made.outcome

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QGuiApplication, QShortcut
 from PySide6.QtWidgets import QFileDialog
-from typer.testing import CliRunner
+from terminal import invoke
 from weighing_files import weighed
 
 from contactbench.app.heatmap_viewer import HeatmapViewer
@@ -13,7 +13,6 @@ from contactbench.app.heatmap_viewer.side import number_with_unit
 from contactbench.assets import make
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
-from contactbench.pipeline.cli import app as commands
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.mesh import Probe, save_probe
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
@@ -292,7 +291,7 @@ def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path
     arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
     arguments += ["--quantity", "force", "--bandwidth", 3, "--from", 0.5, "--to", 3.25, "--force-from", 2.5]
     arguments += ["--speed", 20, "--out", theirs]
-    done = CliRunner().invoke(commands, ["heatmap", "draw", *map(str, arguments)])
+    done = invoke("heatmap", "draw", *arguments)
     assert done.exit_code == 0, done.output
     assert mine.read_bytes() == theirs.read_bytes()
 
@@ -348,7 +347,7 @@ def saved_mesh(qtbot, viewer, file, monkeypatch):
 
 
 def command(*arguments):
-    done = CliRunner().invoke(commands, ["heatmap", "draw", *map(str, arguments)])
+    done = invoke("heatmap", "draw", *arguments)
     assert done.exit_code == 0, done.output
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import wraps
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -151,40 +152,10 @@ def _judged(phantom: str, motion: str, period: float, mine: list[Outcome]) -> li
     return found
 
 
-def run(
-    probe: str = "convex",
-    *,
-    scene: str = "platform",
-    variants: Sequence[Variant] = tuple(Variant),
-    methods: Sequence[str] = METHODS,
-    periods: Sequence[float] = PERIODS_S,
-    motions: Sequence[str] = tuple(MOTIONS),
-    phantoms: Sequence[str] = ("flat",),
-    seeds: int = 5,
-    seed: int = 0,
-    quick: bool = False,
-    workers: int | None = None,
-    settings: ControlSettings | None = None,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> StudyReport:
+@wraps(measure)  # a benchmark's options are its arguments
+def run(*given: Any, **settings: Any) -> StudyReport:
     """Track a moving phantom with every method, and judge ours."""
-    return report_of(
-        measure(
-            probe,
-            scene=scene,
-            variants=variants,
-            methods=methods,
-            periods=periods,
-            motions=motions,
-            phantoms=phantoms,
-            seeds=seeds,
-            seed=seed,
-            quick=quick,
-            workers=workers,
-            settings=settings,
-            progress=progress,
-        )
-    )
+    return report_of(measure(*given, **settings))
 
 
 def report_of(result: DynamicResult) -> StudyReport:

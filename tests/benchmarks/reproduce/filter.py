@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -285,15 +286,10 @@ def draw(result: FilterResult) -> bytes:
     return png(figure)
 
 
-def run(
-    probe: str = "t-shape",
-    *,
-    seconds: float = 20.0,
-    seed: int = 0,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> StudyReport:
+@wraps(measure)  # a benchmark's options are its arguments
+def run(*given: Any, **settings: Any) -> StudyReport:
     """Press as a hand, locate every reading, filter the contacts, and compare."""
-    return report_of(measure(probe, seconds=seconds, seed=seed, progress=progress))
+    return report_of(measure(*given, **settings))
 
 
 def report_of(result: FilterResult) -> StudyReport:

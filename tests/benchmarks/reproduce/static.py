@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import wraps
 from math import nan
 from typing import TYPE_CHECKING, Any
 
@@ -138,28 +139,10 @@ _NEGLIGIBLE_MM = 0.05
 _TYPICAL_NM = 9.0 * 0.5 * 0.13  # of 9 N at 30 degrees, 130 mm from the sensor
 
 
-def run(
-    probes: Sequence[str] = PROBES,
-    *,
-    seeds: int = 20,
-    seed: int = 0,
-    touches: int = 3,
-    facets: int = FACETS,
-    most_markers: int | None = None,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
-) -> StudyReport:
+@wraps(measure)  # a benchmark's options are its arguments
+def run(*given: Any, **settings: Any) -> StudyReport:
     """Repeat the static experiments on the virtual bench, and compare with the paper's."""
-    return report_of(
-        measure(
-            probes,
-            seeds=seeds,
-            seed=seed,
-            touches=touches,
-            facets=facets,
-            most_markers=most_markers,
-            progress=progress,
-        )
-    )
+    return report_of(measure(*given, **settings))
 
 
 def report_of(result: StaticResult) -> StudyReport:

@@ -38,11 +38,6 @@ def cases(spoken: list[str]) -> list[HardCase]:
     return hard_cases.cases(100, 1, spoken.append)
 
 
-@pytest.fixture
-def rng() -> np.random.Generator:
-    return np.random.default_rng(0)
-
-
 def test_every_case_passes(cases: list[HardCase]) -> None:
     failed = {case.name: case.faults for case in cases if not case.passed}
     assert not failed

@@ -5,15 +5,13 @@ from __future__ import annotations
 import io
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from calibration.streams import Recording, stream
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner
+from terminal import invoke, said
 
-from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.capture_file import (
     Delay,
@@ -80,14 +78,6 @@ EULER = Convention(Kind.EULER, "xyz")
 @pytest.fixture(scope="module")
 def file(taken: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write(tmp_path_factory.mktemp("recording") / "a.mcap", taken)
-
-
-def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(cli.app, list(map(str, arguments)))
-
-
-def said(result: Any) -> str:
-    return " ".join(result.stderr.split())
 
 
 def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from config.runtime.bundles import example, example_bundle
 from scipy.spatial.transform import Rotation
+from terminal import said
 from typer.testing import CliRunner
 from weighing_files import spun, weighed
 
@@ -162,19 +163,15 @@ def test_export_check_and_the_same_bytes_again(bench):
     assert "verified on 10 markers: 0.40 mm mean" in checked.stderr
 
 
-def words(result):
-    return " ".join(result.stderr.split())
-
-
 def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
     bare = invoke("export", *files_of(bench), "--out", bench / "b")
     assert bare.exit_code == 0
-    assert "Neither a known weight nor a known touch was checked" in words(bare)
-    assert "Neither a known weight" in words(invoke("check", bench / "b"))
+    assert "Neither a known weight nor a known touch was checked" in said(bare)
+    assert "Neither a known weight" in said(invoke("check", bench / "b"))
     options = ("--known-weight", known_weight(bench), "--known-touch", known_touch(bench))
     made = invoke("export", *files_of(bench), *options, "--out", bench / "b", "--json")
     assert made.exit_code == 0, made.stderr
-    assert "Neither" not in words(made)
+    assert "Neither" not in said(made)
     model = RuntimeConfig.load(bench / "b").model
     assert json.loads(made.stdout)["checks"] == model.checks.model_dump()
     assert model.checks.known_weight.model_dump() == {
@@ -184,13 +181,13 @@ def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
     assert model.checks.known_touch.error_m == 0.001
     roles = {each.role: each.sha256 for each in model.provenance.sources}
     assert roles["known_weight"] == sha256(bench / "weight.json")
-    assert "Neither" not in words(invoke("check", bench / "b"))
+    assert "Neither" not in said(invoke("check", bench / "b"))
     assert invoke("export", *files_of(bench), *options[2:], "--out", bench / "b").exit_code == 0
     assert RuntimeConfig.load(bench / "b").model.checks.known_weight is None
     wavering = known_weight(bench, "undecided")
     made = invoke("export", *files_of(bench), "--known-weight", wavering, "--out", bench / "b")
     assert made.exit_code == 0
-    assert "was inconclusive" in words(made)
+    assert "was inconclusive" in said(made)
 
 
 @pytest.mark.parametrize(
@@ -227,13 +224,13 @@ def test_a_check_that_failed_or_is_of_others_refuses_the_export(bench, option, w
     given = (*files_of(bench), option, write(bench, **changes), "--out", bench / "b")
     refused = invoke("export", *given)
     assert refused.exit_code == 1
-    assert reason in words(refused)
+    assert reason in said(refused)
     assert not (bench / "b").exists()
     assert invoke("export", *given, "--unverified").exit_code == 0
     model = RuntimeConfig.load(bench / "b").model
     assert not model.verified
     assert len(model.provenance.stale) == 1
-    assert reason in words(invoke("check", bench / "b"))
+    assert reason in said(invoke("check", bench / "b"))
 
 
 @pytest.mark.parametrize(
@@ -251,8 +248,8 @@ def test_what_is_no_check_is_wrong_input(bench, changes, reason):
     file = known_weight(bench, **changes)
     refused = invoke("export", *files_of(bench), "--known-weight", file, "--out", bench / "b")
     assert refused.exit_code == 2
-    assert reason in words(refused)
-    assert "weight.json" in words(refused).replace(" ", "")
+    assert reason in said(refused)
+    assert "weight.json" in said(refused).replace(" ", "")
     file.write_text("{", encoding="utf-8")
     assert invoke("export", *files_of(bench), "--known-weight", file, "--out", bench / "b").exit_code == 2
 
@@ -280,7 +277,7 @@ def test_a_session_gives_its_checks_unless_they_are_of_another_calibration(bench
         )
     refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
     assert refused.exit_code == 1
-    assert "known weight of 1 kg was measured" in words(refused)
+    assert "known weight of 1 kg was measured" in said(refused)
     with Session.open(bench / "s", by="ada") as session:
         session.mark("known_weight", "w.json", "rejected", "the wrong weight")
     assert invoke("export", bench / "s", *RATE, "--out", bench / "b").exit_code == 0
@@ -309,8 +306,8 @@ def test_ceiling_and_wall_are_exported_checked_and_told(bench, down, lines):
     checked = invoke("check", bench / "b")
     assert checked.exit_code == 0, checked.stderr
     for result in (made, checked):
-        assert all(line in words(result) for line in lines)
-        assert ("ros2.yaml" in words(result)) == bool(lines)
+        assert all(line in said(result) for line in lines)
+        assert ("ros2.yaml" in said(result)) == bool(lines)
 
 
 def test_the_zero_is_as_old_as_the_last_pose_where_a_clock_says_so(bench):
@@ -325,7 +322,7 @@ def test_the_zero_is_as_old_as_the_last_pose_where_a_clock_says_so(bench):
         save_calibration(calibrate(timed), bench / "calibration.json", created=created)
         verification(bench)
         made = invoke("export", *files_of(bench), "--out", bench / "b")
-        assert "The sensor's zero was measured on 202" in words(invoke("check", bench / "b"))
+        assert "The sensor's zero was measured on 202" in said(invoke("check", bench / "b"))
         assert made.exit_code == 0, made.stderr
         return RuntimeConfig.load(bench / "b").model.zero.measured
 
@@ -340,7 +337,7 @@ def test_a_drift_is_told_by_the_hour(tmp_path):
     example_bundle(tmp_path / "b", 300, clamped=True)
     checked = invoke("check", tmp_path / "b", "--json")
     assert checked.exit_code == 0
-    assert "drifted by up to 0.11 N and 0.72 mN·m per hour" in words(checked)
+    assert "drifted by up to 0.11 N and 0.72 mN·m per hour" in said(checked)
     assert json.loads(checked.stdout)["zero"]["measured"] == "2026-01-01T12:00:00Z"
 
 
@@ -460,12 +457,12 @@ def test_a_payload_too_unsure_or_of_a_refused_calibration_is_not_printed(bench, 
     invoke("export", *files_of(bench), "--out", bench / "b")
     out = bench / "p.txt"
     asked = ("payload", bench / "b", "--robot", maker, "--sensor-at", "0,0,40", "--sensor-body", "0.3,0,0,20")
-    assert CAUTIONS[maker] in words(invoke(*asked))
+    assert CAUTIONS[maker] in said(invoke(*asked))
     with monkeypatch.context() as patch:
         patch.setattr("contactbench.pipeline.calibration.payload._LARGEST_SHARE", 0.0)
         made = invoke(*asked, "--out", out)
         assert made.exit_code == 1
-        assert "too unsure" in words(made)
+        assert "too unsure" in said(made)
         assert invoke(*asked).stdout == ""
     mount = Mount.of(np.eye(3))
     save_calibration(calibrate(spun().poses), bench / "calibration.json", mount=mount)
@@ -583,9 +580,9 @@ def test_the_deviation_of_the_mesh_is_that_of_its_simplifications(bench):
 
 def test_what_nobody_said_is_said(bench):
     made = invoke("export", *files_of(bench), "--out", bench / "b")
-    for said in (made.stderr, invoke("check", bench / "b").stderr):
-        assert "NO SATURATION LIMITS" in said
-        assert "does not state its rate, mounting" in " ".join(said.split())
+    for heard in (made.stderr, invoke("check", bench / "b").stderr):
+        assert "NO SATURATION LIMITS" in heard
+        assert "does not state its rate, mounting" in " ".join(heard.split())
     made = invoke("export", *files_of(bench), "--saturation", "9,9,9,1,1,1", "--out", bench / "b")
     assert "SATURATION" not in made.stderr
 

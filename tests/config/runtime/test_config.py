@@ -9,7 +9,6 @@ import threading
 import time
 import zipfile
 from datetime import UTC, datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,8 +35,6 @@ from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
-
-HERE = Path(__file__).parents[3]
 
 
 def edited(clamped=False, **changes):

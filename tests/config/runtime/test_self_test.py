@@ -14,9 +14,8 @@ import pytest
 from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import example, of_version_2, of_version_3
 from native import built
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.self_test import replay, with_self_test
 
@@ -225,7 +224,7 @@ def test_the_command_says_it(files: dict[str, bytes], tmp_path: Path) -> None:
         folder.mkdir()
         for name, data in content.items():
             (folder / name).write_bytes(data)
-        return CliRunner().invoke(app, ["bundle", "check", str(folder), *options])
+        return invoke("bundle", "check", folder, *options)
 
     good = check(files, "--json")
     assert good.exit_code == 0

@@ -27,12 +27,6 @@ ANSWER = b"ReadActPos,OK,1,2,3,4,5,6,10,20,30,40,50,60,;"
 VALUES = ("1", "2", "3", "4", "5", "6", "10", "20", "30", "40", "50", "60")
 
 
-@pytest.fixture(scope="module")
-def elfin() -> Robot:
-    pytest.importorskip("mujoco")
-    return Robot.named("elfin3")
-
-
 def position(
     order: FieldOrder, tool: tuple[float, float, float] = (0.0, 0.0, 0.0), turn: Rotation | None = None
 ) -> list[float]:

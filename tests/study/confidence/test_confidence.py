@@ -5,9 +5,8 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import ContactSolver, Reason
 from contactbench.pipeline.study.confidence import cases, study
 from contactbench.pipeline.study.harness import Case
@@ -19,11 +18,6 @@ TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(5
 @pytest.fixture(scope="module")
 def report():
     return study.run(("linear",), TINY, seed=1)
-
-
-@pytest.fixture
-def rng():
-    return np.random.default_rng(0)
 
 
 @pytest.mark.parametrize("thickness", cases.FINS_M)
@@ -126,7 +120,7 @@ def test_the_command_prints_one_object():
         "linear",
         "--json",
     ]
-    result = CliRunner().invoke(app, arguments)
+    result = invoke(*arguments)
     data = json.loads(result.stdout)
     assert result.exit_code == (0 if data["passed"] else 1)
     assert data["probes"] == ["linear"]
@@ -142,7 +136,7 @@ def test_the_command_prints_one_object():
     ],
 )
 def test_wrong_options_are_named(arguments, said):
-    result = CliRunner().invoke(app, ["study", "confidence", "--quick", *arguments])
+    result = invoke("study", "confidence", "--quick", *arguments)
     assert result.exit_code == 2
     assert said in result.stderr
 

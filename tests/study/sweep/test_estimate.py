@@ -3,9 +3,8 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.study.sweep import cell
 from contactbench.pipeline.study.sweep.estimate import estimate
 from contactbench.pipeline.study.sweep.plan import SweepPlan
@@ -71,7 +70,7 @@ def test_the_command_computes_nothing(tmp_path):
     plan, out = tmp_path / "a.toml", tmp_path / "out"
     plan.write_text('probes = ["linear"]\nfacets = [300]\ntouches = 2000\n', encoding="utf-8")
     words = ["study", "run", str(plan), "--dry-run", "--no-times", "--workers", "2", "--out", str(out)]
-    done = CliRunner().invoke(app, [*words, "--json"])
+    done = invoke(*words, "--json")
     assert done.exit_code == 0, done.stderr
     told = json.loads(done.stdout)
     assert (told["cells"], told["touches"], told["workers"]) == (6, 12_000, 2)

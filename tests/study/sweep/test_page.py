@@ -5,9 +5,8 @@ import re
 import shutil
 
 import pytest
-from typer.testing import CliRunner
+from terminal import invoke
 
-from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.pages import PAGE, gather, make_page
 from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
@@ -25,7 +24,7 @@ def alone(small, tmp_path):
 
 
 def _invoke(*words):
-    return CliRunner().invoke(app, ["study", *map(str, words)])
+    return invoke("study", *words)
 
 
 def test_a_page_is_made_of_the_results_alone_and_is_the_same_each_time(alone):

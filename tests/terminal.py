@@ -1,0 +1,17 @@
+"""The command line as a person types it."""
+
+from typing import Any
+
+from typer.testing import CliRunner
+
+from contactbench.pipeline import cli
+
+
+def invoke(*words: object) -> Any:
+    """Run a command in this process."""
+    return CliRunner().invoke(cli.app, list(map(str, words)))
+
+
+def said(result: Any) -> str:
+    """Return what a command said beside its output, without the breaks of lines."""
+    return " ".join(result.stderr.split())

@@ -10,6 +10,7 @@ use: in a file, a log or a terminal. A window asks for it in another language, b
 from __future__ import annotations
 
 import re
+from collections import OrderedDict
 from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, SupportsIndex
@@ -24,7 +25,8 @@ _OPEN, _CLOSE, _FILL, _FILLED = "\ufdd0", "\ufdd1", "\ufdd2", "\ufdd3"
 _CAPITAL, _STRIP = "\ufdd4", "\ufdd5"
 _MARK = re.compile("([\ufdd0-\ufdd5])")
 _FIELD = re.compile(r"\{(\d+)\}")
-_LATELY: dict[str, str] = {}  # texts said lately -> with marks: files and Qt keep the text alone
+# Texts said or asked for lately -> with marks, the latest last: files and Qt keep the text alone.
+_LATELY: OrderedDict[str, str] = OrderedDict()
 _AT_MOST = 10_000
 
 
@@ -38,9 +40,7 @@ class Message(str):
         """Take a text with its marks."""
         made = super().__new__(cls, _said(marked, str))
         made._marked = marked
-        if len(_LATELY) >= _AT_MOST:
-            _LATELY.clear()
-        _LATELY[made[:]] = marked
+        _note(made)
         return made
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> tuple[type[Message], tuple[str]]:
@@ -104,7 +104,7 @@ def message(text: str) -> str:
     text : str
         An f-string in which each value is given as `arg`. A message stays as it is.
     """
-    return text if isinstance(text, Message) else _made(_OPEN + text + _CLOSE)
+    return text if isinstance(text, Message) else _note(_made(_OPEN + text + _CLOSE))
 
 
 def arg(value: object) -> _Argument:
@@ -114,7 +114,8 @@ def arg(value: object) -> _Argument:
 
 def said_lately(text: str) -> str:
     """Return a text that came back from a file or from Qt as the message that it was, if it was said lately."""
-    return Message(_LATELY[text]) if text in _LATELY and not isinstance(text, Message) else text
+    marked = None if isinstance(text, Message) else _LATELY.get(text)
+    return text if marked is None else Message(marked)
 
 
 def all_said_lately() -> dict[str, str]:
@@ -155,6 +156,14 @@ class InputError(ValueError):
 
     def __init__(self, text: str = "") -> None:
         super().__init__(message(text))
+
+
+def _note(said: Message) -> Message:
+    _LATELY.pop(said[:], None)
+    _LATELY[said[:]] = said._marked
+    if len(_LATELY) > _AT_MOST:
+        _LATELY.popitem(last=False)
+    return said
 
 
 @lru_cache(1000)  # a loop says the same thing again and again

@@ -1,5 +1,6 @@
 import copy
 import json
+from collections import OrderedDict
 
 from contactbench.app.translation import keep_said, recall_said
 from contactbench.pipeline import errors
@@ -103,7 +104,7 @@ def test_a_later_program_says_it_again(monkeypatch, tmp_path):
     said = off("c.csv")
     keep_said(tmp_path)
     kept = tmp_path / "messages.json"
-    monkeypatch.setattr(errors, "_LATELY", {})
+    monkeypatch.setattr(errors, "_LATELY", OrderedDict())
     assert type(said_lately(said[:])) is str
     recall_said(tmp_path)
     assert said_lately(said[:]).translated(german) == "c.csv: 0.3 mm daneben in Zeile 7."
@@ -116,4 +117,14 @@ def test_a_later_program_says_it_again(monkeypatch, tmp_path):
         kept.write_text(content)
         errors._LATELY.clear()
         recall_said(tmp_path)
-        assert errors._LATELY == {}
+        assert not errors._LATELY
+
+
+def test_what_is_shown_is_kept_however_much_is_said():
+    shown, said_once = off("d.csv"), off("e.csv")
+    for k in range(3):
+        for n in range(6_000):
+            message(f"{arg(k)}: {arg(n)}")
+        assert said_lately(shown[:]).translated(german) == "d.csv: 0.3 mm daneben in Zeile 7."
+    assert said_lately(said_once[:]) == said_once
+    assert type(said_lately(said_once[:])) is str

@@ -13,7 +13,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
 from contactbench.pipeline.contact import Gates
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
 from contactbench.pipeline.heatmap.selection import in_order
@@ -339,7 +339,7 @@ def _of_session(
             try:
                 found.append(_of_file(given_with, given, how, told, f"{folder.name}: {laid[main].name}"))
             except InputError as error:
-                problems.append(f"{folder.name}: {error}")
+                problems.append(message(f"{arg(folder.name)}: {arg(error)}"))
     if not found and len(reasons) == len(_OF_SESSION):
         raise HeatmapError(f"{arg(folder.name)}: {arg(reasons[0])}")
     return found

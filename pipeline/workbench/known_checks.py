@@ -60,7 +60,7 @@ def known_outcome(
     return KnownOutcome(
         CheckOutcome(content["outcome"]),
         content["sentence"],
-        " ".join(reasons[:1]),
+        next(iter(reasons), ""),
         dict(found.action.parameters),
     )
 

@@ -387,7 +387,9 @@ def outcome_of(
             f"{arg(file)}: the verification cannot be read ({arg(error)}): run `contactbench session verify`."
         ) from error
     reasons = stale.get(found.slot, ())
-    outcome = VerifyOutcome(verification, _report(folder, state, found.known_as), stale=" ".join(reasons[:1]))
+    outcome = VerifyOutcome(
+        verification, _report(folder, state, found.known_as), stale=next(iter(reasons), "")
+    )
     return outcome if live is None else replace(outcome, differs=differs(outcome, live))
 
 

@@ -6,7 +6,7 @@ import pytest
 from terminal import invoke
 from workbench.touch_session import STEPWISE, press, touch_all
 
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError, Message
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.workbench.desk import Desk
@@ -80,6 +80,7 @@ def test_what_is_limited_later_makes_it_stale(bench):
     bench.set("verification.max_limit_mm", 0.5)
     outcome = outcome_of(bench.desk.folder, bench.desk.state, bench.desk.stale)
     assert "max_limit_mm" in outcome.stale
+    assert isinstance(outcome.stale, Message)
 
 
 def test_limits_and_order_are_those_of_the_session(bench):

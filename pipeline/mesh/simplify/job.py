@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import collapse_edges
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
@@ -177,7 +177,7 @@ class SimplifyJob:
         made, whole = attempt.probe, (self.probe.vertices, self.probe.faces)
         found = check_soundness(made.vertices, made.faces, whole, invented=made.invented)
         if faults := find_faults(found, lambda: self._soundness):
-            raise MeshError(" ".join(faults))
+            raise MeshError(join(" ", faults))
         if attempt.deviation.hausdorff > _ANOTHER_SHAPE * self.probe.size:
             off = f"{1e3 * attempt.deviation.hausdorff:.3g} mm"
             raise MeshError(

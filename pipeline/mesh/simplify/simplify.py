@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.errors import arg, message
+from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
@@ -70,7 +70,7 @@ class Simplified:
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was reached, and what had to be tried for it, in words."""
-        short = f", {self.short}" if self.short else ""
+        short = join("", (", ", self.short)) if self.short else ""
         out = [
             message(f"{arg(self.count):,} facets{arg(short)}: {arg(self.deviation.sentence)}."),
             *self.warnings,

@@ -10,6 +10,7 @@ from weighing_files import weighed
 
 from contactbench.app.heatmap_viewer import HeatmapViewer
 from contactbench.app.heatmap_viewer.side import number_with_unit
+from contactbench.app.heatmap_viewer.sources import open_files, sorted_files
 from contactbench.assets import make
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import save_calibration
@@ -337,6 +338,22 @@ def test_a_session_is_opened(qtbot, viewer, files, tmp_path):
     viewer.open([tmp_path / "s"])
     qtbot.waitUntil(lambda: settled(viewer), timeout=LONG)
     assert [source.name for source in viewer.sources] == ["s: one.mcap"]
+
+
+def test_a_recording_of_a_session_that_cannot_be_read_is_said_in_any_language(files, tmp_path):
+    (tmp_path / "bad.mcap").write_bytes(b"no recording")
+    with Session.create(tmp_path / "s", by="ada") as session:
+        for kind, file in (
+            ("recording", tmp_path / "bad.mcap"),
+            ("probe", files / "p.ply"),
+            ("calibration", files / "c.json"),
+        ):
+            session.add_input(file, kind)
+    (problem,) = open_files(sorted_files([tmp_path / "s"])).problems
+    assert problem == "s: bad.mcap: not an MCAP file: choose a recording or a ROS 2 bag."
+    assert problem.translated(lambda text: text.replace("{0}: not an", "{0}: no")).startswith(
+        "s: bad.mcap: no MCAP"
+    )
 
 
 def saved_mesh(qtbot, viewer, file, monkeypatch):

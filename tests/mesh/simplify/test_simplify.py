@@ -242,6 +242,8 @@ def test_what_is_not_sound_is_not_used(monkeypatch: pytest.MonkeyPatch, spoil: o
     assert made.count == 600
     assert made.probe.health.watertight
     assert made.sentences[0].startswith("600 facets, more than the requested 500, because")
+    other = made.sentences[0].translated(lambda text: text.replace("the requested {0}", "all {0}"))
+    assert other.startswith("600 facets, more than all 500, because")
     assert "That took 3 attempts" in made.sentences[1]
     assert why in made.steps[0]
 

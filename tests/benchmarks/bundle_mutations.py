@@ -195,12 +195,10 @@ def _extra(content: Any, rng: np.random.Generator) -> None:
     _at(content, path)["extra"] = 0
 
 
-# What physics or another part of the bundle tells: (path, factor).
+# What physics or another part of the bundle tells: (path, factor). Nothing tells a bias that is sealed anew.
 _UNITS: tuple[tuple[tuple[Any, ...], float], ...] = (
     (("gravity", "gravity_W_N"), 1e3),
     (("gravity", "gravity_W_N"), 1e-3),
-    (("gravity", "force_bias_N"), 1e3),
-    (("gravity", "torque_bias_Nm"), 1e3),
     (("gravity", "centre_of_mass_S_m"), 1e3),
     (("gravity", "centre_of_mass_S_m"), 1e-3),
     (("noise", "force_N"), 1e3),

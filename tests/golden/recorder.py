@@ -103,6 +103,8 @@ def plain(data: bytes, name: str = "") -> bytes:
     if name.endswith(".html"):
         words = re.sub(rb"(?s)<(style|script|svg)\b.*?</\1>|<[^>]*>", b"\n", data)
         data = re.sub(rb"\s*\n\s*", b"\n", html.unescape(words.decode()).encode())
+    if b"\n speed " in data:  # a table is as wide as the speed in it
+        data = re.sub(rb"(?m)(?<=\S) {2,}", b"  ", data)
     return _SPEEDS.sub(lambda found: found[1] + b"0" if found[1] else found[2] and found[2] + b"...", data)
 
 

@@ -57,7 +57,9 @@ class ExportSettingsPanel(QWidget):
         self.rows = rows_of(ExportKnobs)
         for option, each in self.rows.items():
             each.changed.connect(lambda _, option=option, row=each: self._say(option, row.value, row.name))
-        self.smooth = self._switch(self.tr("Filter wrench"), self.tr("Kalman filter: less noise, slight lag"))
+        self.smooth = self._switch(
+            self.tr("Filter wrench"), self.tr("Kalman filter: less noise; follows changes at once")
+        )
         self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
         self.region_only = self._switch(
             self.tr("Accept contacts on regions only"),

@@ -964,8 +964,8 @@
         <translation>Kraft/Moment filtern</translation>
     </message>
     <message>
-        <source>Kalman filter: less noise, slight lag</source>
-        <translation>Kalman-Filter: weniger Rauschen, etwas Verzögerung</translation>
+        <source>Kalman filter: less noise; follows changes at once</source>
+        <translation>Kalman-Filter: weniger Rauschen; folgt Änderungen sofort</translation>
     </message>
     <message>
         <source>Accept contacts on regions only</source>
@@ -5983,6 +5983,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Weniger Facetten würden die Grenze überschreiten: Die Oberfläche blieb unverändert.</translation>
     </message>
     <message>
+        <source>Filter the wrench with the paper&apos;s fixed values: contacts then lag by 68 ms at 200 Hz, and a release is noticed up to 0.2 s late.</source>
+        <translation>Kraft und Drehmoment mit den festen Werten der Veröffentlichung filtern: Kontakte hinken dann bei 200 Hz um 68 ms nach, und ein Loslassen wird bis zu 0,2 s zu spät bemerkt.</translation>
+    </message>
+    <message>
         <source>Finer in regions</source>
         <translation>Feiner in Regionen</translation>
     </message>
@@ -8637,6 +8641,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>a film of {0} s shows no motion: widen the time window, or save a picture.</source>
         <translation>Ein Film von {0} s zeigt nichts, was sich bewegt: Vergrößern Sie das Zeitfenster, oder sichern Sie ein Bild.</translation>
+    </message>
+    <message>
+        <source>a filter that follows changes</source>
+        <translation>ein Filter, das Änderungen folgt</translation>
     </message>
     <message>
         <source>a force in N</source>

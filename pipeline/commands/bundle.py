@@ -320,6 +320,7 @@ def _say_zero(config: RuntimeConfig) -> None:
 
 def _say_doubts(config: RuntimeConfig) -> None:
     from contactbench.pipeline.config.runtime.checks import unchecked
+    from contactbench.pipeline.config.runtime.values import kalman_of
     from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
@@ -333,6 +334,14 @@ def _say_doubts(config: RuntimeConfig) -> None:
         say(
             "NO SATURATION LIMITS: a reading at the end of the sensor's range looks like a touch:"
             " give --saturation, or pass NaN for readings the sensor flags.",
+            "yellow",
+        )
+    wrench = model.filters.wrench
+    if wrench is not None and wrench.kind == "kalman":
+        lag = 1e3 * kalman_of(wrench).figures().delay
+        say(
+            f"THE PAPER'S FILTER: contacts lag by {lag:.0f} ms, and are accepted for some time after a release:"
+            " export again without --paper-filter.",
             "yellow",
         )
     if model.frames.quaternion_ES is None:

@@ -5,12 +5,10 @@ from math import asin, inf, log1p, pi, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.linalg.lapack import dgttrs
 
+from contactbench.pipeline import kernel
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.filtering.rows import Bools, Floats, alike, as_row, as_rows, positive, time_steps
-
-_BLOCK = 16384  # rows at a time: a whole recording needs no second copy, and a block stays in the cache
+from contactbench.pipeline.filtering.rows import Floats, as_row, as_rows, positive, time_steps
 
 
 @dataclass(frozen=True)
@@ -77,6 +75,11 @@ class KalmanFilter:
 
     The first sample of a channel becomes its state, with variance R.
 
+    Fixed, it lags by `KalmanFigures.delay`. With `sigma` it follows changes: it starts anew with a sample where the
+    mean of the innovations, weighted as the state weighs samples, is beyond chance. One sample alone, however far off,
+    is not enough, and what turns back and back again within a moment is taken for noise. At rest it is the fixed one.
+    A row is then taken whole or, with a number missing, lost whole.
+
     Parameters
     ----------
     rate : float
@@ -88,6 +91,8 @@ class KalmanFilter:
         Rate to which `q` and `r` belong, Hz. Default 200, the paper's.
     per_sample : bool
         Repeat the paper's Q and R at any rate.
+    sigma : (6,) array_like, optional
+        Standard deviation of the noise of one sample, N and N·m: follow changes.
 
     Raises
     ------
@@ -103,13 +108,20 @@ class KalmanFilter:
         r: float = 2e-4,
         tuned_rate: float = 200.0,
         per_sample: bool = False,
+        sigma: ArrayLike | None = None,
     ) -> None:
         self.rate = positive("KalmanFilter.rate", rate)
         self.q = positive("KalmanFilter.q", q)
         self.r = positive("KalmanFilter.r", r)
         self.tuned_rate = positive("KalmanFilter.tuned_rate", tuned_rate)
         self.per_sample = per_sample
+        self.sigma = sigma
         self._q, self._r = self.figures().q, self.figures().r
+        self._following: kernel.WrenchKalman | None = None
+        if sigma is not None:
+            each = [positive("KalmanFilter.sigma", value) for value in as_row("KalmanFilter.sigma", sigma)]
+            numbers = (self.rate, self.q, self.r, self.tuned_rate, per_sample, *each)
+            self._following = kernel.WrenchKalman(np.array(numbers, dtype=np.float64))
         self.reset()
 
     def figures(self, rate: float | None = None) -> KalmanFigures:
@@ -156,6 +168,8 @@ class KalmanFilter:
         InputError
             `state` is not a row of finite numbers.
         """
+        if self._following is not None:
+            self._following.reset()
         if state is None:
             self._state: Floats | None = None
             self._variance = np.zeros(0)
@@ -164,6 +178,8 @@ class KalmanFilter:
         if not np.all(np.isfinite(row)):
             raise InputError(f"KalmanFilter.reset: the state must be finite, not {arg(row)}; or give none")
         self._state, self._variance = row.copy(), np.full(row.shape, self._r)
+        if self._following is not None:
+            self._following.update(row[None], np.array([1 / self.rate]))
 
     def update(self, sample: ArrayLike, dt: float | None = None) -> Floats:
         """Take one sample (c,) that came `dt` s after the one before (default 1 / rate); return the answer (c,).
@@ -187,7 +203,7 @@ class KalmanFilter:
             As for `update`.
         """
         rows = as_rows("KalmanFilter.update_block", samples)
-        added = self._added(rows.shape[0], dt)
+        steps = self._steps(rows.shape[0], dt)
         if self._state is None:
             # A channel without a sample yet has infinite variance: its first gain is then 1, and 0 is no guess.
             self._state, self._variance = np.zeros(rows.shape[1]), np.full(rows.shape[1], inf)
@@ -196,10 +212,12 @@ class KalmanFilter:
                 f"KalmanFilter: {arg(rows.shape[1])} channels after {arg(self._state.size)}; call reset()"
                 " for another stream"
             )
-        answers = np.empty_like(rows)
-        for start in range(0, rows.shape[0], _BLOCK):
-            block = slice(start, start + _BLOCK)
-            answers[block] = self._advance(self._state, rows[block], added[block])
+        if self._following is None:
+            added = np.full(len(steps), self.q) if self.per_sample else self.q * (steps * self.tuned_rate)
+            return kernel.kalman(rows, added, self._r, self._state, self._variance)
+        answers = self._following.update(rows, steps)
+        if len(answers):
+            self._state, self._variance[:] = answers[-1], self._following.variance
         return answers
 
     def filter(self, samples: ArrayLike, times: ArrayLike | None = None) -> Floats:
@@ -223,18 +241,15 @@ class KalmanFilter:
             A shape is wrong, or the times do not increase.
         """
         rows = as_rows("KalmanFilter.filter", samples)
-        fresh = KalmanFilter(
-            self.rate, q=self.q, r=self.r, tuned_rate=self.tuned_rate, per_sample=self.per_sample
-        )
+        settings = {"q": self.q, "r": self.r, "tuned_rate": self.tuned_rate}
+        fresh = KalmanFilter(self.rate, per_sample=self.per_sample, sigma=self.sigma, **settings)
         return fresh.update_block(
             rows, None if times is None else time_steps(times, rows.shape[0], self.rate)
         )
 
-    def _added(self, count: int, dt: float | ArrayLike | None) -> Floats:
-        """Return the variance to add before each row, (count,)."""
-        if dt is None:
-            return np.full(count, self._q)
-        steps = np.asarray(dt, dtype=np.float64)
+    def _steps(self, count: int, dt: float | ArrayLike | None) -> Floats:
+        """Return the time before each row, s, (count,)."""
+        steps = np.asarray(1 / self.rate if dt is None else dt, dtype=np.float64)
         if steps.shape not in {(), (count,)}:
             raise InputError(
                 f"KalmanFilter: dt has shape {arg(steps.shape)}; give one number or {arg(count)}"
@@ -243,58 +258,4 @@ class KalmanFilter:
             raise InputError(
                 "KalmanFilter: every dt must be positive and finite (seconds); is a time repeated?"
             )
-        added = np.empty(count)
-        added[:] = self._q if self.per_sample else self.q * (steps * self.tuned_rate)
-        return added
-
-    def _advance(self, state: Floats, rows: Floats, added: Floats) -> Floats:
-        missing = ~np.isfinite(rows)
-        answers = np.empty_like(rows)
-        for columns, lost in alike(missing, self._variance.tolist()):
-            before = float(self._variance[columns][0])
-            gains, after = _gains(before, self._r, added, lost)
-            seen = np.where(lost[:, None], 0.0, rows[:, columns]) if lost.any() else rows[:, columns]
-            blended = _blend(state[columns], seen, gains)
-            state[columns] = blended[-1]
-            self._variance[columns] = after
-            answers[:, columns] = blended
-            if before == inf and lost[0]:
-                answers[: len(lost) if lost.all() else int(np.argmin(lost)), columns] = np.nan
-        return answers
-
-
-def _gains(variance: float, r: float, added: Floats, lost: Bools) -> tuple[Floats, float]:
-    """Return the gain of every row, 0 for a lost one, and the variance after the last."""
-    gains = np.zeros(added.size)
-    settles = not lost.any() and bool(np.all(added == added[:1]))
-    for i, (q, gone) in enumerate(zip(added.tolist(), lost.tolist(), strict=True)):
-        predicted = variance + q
-        if gone:
-            variance = predicted
-            continue
-        # Written so, each rounded operation is monotone in the variance: it falls or rises until it stands
-        # still to the last bit and cannot cycle, and the rest of a regular recording needs no loop.
-        gains[i] = gain = 1 / (1 + r / predicted)
-        if settles and gain * r == variance:
-            gains[i:] = gain
-            break
-        variance = gain * r
-    return gains, variance
-
-
-def _blend(state: Floats, rows: Floats, gains: Floats) -> Floats:
-    """Return x_i = K_i z_i + (1 - K_i) x_(i-1) for rows z (n, c), gains K (n,) and x_(-1) the state (c,).
-
-    That is a bidiagonal system of equations; LAPACK's solver for a factored tridiagonal one runs the
-    recurrence in compiled code with a gain that changes, which lfilter cannot. One sample goes the same way
-    as a million, so live and offline agree even where a compiler fuses multiplication and addition.
-    """
-    size = len(rows) + 2  # one idle row in front: the wrapper cannot take a system of two
-    lower = np.zeros(size - 1)
-    np.subtract(gains, 1, out=lower[1:])
-    right = np.zeros((size, state.size), order="F")
-    right[1] = state
-    np.multiply(rows, gains[:, None], out=right[2:])
-    upper, pivots = np.zeros(size - 1), np.arange(1, size + 1, dtype=np.int32)
-    solved: Floats = dgttrs(lower, np.ones(size), upper, upper[1:], pivots, right, overwrite_b=True)[0]
-    return solved[2:]
+        return np.broadcast_to(steps, (count,)).copy()

@@ -39,11 +39,13 @@ RuntimeContact = _module.RuntimeContact
 Scan = _module.Scan
 Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
+WrenchKalman = _module.WrenchKalman
 Zero = _module.Zero
 ZeroWatch = _module.ZeroWatch
 collapse_edges = _module.collapse_edges
 crossings = _module.crossings
 frozen = _module.frozen
+kalman = _module.kalman
 plain_rows = _module.plain_rows
 poses_at = _module.poses_at
 
@@ -62,12 +64,14 @@ __all__ = [
     "Scan",
     "Solver",
     "SurfaceIndex",
+    "WrenchKalman",
     "Zero",
     "ZeroWatch",
     "collapse_edges",
     "compiler",
     "crossings",
     "frozen",
+    "kalman",
     "plain_rows",
     "poses_at",
     "variant",

@@ -20,12 +20,14 @@ __all__ = [
     "Scan",
     "Solver",
     "SurfaceIndex",
+    "WrenchKalman",
     "Zero",
     "ZeroWatch",
     "collapse_edges",
     "compiler",
     "crossings",
     "frozen",
+    "kalman",
     "plain_rows",
     "poses_at",
     "variant",
@@ -272,6 +274,21 @@ class RuntimeBatch:
     def runners_up(self) -> NDArray[np.float64]: ...
     @property
     def seconds(self) -> NDArray[np.float64]: ...
+
+class WrenchKalman:
+    def __init__(self, kalman: NDArray[np.float64]) -> None: ...
+    def reset(self) -> None: ...
+    @property
+    def variance(self) -> float: ...
+    def update(self, rows: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+def kalman(
+    rows: NDArray[np.float64],
+    added: NDArray[np.float64],
+    r: float,
+    state: NDArray[np.float64],
+    variance: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
 
 class Runtime:
     def __init__(

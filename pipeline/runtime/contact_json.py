@@ -32,7 +32,10 @@ def contact_schema() -> bytes:
             "items": text,
             "description": "What is wrong with sample, sensor or pose; empty: nothing.",
         },
-        "latency_s": _numbers("How old the reading was when the contact was known, s.", array=False),
+        "latency_s": _numbers(
+            "How old what the contact rests on was when it was known, the filter's lag included, s.",
+            array=False,
+        ),
         "pose_age_s": _numbers("How much older than the sample the last pose before it is, s.", array=False),
         "point_S_m": _numbers("In the sensor's frame, m; null: none."),
         "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),

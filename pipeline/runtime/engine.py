@@ -34,8 +34,8 @@ class Engine:
     hold : float, optional
         As for `make_runtime`; infinite for a pose that stands still.
     clock : callable, optional
-        The present on the samples' clock, s: a contact's latency then runs until it is found. Left out, it is the
-        sample's own, arrival less time.
+        The present on the samples' clock, s: a contact's latency then runs until it is found. Left out, it ends with
+        the sample's arrival.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class Engine:
         reading = np.array((*sample.force, *sample.torque))
         arrival = sample.time if sample.arrival is None else sample.arrival
         contact = self._runtime.locate(reading, sample.time, arrival, int(sample.status))
-        latency = contact.latency if self._clock is None else self._clock() - sample.time
+        latency = contact.latency if self._clock is None else contact.latency + (self._clock() - arrival)
         on = None if contact.face is None else MARKS[self._marks[contact.face]]
         return Answer(contact, latency, self._runtime.zero(), on)
 

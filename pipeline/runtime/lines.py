@@ -32,7 +32,8 @@ class Answer:
     ----------
     contact : kernel.RuntimeContact
     latency : float
-        How old the reading was when this was known, s; NaN: not known.
+        How old what the contact rests on was when this was known, the lag of the wrench filter included, s; NaN: not
+        known.
     zero : kernel.Zero
         What is known of the sensor's zero at this sample.
     on : str, optional

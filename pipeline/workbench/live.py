@@ -34,6 +34,7 @@ _USUAL_HZ = 200.0
 _FIRST = 1024  # rows looked at first
 _SLICE = 4096  # rows compensated at a time under the lock: a millisecond, for a stream waits for it
 _CONTACTS = 4096  # at 30 a second, two minutes of them
+_NOISE = (0.05, 0.05, 0.05, 0.002, 0.002, 0.002)  # N and N·m, of a reading
 _GAP_S = 1.0  # after a longer silence the filter begins anew: what was before says nothing
 _NO_TOUCH = (Reason.LOW_FORCE, Reason.STALE, Reason.NOT_FINITE)
 _FORGET_S = 0.25  # a contact that was not looked at for longer is not followed
@@ -155,7 +156,7 @@ class LiveMoment:
     """
 
     def __init__(self, rate: float) -> None:
-        self._filter = KalmanFilter(rate)
+        self._filter = KalmanFilter(rate, sigma=_NOISE)
         self._time = -np.inf
         self._raw: NDArray[np.float64] | None = None
         self._R_WS = np.full((3, 3), np.nan)

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 CONFIG = example(clamped=True)
-STALE, NOT_FINITE, SATURATED, NOT_A_ROTATION = 8, 9, 7, 10
+FIXED = np.append(kernel_arguments(CONFIG)["kalman"][:5], np.zeros(6))  # the paper's filter
+LOW_FORCE, STALE, NOT_FINITE, SATURATED, NOT_A_ROTATION = 3, 8, 9, 7, 10
+SIGMA = np.array([0.05] * 3 + [0.002] * 3)  # of a reading, as CONFIG has it
 
 
 def runtime(**changes: Any) -> kernel.Runtime:
@@ -31,7 +33,7 @@ class Reference:
 
     def __init__(self) -> None:
         a = kernel_arguments(CONFIG)
-        rate, q, r, tuned, per_sample = a["kalman"].tolist()
+        rate, q, r, tuned, per_sample = FIXED[:5].tolist()
         self.kalman = KalmanFilter(rate, q=q, r=r, tuned_rate=tuned, per_sample=bool(per_sample))
         location = CONFIG.model.filters.location
         assert location is not None
@@ -96,7 +98,7 @@ def test_agrees_with_filters_and_solver_one_after_the_other() -> None:
     readings, R, times = stream(CONFIG, 12_000)
     with_surprises(CONFIG, readings)
     with_faults(readings, R, times)
-    live, reference = runtime(), Reference()
+    live, reference = runtime(kalman=FIXED), Reference()
     reasons = set()
     for i in range(len(times)):
         told = live.update(readings[i], R[i], times[i])
@@ -226,8 +228,77 @@ def test_arguments_without_sense_are_refused() -> None:
     with pytest.raises(ValueError, match="gravity model is not finite"):
         runtime(gravity=np.full(12, np.nan))
     with pytest.raises(ValueError, match="must be positive"):
-        runtime(kalman=np.zeros(5))
+        runtime(kalman=np.zeros(11))
     with pytest.raises(ValueError, match="a0 other than 1"):
         runtime(sections=np.zeros((1, 6)))
     with pytest.raises(ValueError, match="one row per sample"):
         runtime().update_batch(np.zeros((2, 6)), np.zeros((1, 3, 3)), np.zeros(2))
+
+
+# ---- now, not a while ago ------------------------------------------------------------------------
+
+
+def presses(rate: float, seed: int, noise: float, ramp: float) -> tuple[NDArray[Any], ...]:
+    """Return readings, R_WS, times and forces (n,): twelve touches of 0.7 to 10 N for 0.3 s, with rests."""
+    rng = np.random.default_rng(seed)
+    probe, rest = CONFIG.probe, np.zeros((round(0.3 * rate), 6))
+    up = np.clip((np.arange(len(rest)) + 1) / max(ramp * rate, 1), 0, 1)[:, None]
+    rows = [rest]
+    for facet in rng.choice(np.flatnonzero(probe.region == 1), 12):
+        force = -rng.choice([0.7, rng.uniform(2.2, 10)]) * probe.normals[facet]
+        torque = np.cross(probe.vertices[probe.faces[facet]].mean(axis=0), force)
+        rows += [np.minimum(up, up[::-1]) * [*force, *torque], rest]
+    true = np.concatenate(rows)
+    R = np.tile(np.eye(3), (len(true), 1, 1))
+    readings = true + CONFIG.gravity.predict(R) + rng.normal(0, noise * SIGMA, true.shape)
+    return readings, R, np.arange(len(true)) / rate, np.linalg.norm(true[:, :3], axis=1)
+
+
+def since(begins: NDArray[Any], times: NDArray[Any]) -> NDArray[Any]:
+    """Return for how long it has been so, s (n,)."""
+    return times - times[np.maximum.accumulate(np.where(begins, 0, np.arange(len(times))))]
+
+
+def at(rate: float) -> kernel.Runtime:
+    return kernel.Runtime(**kernel_arguments(example(clamped=True, rate=rate)))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    ("rate", "noise", "ramp"),
+    [(100.0, 1, 0), (200.0, 1, 0), (1000.0, 1, 0), (200.0, 0.3, 0), (200.0, 2, 0), (200.0, 1, 0.06)],
+)
+def test_releases_and_touches_are_told_within_25_ms(
+    rate: float, noise: float, ramp: float, seed: int
+) -> None:
+    readings, R, times, forces = presses(rate, seed, noise, ramp)
+    told = at(rate).update_batch(readings, R, times)
+    accepted = told.accepted.astype(bool)
+    assert not accepted[(forces < 0.3) & (since(forces < 0.3, times) > 0.025)].any()
+    pressed = (forces > 2) & (since(forces > 0.3, times) > 0.025)
+    assert accepted[pressed].mean() >= 0.995
+    following = KalmanFilter(rate, sigma=SIGMA).filter(CONFIG.gravity.compensate(R, readings), times)
+    np.testing.assert_allclose(told.wrenches, following, rtol=0, atol=1e-9)
+
+
+def test_an_odd_reading_moves_nothing_and_an_empty_one_ends_a_contact_for_itself_alone() -> None:
+    readings, R, times, forces = presses(200.0, 0, 1, 0)
+    held = np.flatnonzero(forces > 2)[40]
+    plain = at(200.0).update_batch(readings, R, times).wrenches
+    around = slice(held - 9, held + 9)
+    assert forces[around].min() > 2
+    readings[held] += [30, 30, 30, 1, 1, 1]
+    odd = at(200.0).update_batch(readings, R, times)
+    assert odd.accepted[around].all()
+    assert abs(odd.wrenches - plain)[around].max() < 0.1
+    readings[held] = CONFIG.gravity.predict(R[:1])[0]
+    empty = at(200.0).update_batch(readings, R, times)
+    assert np.flatnonzero(empty.reasons[around] == LOW_FORCE).tolist() == [9]
+
+
+def test_a_point_is_less_sure_right_after_a_change() -> None:
+    readings, R, times, forces = presses(200.0, 0, 1, 0)
+    begin = int(np.argmax(forces > 2))
+    covariances = at(200.0).update_batch(readings, R, times).covariances[[begin + 1, begin + 4, begin + 50]]
+    sigmas = np.sqrt(np.trace(covariances, axis1=1, axis2=2))
+    assert sigmas[0] > 1.2 * sigmas[1] > 1.3 * sigmas[2]

@@ -360,7 +360,7 @@ def test_updates_allocate_nothing(prefix: Path, bundle: tuple[Path, RuntimeConfi
         r", 0 in 20000 updates; of these (\d+) .* (\d+) implausible, (\d+) with two", done.stdout
     )
     assert counts is not None, done.stdout
-    assert all(int(count) > 100 for count in counts.groups())
+    assert all(int(count) > 10 for count in counts.groups())
 
 
 def test_the_example_prints_what_the_runtime_says(prefix: Path, bundle: tuple[Path, RuntimeConfig]) -> None:

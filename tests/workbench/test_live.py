@@ -193,7 +193,8 @@ def test_reading_is_the_filter_of_all_samples(live):
     times, raw, _ = live.history(1e9)
     reading = live.reading()
     assert reading.time == times[-1]
-    assert reading.raw == pytest.approx(KalmanFilter(200.0).filter(raw, times)[-1], abs=1e-6)
+    following = KalmanFilter(200.0, sigma=[0.05] * 3 + [0.002] * 3)
+    assert reading.raw == pytest.approx(following.filter(raw, times)[-1], abs=1e-6)
     assert np.isnan(reading.compensated).all()
     assert reading.contact is None
 

@@ -86,6 +86,7 @@ class Filters:
 
     wrench: KalmanFilter | None
     location: LowPass | None = None
+    adaptive: bool = True  # The one of the wrench follows changes; otherwise it is the paper's fixed one
 
 
 def build_config(
@@ -183,7 +184,7 @@ def build_config(
             frozen_probability=FROZEN_CHANCE,
             motion=MotionPart(window_s=0.15, gyration_m=0.035),
         ),
-        "filters": {"wrench": _kalman(filters.wrench), "location": _low_pass(filters.location)},
+        "filters": {"wrench": _kalman(filters), "location": _low_pass(filters.location)},
         "gates": gates.stored(),
         "controller": controller,
         "limits": limits,
@@ -351,11 +352,12 @@ def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
     }
 
 
-def _kalman(wrench_filter: KalmanFilter | None) -> dict[str, Any] | None:
+def _kalman(filters: Filters) -> dict[str, Any] | None:
+    wrench_filter = filters.wrench
     if wrench_filter is None:
         return None
     return {
-        "kind": "kalman",
+        "kind": "adaptive" if filters.adaptive else "kalman",
         "rate_Hz": wrench_filter.rate,
         "q": wrench_filter.q,
         "r": wrench_filter.r,

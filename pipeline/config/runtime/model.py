@@ -163,11 +163,12 @@ class KalmanPart(ConfigPart):
     """
     As KalmanFilter: each channel a random walk seen through white noise.
 
-    ``per_sample`` adds Q and R per sample regardless of time; otherwise both belong to ``tuned_rate_Hz`` and scale with
-    time.
+    ``kalman`` is the paper's fixed one, which lags; ``adaptive`` starts anew where a change is beyond the noise of a
+    reading. ``per_sample`` adds Q and R per sample regardless of time; otherwise both belong to ``tuned_rate_Hz`` and
+    scale with time.
     """
 
-    kind: Literal["kalman"]
+    kind: Literal["kalman", "adaptive"]
     rate_Hz: _Positive
     q: _Positive
     r: _Positive

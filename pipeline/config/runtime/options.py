@@ -102,6 +102,7 @@ class ExportOptions(ExportKnobs):
         return self._filters or Filters(
             None if self.no_filter else KalmanFilter(rate),
             None if self.cutoff is None else LowPass(self.cutoff, rate),
+            adaptive=not self.paper_filter,
         )
 
     @property

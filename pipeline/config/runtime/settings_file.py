@@ -131,4 +131,5 @@ def _filters(given: _Filters | None) -> Filters | None:
     return Filters(
         None if given.wrench is None else kalman_of(given.wrench),
         None if location is None else LowPass(location.cutoff_Hz, location.rate_Hz, location.order),
+        adaptive=given.wrench is None or given.wrench.kind == "adaptive",
     )

@@ -124,7 +124,8 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
     kalman = None
     if wrench is not None:
         values = (wrench.rate_Hz, wrench.q, wrench.r, wrench.tuned_rate_Hz, wrench.per_sample)
-        kalman = np.array(values, dtype=np.float64)
+        sigma = (*model.noise.force_N, *model.noise.torque_Nm) if wrench.kind == "adaptive" else (0.0,) * 6
+        kalman = np.array((*values, *sigma), dtype=np.float64)
     streams = model.streams
     motion = streams.motion
     return {

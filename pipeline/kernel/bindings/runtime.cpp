@@ -21,7 +21,9 @@ using Doubles = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::devic
 using Vector12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
 using Matrix12 = nb::ndarray<const double, nb::shape<12, 12>, nb::c_contig, nb::device::cpu>;
 using Places = nb::ndarray<const double, nb::shape<6, 3>, nb::c_contig, nb::device::cpu>;
-using Vector5 = nb::ndarray<const double, nb::shape<5>, nb::c_contig, nb::device::cpu>;
+using Rows = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Changing = nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Vector11 = nb::ndarray<const double, nb::shape<11>, nb::c_contig, nb::device::cpu>;
 
 struct PyRuntime {
     Runtime runtime;
@@ -122,17 +124,18 @@ nb::object poses_at(Doubles moments, Rotations R, Rows3 p, Doubles times, double
     return nb::make_tuple(make_array(std::move(turned), {m, 3, 3}), make_array(std::move(placed), {m, 3}));
 }
 
-// `kalman`: rate, q, r, tuned rate, 1 for per sample.
+// `kalman`: rate, q, r, tuned rate, 1 for per sample; then of an adaptive one the noise of a reading, else zeros.
 void set_kalman(RuntimeSettings& s, nb::object kalman) {
     if (kalman.is_none()) return;
-    Vector5 v;
-    if (!nb::try_cast(kalman, v)) throw nb::type_error("kalman must be five float64 numbers or None");
-    double k[5];
+    Vector11 v;
+    if (!nb::try_cast(kalman, v)) throw nb::type_error("kalman must be eleven float64 numbers or None");
+    double k[11];
     copy_finite(v, k, "kalman");
     for (int i = 0; i < 4; ++i)
         if (!(k[i] > 0.0)) throw std::invalid_argument("kalman: rate, q, r and tuned rate must be positive");
     s.filter_wrench = true;
-    s.kalman = {k[0], k[1], k[2], k[3], k[4] != 0.0};
+    s.kalman = {k[0], k[1], k[2], k[3], k[4] != 0.0, std::all_of(k + 5, k + 11, [](double x) { return x > 0.0; })};
+    std::copy(k + 5, k + 11, s.kalman.sigma);
 }
 
 GravityLoad to_load(const Vector12& gravity) {
@@ -240,7 +243,7 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("health", [](const C& c) { return c.health; }, "Health word; 0: nothing is wrong.")
         .def_prop_ro("pose_age", [](const C& c) { return c.pose_age; },
                      "s: how much older than the sample the last pose before it is; NaN where there is none.")
-        .def_prop_ro("latency", [](const C& c) { return c.latency; }, "s: arrival less time; NaN where not known.")
+        .def_prop_ro("latency", [](const C& c) { return c.latency; }, "s: how old what it rests on was at the arrival; NaN where not known.")
         .def_prop_ro("time", [](const C& c) { return c.time; }, "s, as given.")
         .def_prop_ro("point", [](const C& c) { return point_or_none(c.point); }, "(3,) S, m, or None.")
         .def_prop_ro("normal", [](const C& c) { return point_or_none(c.normal); }, "(3,) S, outward, or None.")
@@ -331,9 +334,47 @@ void bind_zero(nb::module_& m) {
         .def("at", &ZeroWatch::at, nb::arg("now"), "What is known of the zero; `now` in s of the samples' clock.");
 }
 
+void bind_filters(nb::module_& m) {
+    nb::class_<WrenchKalman>(m, "WrenchKalman", "The wrench filter of a Runtime; one stream.")
+        .def("__init__", [](WrenchKalman* self, nb::object kalman) {
+            RuntimeSettings s;
+            set_kalman(s, std::move(kalman));
+            new (self) WrenchKalman(s.kalman);
+        }, nb::arg("kalman"))
+        .def("reset", &WrenchKalman::reset)
+        .def_prop_ro("variance", &WrenchKalman::variance)
+        .def("update", [](WrenchKalman& self, Rows6 rows, Doubles steps) {
+            std::vector<double> out(rows.size(), detail::unknown);
+            for (std::size_t i = 0; i < std::min(rows.shape(0), steps.shape(0)); ++i) {
+                const double* row = rows.data() + 6 * i;
+                if (std::all_of(row, row + 6, [](double x) { return std::isfinite(x); })) self.update(row, steps.data()[i]);
+                else self.skip(steps.data()[i]);
+                if (self.started()) std::copy(self.state(), self.state() + 6, out.data() + 6 * i);
+            }
+            return make_array(std::move(out), {rows.shape(0), 6});
+        }, nb::arg("rows"), nb::arg("steps"), "Rows (n, 6), each so many seconds after the one before; (n, 6).");
+    m.def("kalman", [](Rows rows, Doubles added, double r, Changing state, Changing variance) {
+        const std::size_t count = rows.shape(1);
+        std::vector<double> out(rows.size(), detail::unknown);
+        if (state.size() != count || variance.size() != count || added.size() != rows.shape(0))
+            throw std::invalid_argument("one number per row or channel");
+        double *x = state.data(), *v = variance.data();
+        for (std::size_t at = 0; at < rows.size(); ++at) {
+            const std::size_t c = at % count;
+            const double z = rows.data()[at], before = v[c] + added.data()[at / count], gain = 1 / (1 + r / before);
+            v[c] = std::isfinite(z) ? gain * r : before;
+            if (std::isfinite(z)) x[c] = blend(x[c], z, gain);
+            if (v[c] < HUGE_VAL) out[at] = x[c];
+        }
+        return make_array(std::move(out), {rows.shape(0), count});
+    }, nb::arg("rows"), nb::arg("added"), nb::arg("r"), nb::arg("state"), nb::arg("variance"),
+       "Rows (n, c) through a fixed filter, each channel on its own; (n, c). Changes state and variance (c,).");
+}
+
 }  // namespace
 
 void bind_runtime(nb::module_& m) {
+    bind_filters(m);
     bind_contact_class(m);
     bind_batch_class(m);
     bind_zero(m);

@@ -359,12 +359,21 @@ class FrozenTest:
 class Kalman:
     """(11)."""
 
-    def __init__(self, part: dict[str, Any] | None) -> None:
-        self.part = part
+    def __init__(self, part: dict[str, Any] | None, sigma: Array) -> None:
+        self.part, self.sigma = part, sigma
+        self.follows = part is not None and part["kind"] == "adaptive"
+        if part is not None:
+            tuned = part["rate_Hz"] / part["tuned_rate_Hz"]
+            self.R = part["r"] if part["per_sample"] else part["r"] * tuned
+            Q = self._q(1 / part["rate_Hz"])
+            P = Q / 2 + np.sqrt(Q * (Q / 4 + self.R))
+            self.settled = P / (P + 2 * self.R)
         self.reset()
 
     def reset(self) -> None:
-        self.v, self.x = np.inf, np.zeros(6)
+        self.v, self.x, self.L, self.age = np.inf, np.zeros(6), 1.0, 0.0
+        self.m, self.j, self.lag = np.zeros(6), np.zeros(6), np.zeros(6)
+        self.c, self.back = 1.0, np.inf
 
     def _q(self, dt: float) -> float:
         assert self.part is not None
@@ -374,18 +383,45 @@ class Kalman:
     def take(self, z: Array, dt: float) -> Array:
         if self.part is None:
             return z
-        R = (
-            self.part["r"]
-            if self.part["per_sample"]
-            else self.part["r"] * self.part["rate_Hz"] / self.part["tuned_rate_Hz"]
-        )
-        G = 1.0 if np.isinf(self.v) else 1 / (1 + R / (self.v + self._q(dt)))
-        self.x, self.v = G * z + (1 - G) * self.x, G * R
+        G = 1.0
+        if np.isfinite(self.v):
+            before = self.v + self._q(dt)
+            G = 1 / (1 + self.R / before)
+            if self.follows:
+                z, G = self._follow(z, dt, float(np.sqrt(self.c * (1 + before / self.R))), G)
+        self.x, self.v = G * z + (1 - G) * self.x, G * self.R
+        self.L, self.age = G**2 + (1 - G) ** 2 * self.L, (1 - G) * (self.age + dt)
         return self.x
 
+    def _follow(self, z: Array, dt: float, d: float, G: float) -> tuple[Array, float]:
+        e = (z - self.x) / (self.sigma * d)
+        L = G**2 + (1 - G) ** 2 * self.L
+        p = min(1.0, 1.2 * np.sqrt(24 * L) / ((2 - G) * G * max(np.linalg.norm(e), 1e-300)))
+        self.m += G * (p * e - self.m)
+        self.c, self.back = 1 + (self.c - 1) / (1 + dt / 10), self.back + dt
+        size = self.m @ self.m
+        self.lag = 2 * (1 - G) * d * self.sigma * self.m if size > 6 * L else np.zeros(6)
+        if size <= 24 * L:
+            return self.x + p * (z - self.x), G
+        if self.m @ self.j < 0:
+            self.c = min(4 * self.c, 1e4) if self.back < 0.15 else self.c
+            self.back = 0.0
+        self.j, self.m, self.lag = self.m, np.zeros(6), np.zeros(6)
+        return z, 1.0
+
     def skip(self, dt: float) -> None:
+        self.age += dt
         if self.part is not None and np.isfinite(self.v):
             self.v += self._q(dt)
+
+    def doubt(self) -> Array | float:
+        """What comes on top of the wrench's covariance."""
+        if not self.follows or not (self.lag.any() or 1.1 * self.settled < self.L):
+            return 0.0
+        return max(self.L - self.settled, 0.0) * np.diag(self.sigma**2) + np.outer(self.lag, self.lag)
+
+    def released(self, F: Array, min_force: float) -> bool:
+        return self.follows and np.linalg.norm(F) + 3 * self.sigma[:3].max() < min_force
 
 
 class LowPass:
@@ -450,7 +486,10 @@ class Reference:
             w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
             X = skew(np.array(v))
             self.R_ES = np.eye(3) + 2 * w * X + 2 * X @ X
-        self.kalman = Kalman(about["filters"]["wrench"])
+        noise = about["noise"]
+        self.kalman = Kalman(
+            about["filters"]["wrench"], np.concatenate([noise["force_N"], noise["torque_Nm"]])
+        )
         location = about["filters"]["location"]
         self.low_pass = LowPass([] if location is None else location["sections"])
         self.frozen = FrozenTest(self.streams["frozen_probability"])
@@ -649,11 +688,14 @@ class Reference:
             weight = R_WS.T @ g
             w = channels - self.bias - np.concatenate([weight, np.cross(self.L, weight)])
             self.wrench = self.kalman.take(w, dt)
-            found = self.located(self.wrench, C, self.previous)
-            self._two_touches(self.wrench, C, found)
+            C = C + self.kalman.doubt()
+            now = np.zeros(6) if self.kalman.released(w[:3], self.gates["min_force_N"]) else self.wrench
+            found = self.located(now, C, self.previous)
+            self._two_touches(now, C, found)
             self._miss_or_take(found)
         if self.wrench is not None:
             out.wrench = self.wrench.copy()
+            out.latency += self.kalman.age if self.kalman.part is not None else 0.0
         self._describe(found, C, out)
 
     def _describe(self, found: Found, C: Array, out: Answer) -> None:

@@ -12,7 +12,8 @@
 //              `gates.max_age`, or 50 samples, without one that is not, the stream starts anew, as after reset.
 //   order      not_finite, stale and not_a_rotation leave everything as it was. Saturation is judged on the
 //              raw reading; a saturated sample is a lost one: the filters hold. Every other gate and the
-//              location take the compensated and filtered wrench.
+//              location take the compensated and filtered wrench; low_force, beside an adaptive filter, the
+//              unfiltered one, too.
 //   gaps       a sample more than `gates.max_age` after the last one starts anew, as after reset.
 //   zero       watched beside all this, on the compensated readings before the filter; see zero.hpp.
 //   location   filtered over accepted contacts only; held while contact is lost for at most
@@ -89,7 +90,7 @@ struct RuntimeContact {
     double runner_up[3] = {detail::unknown, detail::unknown, detail::unknown};  // the likeliest other place
     double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
-    double latency = detail::unknown;   // s: arrival less time
+    double latency = detail::unknown;   // s: arrival less time, and how old the filter's wrench is by then
 };
 static_assert(sizeof(RuntimeContact) == 8 * 4 + 38 * 8);
 
@@ -236,11 +237,20 @@ private:
         const bool unhealthy = (out.health & (Health::frozen | Health::clock)) != 0;
         const bool lost = saturated || unhealthy;
         Wrench touch;
-        if (!lost) touch = compensate(settings_.gravity, load_at(R_WS, time), wrench, R_WS);
+        WrenchCovariance noise = settings_.noise;
+        bool unusual = false;
+        if (!lost) touch = compensate(settings_.gravity, load_at(R_WS, time, noise, unusual), wrench, R_WS);
         const bool known = lost ? skip(dt) : filter(touch, dt);
-        if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M);
+        if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M), out.latency += kalman_.age();
+        if (!lost) {
+            unusual |= kalman_.add_doubt(noise);
+            if (unusual || unusual_) solver_.set_noise(noise);
+            unusual_ = unusual;
+        }
+        // What is let go is felt at once, whatever the filter still says.
+        const bool released = !lost && norm(touch.F) + kalman_.chance() < settings_.gates.min_force;
         // An age of NaN is never recent enough: the solver counts a miss.
-        solver_.track(filtered_, lost ? detail::unknown : 0.0, answer_);
+        solver_.track(released ? Wrench{} : filtered_, lost ? detail::unknown : 0.0, answer_);
         out.reason = std::int32_t(saturated ? Reason::saturated : unhealthy ? Reason::unhealthy : answer_.reason);
         describe(out);
         follow_point(out);
@@ -275,15 +285,11 @@ private:
         return around.at(time, settings_.poses, out);
     }
 
-    // The tool's weight in W, less what accelerating it takes; the solver is told how well that is known.
-    Vec3 load_at(const double R_WS[9], double time) noexcept {
+    // The tool's weight in W, less what accelerating it takes; `noise` gets how well that is known.
+    Vec3 load_at(const double R_WS[9], double time, WrenchCovariance& noise, bool& unusual) noexcept {
         const Vec3 weight = settings_.gravity.gravity_W;
         Motion motion;
-        if (!motion_at(time, motion)) {
-            if (inertial_) solver_.set_noise(settings_.noise);
-            inertial_ = false;
-            return weight;
-        }
+        if (!motion_at(time, motion)) return weight;
         const double mass = norm(weight) / standard_gravity;
         const Vec3 c = settings_.gravity.centre_of_mass_S;
         const Vec3 r = detail::turned(R_WS, c);
@@ -292,7 +298,6 @@ private:
         const double lever = flange_to_sensor * (norm(motion.spin_rate) + norm2(motion.spin));
         const double force2 = mass * mass * (motion.sigma * motion.sigma + lever * lever);
         const double turning = mass * settings_.motion.gyration * settings_.motion.gyration * norm(motion.spin_rate);
-        WrenchCovariance noise = settings_.noise;
         const double X[3][3] = {{0, -c.z, c.y}, {c.z, 0, -c.x}, {-c.y, c.x, 0}};
         for (int i = 0; i < 3; ++i) {
             noise.s[i][i] += force2;
@@ -302,8 +307,7 @@ private:
                 for (int k = 0; k < 3; ++k) noise.s[3 + i][3 + j] += force2 * X[i][k] * X[j][k];
             }
         }
-        solver_.set_noise(noise);
-        inertial_ = true;
+        unusual = true;
         return weight - mass * a;
     }
 
@@ -382,7 +386,7 @@ private:
     PoseTrack track_;
     MotionFit fit_;
     FrozenDetector frozen_;
-    bool inertial_ = false;  // the solver's noise is not that of the settings
+    bool unusual_ = false;  // the solver's noise is not that of the settings
     WrenchKalman kalman_;
     PointLowPass low_pass_;
     Solver solver_;

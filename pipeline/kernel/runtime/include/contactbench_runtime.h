@@ -136,7 +136,7 @@ typedef struct {
     double runner_up[3]; /* the likeliest other place */
     double second[3];    /* of CB_TWO_TOUCHES, the touch that joined */
     double pose_age;     /* s: how much older than the sample the last pose before it is */
-    double latency;      /* s: arrival less time */
+    double latency;      /* s: arrival less time, and the age of the filtered wrench at that time */
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
 } cb_contact;

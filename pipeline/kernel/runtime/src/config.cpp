@@ -63,12 +63,15 @@ std::vector<double> read_gravity(const Json& gravity, Config& c) {
     return covariance;
 }
 
-void read_filters(const Json& filters, RuntimeSettings& s) {
+void read_filters(const Json& filters, const Json& noise, RuntimeSettings& s) {
     const Json &wrench = filters["wrench"], &location = filters["location"];
     s.filter_wrench = !is_null(wrench);
-    if (s.filter_wrench)
+    if (s.filter_wrench) {
         s.kalman = {wrench["rate_Hz"].number, wrench["q"].number, wrench["r"].number,
-                    wrench["tuned_rate_Hz"].number, wrench["per_sample"].boolean};
+                    wrench["tuned_rate_Hz"].number, wrench["per_sample"].boolean, wrench["kind"].text == "adaptive"};
+        std::ranges::copy(numbers(noise["force_N"]), s.kalman.sigma);
+        std::ranges::copy(numbers(noise["torque_Nm"]), s.kalman.sigma + 3);
+    }
     if (is_null(location)) return;
     const auto v = numbers(location["sections"]);
     for (std::size_t i = 0; i < v.size(); i += 6)
@@ -338,7 +341,7 @@ Config read_config(std::string_view text) {
     c.sensor_model = root["sensor"]["model"].text, c.sensor_serial = root["sensor"]["serial"].text;
     c.rate = root["sensor"]["rate_Hz"].number;
     const auto calibration = read_gravity(root["gravity"], c);
-    read_filters(root["filters"], c.settings);
+    read_filters(root["filters"], root["noise"], c.settings);
     read_noise(root["noise"], c.settings, calibration);
     read_touch(root["touch"], c);
     read_streams(root["streams"], c.settings);

@@ -35,7 +35,7 @@ inline constexpr Member MotionPart[] = {{"window_s", number(0.02, 2)}, {"gyratio
 inline constexpr Member StreamsPart[] = {{"pose_gap_s", number(0, 10, true, false)}, {"pose_ahead_s", number(0, 10)},
     {"silence_s", number(0, 10, true, false)}, {"frozen_probability", number(1e-30, 0.001)},
     {"motion", or_null(object(MotionPart))}};
-inline constexpr Member KalmanPart[] = {{"kind", one_of("kalman")}, {"rate_Hz", positive}, {"q", positive},
+inline constexpr Member KalmanPart[] = {{"kind", one_of("kalman|adaptive")}, {"rate_Hz", positive}, {"q", positive},
     {"r", positive}, {"tuned_rate_Hz", positive}, {"per_sample", flag}};
 inline constexpr Member LowPassPart[] = {{"kind", one_of("lowpass")}, {"rate_Hz", positive}, {"cutoff_Hz", positive},
     {"order", integer(1, 8)}, {"sections", array(each_2, 1, 4)}};

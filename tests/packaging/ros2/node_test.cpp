@@ -79,7 +79,7 @@ void a_touch_is_published(const std::string& bundle, const std::string& source, 
     const Contact& last = contacts->sent.back();
     CHECK(last.accepted && last.health.empty() && !last.reason.empty());
     CHECK(last.header.frame_id == "ft" && rclcpp::Time(last.header.stamp) == at(519));
-    CHECK(std::fabs(last.latency - 0.003) < 1e-6 && last.confidence > 0.5);
+    CHECK(std::fabs(last.latency - 0.073) < 2e-3 && last.confidence > 0.5);
     CHECK(std::isfinite(last.point.x + last.normal.z) && last.covariance[0] > 0 && last.covariance[4] > 0);
     CHECK(testing::close(last.covariance[1], last.covariance[3], 1e-9));
     const double pressed = -(last.wrench.force.x * last.normal.x + last.wrench.force.y * last.normal.y +

@@ -5175,20 +5175,12 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation> und {0} weitere</translation>
     </message>
     <message>
-        <source> at {0} Hz</source>
-        <translation> bei {0} Hz</translation>
-    </message>
-    <message>
         <source> or </source>
         <translation> oder </translation>
     </message>
     <message>
         <source> or if </source>
         <translation> oder wenn </translation>
-    </message>
-    <message>
-        <source> per sample</source>
-        <translation> pro Messwert</translation>
     </message>
     <message>
         <source> together with </source>
@@ -6199,10 +6191,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>K: so viel wärmer wird der Sensor nach der Kalibrierung.</translation>
     </message>
     <message>
-        <source>Kalman filter with Q = {0}, R = {1}</source>
-        <translation>Kalman-Filter mit Q = {0}, R = {1}</translation>
-    </message>
-    <message>
         <source>KalmanFilter.reset: the state must be finite, not {0}; or give none</source>
         <translation>KalmanFilter.reset: der Zustand muss endlich sein, nicht {0}; oder keinen angeben</translation>
     </message>
@@ -6869,10 +6857,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Publish contacts to this MQTT broker.</source>
         <translation>Kontakte an diesen MQTT-Broker senden.</translation>
-    </message>
-    <message>
-        <source>Q and R follow time</source>
-        <translation>Q und R folgen der Zeit</translation>
     </message>
     <message>
         <source>Quantity to show.</source>
@@ -7845,10 +7829,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>The rung of {0} facets is missing: {1}</source>
         <translation>Die Stufe mit {0} Facetten fehlt: {1}</translation>
-    </message>
-    <message>
-        <source>The same Q and R are another filter</source>
-        <translation>Mit denselben Q und R ist es ein anderer Filter</translation>
     </message>
     <message>
         <source>The same for a torque, N·m.</source>
@@ -9061,10 +9041,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>at most {0} mm, {1} mm RMS, normals {2}° off on average</source>
         <translation>höchstens {0} mm, {1} mm RMS, Normalen im Mittel {2}° daneben</translation>
-    </message>
-    <message>
-        <source>at {0} Hz gain {1}, time constant {2} ms, {3}, lag {4} ms, {5} % of white noise left</source>
-        <translation>bei {0} Hz Verstärkung {1}, Zeitkonstante {2} ms, {3}, Verzögerung {4} ms, {5} % des weißen Rauschens bleiben</translation>
     </message>
     <message>
         <source>axis_P coincides with origin_P: pick it farther along the axis.</source>
@@ -10637,10 +10613,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>no count</source>
         <translation>keine Anzahl</translation>
-    </message>
-    <message>
-        <source>no cut-off</source>
-        <translation>keine Grenzfrequenz</translation>
     </message>
     <message>
         <source>no description</source>

@@ -1,13 +1,13 @@
 """The Kalman filter of wrenches, and what it costs in lag."""
 
 from dataclasses import dataclass
-from math import asin, inf, log1p, pi, sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from contactbench.pipeline import kernel
-from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.filtering.rows import Floats, as_row, as_rows, positive, time_steps
 
 
@@ -31,20 +31,6 @@ class KalmanFigures:
         return 1 / (1 + self.r / self.predicted_variance)
 
     @property
-    def time_constant(self) -> float:
-        """Time in which a step is followed to 1 - 1/e, s: -dt / ln(1 - K)."""
-        return 1 / (self.rate * log1p(self.predicted_variance / self.r))
-
-    @property
-    def cutoff(self) -> float | None:
-        """Frequency of half power, Hz; None where K > 2 √2 - 2, as even the Nyquist frequency then passes.
-
-        |H|² = K² / (K² + 4 (1 - K) sin²(w / 2)) = 1/2 for w radians a sample.
-        """
-        sine = self.predicted_variance / (2 * sqrt(self.r) * sqrt(self.predicted_variance + self.r))
-        return self.rate * asin(sine) / pi if sine <= 1 else None
-
-    @property
     def delay(self) -> float:
         """Lag behind slow motion, s: the group delay at 0 Hz, (1 - K) / K dt."""
         return self.r / self.predicted_variance / self.rate
@@ -53,14 +39,6 @@ class KalmanFigures:
     def noise_left(self) -> float:
         """Standard deviation of white noise after the filter over that before, √(K / (2 - K))."""
         return sqrt(self.predicted_variance / (self.predicted_variance + 2 * self.r))
-
-    def __str__(self) -> str:
-        cutoff = message("no cut-off") if self.cutoff is None else f"-3 dB at {self.cutoff:.3g} Hz"
-        return message(
-            f"at {arg(self.rate):g} Hz gain {arg(self.gain):.3g}, time constant"
-            f" {arg(1e3 * self.time_constant):.3g} ms, {arg(cutoff)}, lag {arg(1e3 * self.delay):.3g} ms,"
-            f" {arg(100 * self.noise_left):.3g} % of white noise left"
-        )
 
 
 class KalmanFilter:
@@ -71,7 +49,7 @@ class KalmanFilter:
     physical filter, and a gap makes the next sample weigh more. R is that of the nominal rate also after a
     gap, which makes no sample better: where a share m of the samples is missing at random, the time constant
     grows as 1/√(1 - m), by 20 % for 30 %. With `per_sample` Q and R are added per sample as in the paper,
-    whatever the time: at another rate, or with samples left out, that is another filter (see `describe`).
+    whatever the time: at another rate, or with samples left out, that is another filter.
 
     The first sample of a channel becomes its state, with variance R.
 
@@ -130,25 +108,6 @@ class KalmanFilter:
         if self.per_sample:
             return KalmanFigures(rate, self.q, self.r)
         return KalmanFigures(rate, self.q * (1 / rate * self.tuned_rate), self.r * (rate / self.tuned_rate))
-
-    def describe(self, rate: float | None = None) -> str:
-        """Tell in a sentence or two what the filter does, and what it would do at `rate`, Hz.
-
-        Without a rate, a filter that repeats Q and R per sample is compared with itself at `tuned_rate`.
-        """
-        if rate is None and self.per_sample:
-            rate = self.tuned_rate
-        here = message(f"Kalman filter with Q = {arg(self.q):g}, R = {arg(self.r):g}")
-        here += message(" per sample") if self.per_sample else message(f" at {arg(self.tuned_rate):g} Hz")
-        text = message(f"{arg(here)}: {arg(self.figures())}.")
-        if rate is None or rate == self.rate:
-            return text
-        same = (
-            message("The same Q and R are another filter")
-            if self.per_sample
-            else message("Q and R follow time")
-        )
-        return message(f"{arg(text)} {arg(same)}: {arg(self.figures(rate))}.")
 
     @property
     def state(self) -> Floats | None:

@@ -5,10 +5,10 @@ from math import pi, sin, sqrt, tan
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
-from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
+from scipy.signal import butter, sosfilt, sosfilt_zi
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.filtering.rows import Bools, Columns, Floats, alike, as_row, as_rows, positive
+from contactbench.pipeline.filtering.rows import Floats, as_row, as_rows, positive
 
 
 class LowPass:
@@ -42,7 +42,7 @@ class LowPass:
             raise InputError(f"LowPass.order must be a whole number of at least 1, not {arg(order)}")
         self.cutoff, self.order = float(cutoff), order
         self._sections: Floats = butter(order, cutoff, fs=rate, output="sos")
-        self._first: Floats = sosfilt_zi(self._sections)[:, :, None]
+        self._first: Floats = sosfilt_zi(self._sections)
         self.reset()
 
     @property
@@ -100,25 +100,16 @@ class LowPass:
             raise InputError(
                 f"LowPass: {arg(rows.shape[1])} channels after {arg(self._last.size)}; call reset() for another stream"
             )
-        missing = ~np.isfinite(rows)
         answers = np.empty_like(rows)
-        for columns, lost in alike(missing, np.isnan(self._last).tolist()):
-            answers[:, columns] = self._advance(self._memory, rows, columns, lost)
+        for column in range(rows.shape[1]):
+            good = np.isfinite(rows[:, column])
+            seen, memory = rows[good, column], self._memory[:, :, column]
+            if len(seen) and np.isnan(self._last[column]):
+                memory[:] = self._first * seen[0]
+            passed, memory[:] = sosfilt(self._sections, seen, zi=memory) if len(seen) else (seen, memory)
+            answers[:, column] = np.concatenate([self._last[[column]], passed])[np.cumsum(good)]
         if len(rows):
             self._last = answers[-1].copy()
-        return answers
-
-    def _advance(self, memory: Floats, rows: Floats, columns: Columns, lost: Bools) -> Floats:
-        """Filter channels of which the same rows are lost; changes their part of `memory`."""
-        gaps = bool(lost.any())
-        seen = rows[~lost][:, columns] if gaps else rows[:, columns]
-        last = self._last[columns]
-        if not len(seen):
-            return last
-        if np.isnan(last[0]):
-            memory[:, :, columns] = self._first * seen[0]
-        passed, memory[:, :, columns] = sosfilt(self._sections, seen, axis=0, zi=memory[:, :, columns])
-        answers: Floats = np.vstack([last, passed])[np.cumsum(~lost)] if gaps else passed
         return answers
 
     def filter(self, samples: ArrayLike) -> Floats:
@@ -130,27 +121,3 @@ class LowPass:
             The shape is wrong.
         """
         return LowPass(self.cutoff, self.rate, self.order).update_block(samples)
-
-    def filter_both_ways(self, samples: ArrayLike) -> Floats:
-        """Filter a recording (n, c) forwards and backwards, for reports: no lag, and |H| twice.
-
-        The -3 dB point moves down, to 0.80 of the cut-off for order 2. Gaps are bridged by straight lines
-        while filtering, and are NaN in the answer: a report must not show what nobody measured.
-
-        Raises
-        ------
-        InputError
-            The shape is wrong.
-        """
-        rows = as_rows("LowPass.filter_both_ways", samples)
-        answers = np.full_like(rows, np.nan)
-        there = np.arange(len(rows))
-        # One period of the cut-off is mirrored at both ends, so what the filter starts from has died down.
-        reach = int(np.ceil(self.rate / self.cutoff))
-        for column in range(rows.shape[1]):
-            good = np.flatnonzero(np.isfinite(rows[:, column]))
-            if good.size:
-                bridged = np.interp(there, good, rows[good, column])[good[0] : good[-1] + 1]
-                smooth = sosfiltfilt(self._sections, bridged, padlen=min(reach, len(bridged) - 1))
-                answers[good, column] = smooth[good - good[0]]
-        return answers

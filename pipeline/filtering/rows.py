@@ -1,6 +1,5 @@
 """Samples as rows of numbers: what the filters share."""
 
-from collections.abc import Iterator
 from math import isfinite
 
 import numpy as np
@@ -9,8 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 from contactbench.pipeline.errors import InputError, arg
 
 Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-Columns = slice | NDArray[np.intp]
 
 
 def positive(name: str, value: float) -> float:
@@ -62,16 +59,3 @@ def time_steps(times: ArrayLike, count: int, rate: float) -> Floats:
             " the samples or drop those with a repeated time"
         )
     return np.concatenate([[1 / rate], np.diff(array)])[:count]
-
-
-def alike(missing: Bools, history: list[float] | list[bool]) -> Iterator[tuple[Columns, Bools]]:
-    """Group channels that can be filtered together: the same `history` (c,), the same rows missing (n, c).
-
-    Yields the columns, a slice where it is all of them (views are cheaper than copies), and which rows they
-    miss (n,).
-    """
-    groups: dict[tuple[float, bytes], list[int]] = {}
-    for column, past in enumerate(history):
-        groups.setdefault((past, missing[:, column].tobytes()), []).append(column)
-    for columns in groups.values():
-        yield slice(None) if len(groups) == 1 else np.array(columns), missing[:, columns[0]]

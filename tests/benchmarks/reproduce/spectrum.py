@@ -11,7 +11,7 @@ from scipy.stats import chi2
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering.lowpass import LowPass
-from contactbench.pipeline.filtering.rows import Bools, Floats, as_rows, positive
+from contactbench.pipeline.filtering.rows import Floats, as_rows, positive
 
 _SEGMENT_SECONDS = (
     2.0  # lines 1 Hz apart are told apart: enough for hands and robots, and a minute gives 59 of them
@@ -195,7 +195,7 @@ def _upper_half(found: Spectrum, start: float = 0.5, end: float = 1.0) -> Floats
     return middle / (float(chi2.median(dof)) / dof)
 
 
-def _take_lines(frequencies: Floats, ratio: Floats, above: Bools) -> list[float]:
+def _take_lines(frequencies: Floats, ratio: Floats, above: NDArray[np.bool_]) -> list[float]:
     """Strike isolated lines of mains hum from `above`, in place, and return their frequencies, Hz."""
     lines, step, rate = [], frequencies[1], 2 * frequencies[-1]
     for nominal in (mains * harmonic for mains in _MAINS for harmonic in _HARMONICS):
@@ -216,7 +216,7 @@ def _take_lines(frequencies: Floats, ratio: Floats, above: Bools) -> list[float]
     return lines
 
 
-def _channel_cutoff(found: Spectrum, above: Bools) -> float | None:
+def _channel_cutoff(found: Spectrum, above: NDArray[np.bool_]) -> float | None:
     if not above.any():
         return found.resolution
     cutoff = float(found.frequencies[np.flatnonzero(above)[-1] + 1])

@@ -102,18 +102,14 @@ inline double dot(const Vec6& x, const Vec6& y) { return contactbench::dot(x.F, 
 // C about the mesh centre: M_c = M - centre x F.
 inline WrenchCovariance about(const WrenchCovariance& c, Vec3 p) {
     const double X[3][3] = {{0, -p.z, p.y}, {p.z, 0, -p.x}, {-p.y, p.x, 0}};
-    double T[6][6] = {};
-    for (int i = 0; i < 6; ++i) T[i][i] = 1.0;
+    WrenchCovariance half = c, out;
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) T[3 + i][j] = -X[i][j];
-    double TC[6][6] = {};
-    WrenchCovariance out;
-    for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 6; ++j)
-            for (int k = 0; k < 6; ++k) TC[i][j] += T[i][k] * c.s[k][j];
+            half.s[3 + i][j] += -X[i][0] * c.s[0][j] + -X[i][1] * c.s[1][j] + -X[i][2] * c.s[2][j];
+    out = half;
     for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j)
-            for (int k = 0; k < 6; ++k) out.s[i][j] += TC[i][k] * T[j][k];
+        for (int j = 0; j < 3; ++j)
+            out.s[i][3 + j] += half.s[i][0] * -X[j][0] + half.s[i][1] * -X[j][1] + half.s[i][2] * -X[j][2];
     return out;
 }
 

@@ -4495,6 +4495,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Sonde nach Kontaktdichte färben, in Kontakten pro mm²</translation>
     </message>
     <message>
+        <source>Within: 95 of 100 touches lie no farther from the point shown, by its covariance (2.45 times the largest standard deviation)</source>
+        <translation>Auf: 95 von 100 Berührungen liegen laut Kovarianz nicht weiter vom gezeigten Punkt entfernt (2,45-mal die größte Standardabweichung)</translation>
+    </message>
+    <message>
         <source>Mute tones</source>
         <translation>Töne stumm schalten</translation>
     </message>
@@ -4599,16 +4603,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{marker}: Fehler {size} mm. Loslassen.</translation>
     </message>
     <message>
-        <source>Confidence {percent} %</source>
-        <translation>Sicherheit {percent} %</translation>
+        <source>Sure, within {near} mm</source>
+        <translation>Sicher, auf {near} mm genau</translation>
     </message>
     <message>
-        <source>{sure} thanks to the defined regions; the wrench also fits another place.</source>
-        <translation>{sure} dank der festgelegten Regionen; der Messwert passt auch zu einer anderen Stelle.</translation>
+        <source>Sure by the defined regions, within {near} mm</source>
+        <translation>Sicher dank der festgelegten Regionen, auf {near} mm genau</translation>
     </message>
     <message>
-        <source>{sure}: the wrench also fits another place. Press in a different direction.</source>
-        <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
+        <source>Only within {near} mm. Press harder, or more directly into the surface.</source>
+        <translation>Nur auf {near} mm genau. Drücken Sie stärker oder senkrechter auf die Oberfläche.</translation>
+    </message>
+    <message>
+        <source>Confidence {percent} %: the wrench also fits another place. Press in a different direction.</source>
+        <translation>Sicherheit {percent} %: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
     </message>
     <message>
         <source>Two touches detected; both are shown.</source>
@@ -6247,6 +6255,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Größter Maßstabsfehler, der besteht, %.</translation>
     </message>
     <message>
+        <source>Largest sigma</source>
+        <translation>Größtes Sigma</translation>
+    </message>
+    <message>
         <source>Leave it out</source>
         <translation>Auslassen</translation>
     </message>
@@ -6945,6 +6957,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Reason tangential beyond this angle to the normal.</source>
         <translation>Grund „tangential“ jenseits dieses Winkels zur Normalen.</translation>
+    </message>
+    <message>
+        <source>Reason uncertain when the largest standard deviation of the point is more than this. 0: not asked.</source>
+        <translation>Grund „uncertain“, wenn die größte Standardabweichung des Punktes diesen Wert übersteigt. 0: nicht verlangt.</translation>
     </message>
     <message>
         <source>Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and the cable routed as in use.</source>
@@ -13661,6 +13677,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
+    </message>
+    <message>
+        <source>{0} of {1} contacts are uncertain, not as near as asked, and not in the map: press harder, or allow a larger sigma.</source>
+        <translation>{0} von {1} Kontakten sind „uncertain“, nicht so genau wie verlangt, und fehlen in der Karte: Drücken Sie stärker, oder erlauben Sie ein größeres Sigma.</translation>
     </message>
     <message>
         <source>{0} of {1} facets have no part of the old surface near them and belong to no region: check that both meshes are in the same place.</source>

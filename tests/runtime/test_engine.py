@@ -47,6 +47,7 @@ def test_the_same_as_the_kernel_given_everything() -> None:
             ("misfit", batch.misfits),
             ("left_over_Nm", batch.left_overs),
             ("arm_m", batch.arms),
+            ("within_m", batch.withins),
             ("runner_up_S_m", batch.runners_up),
             ("second_S_m", batch.seconds),
         ):
@@ -55,6 +56,10 @@ def test_the_same_as_the_kernel_given_everything() -> None:
         assert told["covariance_S_m2"] == (
             None if np.isnan(covariance[0, 0]) else covariance.ravel().tolist()
         )
+        if told["within_m"] is not None:
+            variance = np.linalg.eigvalsh(covariance)[-1]
+            assert told["within_m"] == pytest.approx(np.sqrt(-2 * np.log(0.05) * variance), rel=1e-9)
+        assert (told["within_m"] is None) == (told["covariance_S_m2"] is None)
 
 
 def test_the_kernel_gets_what_the_bundle_says_of_a_touch() -> None:

@@ -261,6 +261,8 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1.")
         .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
                      "(3,) S, m: the likeliest other place, or None.")
+        .def_prop_ro("within", [](const C& c) { return c.within; },
+                     "m: how far the 95 % ellipse of the point reaches; NaN where there is none.")
         .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); },
                      "(3,) S, m: a touch that joined this one, or None.");
 }
@@ -293,6 +295,7 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
         .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
         .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1.")
+        .def_prop_ro("withins", [](const B& b) { return column<double>(b, &C::within, {}); }, "(n,) m.")
         .def_prop_ro("runners_up", [](const B& b) { return column<double>(b, &C::runner_up, {3}); }, "(n, 3) S, m.")
         .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.");
 }

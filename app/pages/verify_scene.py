@@ -152,7 +152,7 @@ class VerifyScene:
         covariance = None if two else contact.covariance
         sure = "" if two else filled("≤ {:.1f} mm", millimetres_within(contact))
         if contact.reason is Reason.AMBIGUOUS:
-            sure = filled("{:.3g} %", min(100 * contact.confidence, 99.9))
+            sure = filled("{:.0f} %", 100 * contact.confidence)
         self._scene.show_contact(contact.point, covariance, contact.normal, _others(contact), captions, sure)
         self._scene.show_force(None if two else reading.compensated[:3], contact.point)
         if contact.accepted and len(self._points) < _MOST:

@@ -262,7 +262,7 @@ class TouchPanel(QWidget):
             case Reason.AMBIGUOUS:
                 return self.tr(
                     "Confidence {percent} %: the wrench also fits another place. Press in a different direction."
-                ).format(percent=_percent(contact.confidence))
+                ).format(percent=number(100 * contact.confidence, ".0f"))
             case Reason.TWO_TOUCHES:
                 return self.tr("Two touches detected; both are shown.")
             case Reason.IMPLAUSIBLE:
@@ -303,10 +303,3 @@ class TouchPanel(QWidget):
         return self.tr("largest {largest} mm; last: {ratio} times the expected noise").format(
             largest=number(view.max_mm, ".2f"), ratio=number(view.last.ratio, ".1f")
         )
-
-
-def _percent(confidence: float) -> str:
-    """Return a share of one in per cent; what is not certain is never said to be 100."""
-    return (
-        number(min(100 * confidence, 99.9), ".1f") if confidence > 0.99 else number(100 * confidence, ".0f")
-    )

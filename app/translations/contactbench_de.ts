@@ -10391,6 +10391,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Reserven: modulus {0} N/m³, unknown {1}: eine positive Zahl angeben, und -1 bis 1.</translation>
     </message>
     <message>
+        <source>mark the touched region, and locate them again</source>
+        <translation>markieren Sie die berührte Region, und bestimmen Sie die Kontakte neu</translation>
+    </message>
+    <message>
         <source>marked as stale</source>
         <translation>als veraltet markiert</translation>
     </message>
@@ -10993,6 +10997,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>prepare the probe in step 3, Probe</source>
         <translation>bereiten Sie die Sonde in Schritt 3, Sonde, vor</translation>
+    </message>
+    <message>
+        <source>press harder, or allow a larger sigma</source>
+        <translation>drücken Sie stärker, oder erlauben Sie ein größeres Sigma</translation>
     </message>
     <message>
         <source>press {0}: give a force from 0 to 1000 N, a tilt from 0 to under 90 degrees, and a torsion of at most {1} N·m.</source>
@@ -13667,8 +13675,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} der {1} Teile überlappen sich, sodass Wände des einen im anderen liegen. Vereinigen Sie sie im CAD-Programm, oder erzeugen Sie vor der Verwendung die Außenhülle.</translation>
     </message>
     <message>
-        <source>{0} of {1} contacts are ambiguous and not in the map: mark the touched region, and locate them again.</source>
-        <translation>{0} von {1} Kontakten sind mehrdeutig und nicht in der Karte: Markieren Sie die berührte Region, und lokalisieren Sie sie neu.</translation>
+        <source>{0} of {1} contacts are {2} and not in the map: {3}.</source>
+        <translation>{0} von {1} Kontakten sind „{2}“ und fehlen in der Karte: {3}.</translation>
     </message>
     <message>
         <source>{0} of {1} contacts are on invented facets: the mesh file had an opening there, so surface and contacts are guesses.</source>
@@ -13677,10 +13685,6 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>{0} of {1} contacts are on untouchable regions: check the region, then the mount.</source>
         <translation>Kontakte auf Regionen, die nichts berühren kann: {0} von {1}. Prüfen Sie die Region, dann die Montage.</translation>
-    </message>
-    <message>
-        <source>{0} of {1} contacts are uncertain, not as near as asked, and not in the map: press harder, or allow a larger sigma.</source>
-        <translation>{0} von {1} Kontakten sind „uncertain“, nicht so genau wie verlangt, und fehlen in der Karte: Drücken Sie stärker, oder erlauben Sie ein größeres Sigma.</translation>
     </message>
     <message>
         <source>{0} of {1} facets have no part of the old surface near them and belong to no region: check that both meshes are in the same place.</source>

@@ -29,8 +29,11 @@ if TYPE_CHECKING:
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
-_DOUBTS = ("ambiguous", "uncertain")
-_WORTH_SAYING = 0.1  # of the contacts: a larger share that could be elsewhere is told
+_WORTH_SAYING = 0.1  # of the contacts: a larger share that could be elsewhere, or is not near, is told
+_REMEDIES = {
+    "ambiguous": message("mark the touched region, and locate them again"),
+    "uncertain": message("press harder, or allow a larger sigma"),
+}
 _LONGEST_STEPS = 5.0  # medians: a contact does not last through a gap in the recording
 _BLOCK_ROWS = 65_536
 
@@ -285,10 +288,14 @@ def _contacts(
 ) -> Contacts:
     used = _used(reasons, points)
     names, counts = np.unique(reasons[~used], return_counts=True)
-    for reason in _DOUBTS:
+    for reason, remedy in _REMEDIES.items():
         doubtful = int(counts[names == reason.encode()].sum())
         if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
-            notes = (*notes, _doubt(reason, doubtful, int(doubtful + used.sum())))
+            said = message(
+                f"{arg(doubtful):,} of {arg(doubtful + used.sum()):,} contacts are {arg(reason)} and not in the map:"
+                f" {arg(remedy)}."
+            )
+            notes = (*notes, said)
     usual = usual_step(times)
     seconds = np.clip(np.append(np.diff(times), usual), 0.0, _LONGEST_STEPS * usual)
     return Contacts(
@@ -302,18 +309,6 @@ def _contacts(
         settled=None if forces is None else settled(times, forces)[used],
         times=times[used] - times[0],
         confidences=None if confidences is None else confidences[used],
-    )
-
-
-def _doubt(reason: str, doubtful: int, contacts: int) -> str:
-    if reason == "uncertain":
-        return message(
-            f"{arg(doubtful):,} of {arg(contacts):,} contacts are uncertain, not as near as asked, and not in the"
-            " map: press harder, or allow a larger sigma."
-        )
-    return message(
-        f"{arg(doubtful):,} of {arg(contacts):,} contacts are ambiguous and not in the map:"
-        " mark the touched region, and locate them again."
     )
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -21,6 +20,7 @@ from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.demo.day import run_days
 from contactbench.pipeline.demo.verification import BUNDLE, answers_of
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.preparation.prepare import prepared
 from contactbench.pipeline.reality import MIXES
@@ -60,7 +60,8 @@ class Located:
         """Touches, accepted of them without the gate, far of those, the same with it, and kept, %."""
         (all_, far), (near, still) = ((np.isfinite(each).sum(), (each > FAR_M).sum()) for each in self.off)
         count = len(self.off[0])
-        return (count, 100 * all_ / count, 100 * far / all_, 100 * still / max(near, 1), 100 * near / all_)
+        parts = ((all_, count), (far, all_), (still, near), (near, all_))
+        return (count, *(100 * float(some) / max(int(whole), 1) for some, whole in parts))
 
 
 def run(
@@ -71,6 +72,7 @@ def run(
 ) -> StudyReport:
     """Measure it; real housings are left out where they are not there, and the report says so."""
     found: list[Located] = []
+    real, notes = housings(progress)
     with TemporaryDirectory() as folder:
         benches = [MIXES[name] for name in BENCHES]
         run_days(Path(folder), benches, probes, seeds, seed, progress)
@@ -78,11 +80,8 @@ def run(
             days = sorted(each.parent for each in (Path(folder) / bench).glob(f"*/*/{BUNDLE}"))
             found += [of_day(bench, day) for day in days]
             configs = [RuntimeConfig.load(day / BUNDLE) for day in days]
-            for file in sorted(REAL.glob("*.stl")):
-                progress(f"{file.stem} on {bench} benches")
-                probe = housing(file)
+            for probe in real:
                 found += [of_housing(bench, probe, each, seed + i) for i, each in enumerate(configs)]
-    notes = () if REAL.is_dir() else (f"No real housings: {REAL} is not there.",)
     columns = (
         "bench",
         "probe",
@@ -118,11 +117,18 @@ def of_day(bench: str, day: Path) -> Located:
     return Located(bench, day.parent.name, (offs[0], offs[1]))
 
 
-@cache
-def housing(file: Path) -> Probe:
-    """Prepare a real housing: its file has the origin at the lens and the handle along -y."""
+def housings(progress: Callable[[str], None]) -> tuple[list[Probe], tuple[str, ...]]:
+    """Prepare the real housings, and say which are left out, and why."""
+    # Their files have the origin at the lens and the handle along -y.
     given = ProbeSettings(mount=(0.0, 0.0, 160.0, 90.0, 0.0, 0.0), facets=4_000, units="mm")
-    return prepared({"mesh": file}, given).content.probe
+    made, notes = [], [] if REAL.is_dir() else [f"No real housings: {REAL} is not there."]
+    for file in sorted(REAL.glob("*.stl")):
+        progress(f"{file.stem}: preparing the mesh")
+        try:
+            made.append(prepared({"mesh": file}, given).content.probe)
+        except InputError as error:
+            notes.append(f"{file.stem} left out: {error}")
+    return made, tuple(notes)
 
 
 def of_housing(bench: str, probe: Probe, config: RuntimeConfig, seed: int) -> Located:

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from contactbench.pipeline.gates import GateSettings
+from contactbench.pipeline.gates import GateSettings, SigmaMax, sigma_max_knob
 from contactbench.pipeline.knobs import Row, knob
 from contactbench.pipeline.settings import MountSettings
 
@@ -20,6 +20,7 @@ class ExportKnobs(GateSettings, MountSettings):
 
     overlay: ClassVar[bool] = True
 
+    sigma_max: SigmaMax = sigma_max_knob(0.002)
     sensor: _Name = knob("unknown", "Model of the sensor.", option="--model")
     serial: _Name | None = knob(None, "Serial number of the sensor.", none="the one in the session")
     rate: Annotated[_Positive | None, Row("Readings", (0.0, 10e3), 1, none="as verified")] = knob(

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field, ValidationError
 
 from contactbench.pipeline.errors import InputError, arg
-from contactbench.pipeline.knobs import Settings, first_fault, knob
+from contactbench.pipeline.knobs import Row, Settings, first_fault, knob
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -89,6 +89,22 @@ class Form:
     held: str = ""
     way: Way = _NUMBER
     later: bool = False
+
+
+SigmaMax = Annotated[_Least0, Row("Largest sigma", (0.0, 50.0), 1, 0.5)]
+
+
+def sigma_max_knob(default: float = 0.0) -> Any:
+    """Return the field of the gate of nearness, m: what is looked at asks for none, what is acted on for some."""
+    return knob(
+        default,
+        "Reason uncertain when the largest standard deviation of the point is more than this. 0: not asked.",
+        unit="mm",
+        scale=1000,
+        none="" if default else "not asked",
+        why="In an analysis every answer states its own. A bundle is acted on: an export asks for 2 mm, for then 95 %"
+        " of the accepted points are off by less than 5 mm, and that is as far as one place reaches.",
+    )
 
 
 class GateSettings(Settings):
@@ -187,6 +203,7 @@ class GateSettings(Settings):
         why="Declaring a region states that touches are expected there. A press along the probe's axis is rarely"
         " certain without it, because the line of force also meets the shoulder of the flange.",
     )
+    sigma_max: Annotated[SigmaMax, Form("sigma_max_m", later=True)] = sigma_max_knob()
 
 
 class Gates(GateSettings):

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.gates import Gates, SigmaMax, sigma_max_knob
 from contactbench.pipeline.knobs import NotNegative, Number, Positive, Row, Settings, Three, knob
 
 if TYPE_CHECKING:
@@ -368,6 +369,12 @@ class ReadingSettings(MountSettings):
     min_force: Annotated[float, Row("Touch threshold", (0.0, 100.0), 1)] = knob(
         0.5, "Force above which a touch is counted in a recording.", unit="N"
     )
+    sigma_max: SigmaMax = sigma_max_knob()
+
+    @property
+    def gates(self) -> Gates:
+        """By which contacts of a recording are told."""
+        return Gates(min_force=self.min_force, sigma_max=self.sigma_max)
 
 
 class HeatmapSettings(ReadingSettings):

@@ -40,7 +40,7 @@ class SettingRow:
 
     def __init__(self, row: Row, setting: FieldInfo) -> None:
         extra: Any = setting.json_schema_extra
-        text, self.unit = translated(setting.description or ""), extra["unit"]
+        text, self.unit, self._scale = translated(setting.description or ""), extra["unit"], extra["scale"]
         none = "" if extra["none"] in ("", row.none) else f" [{translated(extra['none'])}]"
         self.title, self.row = translated(row.title), row
         self.name = with_unit(text, self.unit).removesuffix(".")
@@ -59,7 +59,7 @@ class SettingRow:
         shown = self.field.value()
         if self.row.none and shown == self.row.span[0]:
             return None
-        return shown if self.row.decimals else round(shown)
+        return shown / self._scale if self.row.decimals else round(shown)
 
     def put_into(self, field: NumberBox) -> None:
         """Give a field the range, the steps and the unit of the setting."""
@@ -72,7 +72,7 @@ class SettingRow:
 
     def show(self, value: float | None) -> None:
         """Show a value, without a signal; None: nothing is given."""
-        show_quietly(self.field, self.row.span[0] if value is None else value)
+        show_quietly(self.field, self.row.span[0] if value is None else value * self._scale)
 
 
 def rows_of(model: type[Settings], names: Collection[str] = ()) -> dict[str, SettingRow]:

@@ -38,14 +38,15 @@ class ReadingBox(QGroupBox):
         self.delay = self._field(
             -1000.0, 1000.0, "", " ms", self.tr("Delay of the wrench relative to its pose, ms")
         )
-        (self.least,) = rows_of(ReadingSettings).values()
-        self.least.show(ReadingSettings().min_force)
+        self.limits = rows_of(ReadingSettings)
+        for name, each in self.limits.items():
+            each.show(getattr(ReadingSettings(), name))
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
         self._said = self.how()
         self._lay_out()
         self.own_mount.toggled.connect(self._show_mount)
         self.own_mount.toggled.connect(lambda _: self._patience.start())
-        for field in (*self.mount, self.delay, self.least.field):
+        for field in (*self.mount, self.delay, *(each.field for each in self.limits.values())):
             field.valueChanged.connect(lambda _: self._patience.start())
         self._patience.timeout.connect(self._tell)
         self._show_mount(False)
@@ -61,17 +62,16 @@ class ReadingBox(QGroupBox):
         rows.addRow(self.own_mount)
         rows.addRow(row(*((field, 1) for field in self.mount), space=4))
         rows.addRow(self.tr("Delay"), self.delay)
-        rows.addRow(self.least.title, self.least.field)
+        for each in self.limits.values():
+            rows.addRow(each.title, each.field)
 
     def how(self) -> ReadingSettings:
         """Return what is chosen."""
         x, y, z = (field.value() for field in self.mount)
         own = self.own_mount.isChecked()
-        return ReadingSettings(
-            mount=(x, y, z) if own else None,
-            delay=self.delay.value() / 1e3,
-            min_force=self.least.field.value(),
-        )
+        limits = {name: each.value for name, each in self.limits.items()}
+        mount = (x, y, z) if own else None
+        return ReadingSettings.checked({"mount": mount, "delay": self.delay.value() / 1e3, **limits})
 
     def _show_mount(self, own: bool) -> None:
         for field in self.mount:

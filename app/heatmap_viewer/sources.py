@@ -12,7 +12,6 @@ import numpy as np
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.calibration.parameters import sha256_of
-from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.heatmap import HeatmapError
 from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
@@ -302,7 +301,7 @@ def _of_recording(
         read.file,
         probe.probe,
         model,
-        gates=Gates(min_force=how.min_force),
+        gates=how.gates,
         R_ES=mount_rotation(how.mount),
         delay=how.delay,
         progress=told,

@@ -17,7 +17,7 @@ from contactbench.app.pages.verify_settings import VerifySettingsPanel
 from contactbench.app.pages.verify_touch import TouchPanel
 from contactbench.app.pages.verify_virtual import Toucher
 from contactbench.app.undo import SetParameters, push_done
-from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.steps import Step, StepState
@@ -27,6 +27,7 @@ from contactbench.pipeline.workbench.verify import (
     TouchTool,
     VerifyOutcome,
     VerifyWork,
+    asked_near,
     checked_parameters,
     outcome_of,
     parameters_of,
@@ -217,14 +218,15 @@ class VerifyPage(Page):
     def _load_tool(self) -> None:
         """Load probe and calibration, if they are others than before."""
         desk, state, known = self.bench.desk, self.bench.desk.state, self.work.tool
-        key = tool_key(state)
-        if key is None or key == self._loading or (known is not None and known.content == key):
+        key, asked = tool_key(state), asked_near(state)
+        shown = None if known is None else (known.content, known.sigma_max)
+        if key is None or (key, asked) in (self._loading, shown):
             return
-        self._loading = key
+        self._loading = key, asked
 
         def work(_progress: object, _cancelled: object) -> tuple[TouchTool, ContactSolver]:
             tool = tool_of(desk.folder, state)
-            return tool, ContactSolver(tool.probe)
+            return tool, ContactSolver(tool.probe, gates=Gates(sigma_max=tool.sigma_max))
 
         def came(found: tuple[TouchTool, ContactSolver]) -> None:
             self._loading = None

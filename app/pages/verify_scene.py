@@ -39,6 +39,11 @@ def firm_contact(reading: LiveReading | None) -> Contact | None:
     return None if reading is None or light else reading.contact
 
 
+def millimetres_within(contact: Contact) -> float:
+    """Return how far the 95 % ellipse of a contact reaches, mm, at least a tenth."""
+    return max(1e3 * contact.within, 0.1)
+
+
 class VerifyScene:
     """Draws for one page; nothing while that is not shown."""
 
@@ -145,7 +150,9 @@ class VerifyScene:
         self._contact = contact
         two = contact.reason is Reason.TWO_TOUCHES  # the force is that of both: it acts at neither
         covariance = None if two else contact.covariance
-        sure = "" if two else filled("{:.3g} %", min(100 * contact.confidence, 99.9))
+        sure = "" if two else filled("≤ {:.1f} mm", millimetres_within(contact))
+        if contact.reason is Reason.AMBIGUOUS:
+            sure = filled("{:.0f} %", 100 * contact.confidence)
         self._scene.show_contact(contact.point, covariance, contact.normal, _others(contact), captions, sure)
         self._scene.show_force(None if two else reading.compensated[:3], contact.point)
         if contact.accepted and len(self._points) < _MOST:

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtWidgets import QInputDialog, QToolButton, QWidget
 
 from contactbench.app.bench import Weight
-from contactbench.app.pages.verify_scene import firm_contact
+from contactbench.app.pages.verify_scene import firm_contact, millimetres_within
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.errors import capitalised
 from contactbench.pipeline.kernel import Reason
@@ -46,6 +46,12 @@ class TouchPanel(QWidget):
         self._decided: TouchOf | None = None
         self._left = 0
         self.state, self.error = TouchState(), ErrorView()
+        self.state.setToolTip(
+            self.tr(
+                "Within: 95 of 100 touches lie no farther from the point shown, by its covariance"
+                " (2.45 times the largest standard deviation)"
+            )
+        )
         self.next = sentence_label()
         self.next.setMinimumHeight(_TWO_LINES_PX)  # what lies below stays where it is
         self._make_buttons()
@@ -117,9 +123,9 @@ class TouchPanel(QWidget):
         """Say how sure the contact is now."""
         contact = firm_contact(reading)
         on = None if contact is None or reading is None else reading.on
-        sure = contact is None or (contact.reason in _SURE and on in (None, MARKS[0]))
-        words = (self._contact(contact), self._mark(on))
-        self.state.show_contact(" ".join(filter(None, words)), sure)
+        place, mark = contact is None or contact.reason in _SURE, self._mark(on)
+        words = ("" if place and mark else self._contact(contact), mark)  # no doubt beside "sure"
+        self.state.show_contact(" ".join(filter(None, words)), place and not mark)
 
     def show_idle(self, reading: LiveReading | None) -> None:
         """Show that nothing goes on."""
@@ -243,18 +249,20 @@ class TouchPanel(QWidget):
         """Say how sure the contact is, or why there is none."""
         if contact is None:
             return ""
-        sure = self.tr("Confidence {percent} %").format(percent=_percent(contact.confidence))
+        near = number(millimetres_within(contact), ".1f")
         match contact.reason:
             case Reason.OK | Reason.VERTEX:
-                return sure
+                return self.tr("Sure, within {near} mm").format(near=near)
             case Reason.BY_REGION:
+                return self.tr("Sure by the defined regions, within {near} mm").format(near=near)
+            case Reason.UNCERTAIN:
                 return self.tr(
-                    "{sure} thanks to the defined regions; the wrench also fits another place."
-                ).format(sure=sure)
+                    "Only within {near} mm. Press harder, or more directly into the surface."
+                ).format(near=near)
             case Reason.AMBIGUOUS:
                 return self.tr(
-                    "{sure}: the wrench also fits another place. Press in a different direction."
-                ).format(sure=sure)
+                    "Confidence {percent} %: the wrench also fits another place. Press in a different direction."
+                ).format(percent=number(100 * contact.confidence, ".0f"))
             case Reason.TWO_TOUCHES:
                 return self.tr("Two touches detected; both are shown.")
             case Reason.IMPLAUSIBLE:
@@ -295,10 +303,3 @@ class TouchPanel(QWidget):
         return self.tr("largest {largest} mm; last: {ratio} times the expected noise").format(
             largest=number(view.max_mm, ".2f"), ratio=number(view.last.ratio, ".1f")
         )
-
-
-def _percent(confidence: float) -> str:
-    """Return a share of one in per cent; what is not certain is never said to be 100."""
-    return (
-        number(min(100 * confidence, 99.9), ".1f") if confidence > 0.99 else number(100 * confidence, ".0f")
-    )

@@ -4495,6 +4495,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Die Sonde nach Kontaktdichte färben, in Kontakten pro mm²</translation>
     </message>
     <message>
+        <source>Within: 95 of 100 touches lie no farther from the point shown, by its covariance (2.45 times the largest standard deviation)</source>
+        <translation>Auf: 95 von 100 Berührungen liegen laut Kovarianz nicht weiter vom gezeigten Punkt entfernt (2,45-mal die größte Standardabweichung)</translation>
+    </message>
+    <message>
         <source>Mute tones</source>
         <translation>Töne stumm schalten</translation>
     </message>
@@ -4599,16 +4603,20 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{marker}: Fehler {size} mm. Loslassen.</translation>
     </message>
     <message>
-        <source>Confidence {percent} %</source>
-        <translation>Sicherheit {percent} %</translation>
+        <source>Sure, within {near} mm</source>
+        <translation>Sicher, auf {near} mm genau</translation>
     </message>
     <message>
-        <source>{sure} thanks to the defined regions; the wrench also fits another place.</source>
-        <translation>{sure} dank der festgelegten Regionen; der Messwert passt auch zu einer anderen Stelle.</translation>
+        <source>Sure by the defined regions, within {near} mm</source>
+        <translation>Sicher dank der festgelegten Regionen, auf {near} mm genau</translation>
     </message>
     <message>
-        <source>{sure}: the wrench also fits another place. Press in a different direction.</source>
-        <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
+        <source>Only within {near} mm. Press harder, or more directly into the surface.</source>
+        <translation>Nur auf {near} mm genau. Drücken Sie stärker oder senkrechter auf die Oberfläche.</translation>
+    </message>
+    <message>
+        <source>Confidence {percent} %: the wrench also fits another place. Press in a different direction.</source>
+        <translation>Sicherheit {percent} %: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
     </message>
     <message>
         <source>Two touches detected; both are shown.</source>
@@ -6239,6 +6247,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Größter Maßstabsfehler, der besteht, %.</translation>
     </message>
     <message>
+        <source>Largest sigma</source>
+        <translation>Größtes Sigma</translation>
+    </message>
+    <message>
         <source>Leave it out</source>
         <translation>Auslassen</translation>
     </message>
@@ -6933,6 +6945,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>Reason tangential beyond this angle to the normal.</source>
         <translation>Grund „tangential“ jenseits dieses Winkels zur Normalen.</translation>
+    </message>
+    <message>
+        <source>Reason uncertain when the largest standard deviation of the point is more than this. 0: not asked.</source>
+        <translation>Grund „uncertain“, wenn die größte Standardabweichung des Punktes diesen Wert übersteigt. 0: nicht verlangt.</translation>
     </message>
     <message>
         <source>Recalibrate bias and weight with poses tilted about two axes, with the sensor warm and the cable routed as in use.</source>
@@ -10359,6 +10375,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Reserven: modulus {0} N/m³, unknown {1}: eine positive Zahl angeben, und -1 bis 1.</translation>
     </message>
     <message>
+        <source>mark the touched region, and locate them again</source>
+        <translation>markieren Sie die berührte Region, und bestimmen Sie die Kontakte neu</translation>
+    </message>
+    <message>
         <source>marked as stale</source>
         <translation>als veraltet markiert</translation>
     </message>
@@ -10957,6 +10977,10 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
     <message>
         <source>prepare the probe in step 3, Probe</source>
         <translation>bereiten Sie die Sonde in Schritt 3, Sonde, vor</translation>
+    </message>
+    <message>
+        <source>press harder, or allow a larger sigma</source>
+        <translation>drücken Sie stärker, oder erlauben Sie ein größeres Sigma</translation>
     </message>
     <message>
         <source>press {0}: give a force from 0 to 1000 N, a tilt from 0 to under 90 degrees, and a torsion of at most {1} N·m.</source>
@@ -13631,8 +13655,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>{0} der {1} Teile überlappen sich, sodass Wände des einen im anderen liegen. Vereinigen Sie sie im CAD-Programm, oder erzeugen Sie vor der Verwendung die Außenhülle.</translation>
     </message>
     <message>
-        <source>{0} of {1} contacts are ambiguous and not in the map: mark the touched region, and locate them again.</source>
-        <translation>{0} von {1} Kontakten sind mehrdeutig und nicht in der Karte: Markieren Sie die berührte Region, und lokalisieren Sie sie neu.</translation>
+        <source>{0} of {1} contacts are {2} and not in the map: {3}.</source>
+        <translation>{0} von {1} Kontakten sind „{2}“ und fehlen in der Karte: {3}.</translation>
     </message>
     <message>
         <source>{0} of {1} contacts are on invented facets: the mesh file had an opening there, so surface and contacts are guesses.</source>

@@ -124,7 +124,6 @@ def _located(files: HeatmapFiles, content: ProbeFile, given: ReadingSettings) ->
             "a recording needs --calibration because its readings include the weight of the probe."
         )
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.contact import Gates
     from contactbench.pipeline.heatmap.contacts import locate_recording
 
     model = load_calibration(files.calibration).model
@@ -134,7 +133,7 @@ def _located(files: HeatmapFiles, content: ProbeFile, given: ReadingSettings) ->
             files.contacts,
             content.probe,
             model,
-            gates=Gates(min_force=given.min_force),
+            gates=given.gates,
             R_ES=R_ES,
             delay=given.delay,
             progress=bar,

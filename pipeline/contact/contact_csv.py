@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,47 +13,13 @@ from contactbench.pipeline.tables.shortest import csv_rows
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from contactbench.pipeline.kernel import Batch
+
 HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on\n"
 
 REASONS: tuple[str, ...] = tuple(reason.name.lower() for reason in Reason)
 _REASON_TEXTS = np.array(REASONS, dtype=np.bytes_)
 _MARK_TEXTS = np.array((*MARKS, ""), dtype=np.bytes_)  # the last: not known
-
-
-class Answers(Protocol):
-    """What a method says about n wrenches: :class:`contactbench.pipeline.kernel.Batch` or the like."""
-
-    @property
-    def points(self) -> npt.NDArray[np.float64]:
-        """(n, 3) S, m; NaN where there is no point."""
-
-    @property
-    def torques(self) -> npt.NDArray[np.float64]:
-        """(n,) k, N·m; NaN where there is no point."""
-
-    @property
-    def faces(self) -> npt.NDArray[np.int32]:
-        """(n,) facet, or -1."""
-
-    @property
-    def reasons(self) -> npt.NDArray[np.uint8]:
-        """(n,) values of Reason."""
-
-    @property
-    def candidates(self) -> npt.NDArray[np.int32]:
-        """(n,) how many there were."""
-
-    @property
-    def sigma_max(self) -> npt.NDArray[np.float64]:
-        """(n,) largest standard deviation of the point, m; NaN where there is no point."""
-
-    @property
-    def misfits(self) -> npt.NDArray[np.float64]:
-        """(n,) d2 of the best touch, also where it was no contact; NaN where none was looked for."""
-
-    @property
-    def confidences(self) -> npt.NDArray[np.float64]:
-        """(n,) 0 to 1; 0 where there is no point."""
 
 
 class ContactRows:
@@ -65,7 +31,7 @@ class ContactRows:
     def encode(
         self,
         times: npt.NDArray[np.bytes_],
-        answers: Answers,
+        answers: Batch,
         sigma_mm: npt.NDArray[np.float64],
         marks: npt.NDArray[np.uint8],
         more: npt.NDArray[np.float64] | None = None,
@@ -77,7 +43,7 @@ class ContactRows:
         ----------
         times : (n,) bytes
             What stands in the first column, without NUL bytes.
-        answers : Answers
+        answers : Batch
             Of n wrenches.
         sigma_mm : (n,) float64
             Largest standard deviation of each point, mm; NaN where there is none.

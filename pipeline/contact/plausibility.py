@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.contact.contact_csv import Answers
     from contactbench.pipeline.contact.stream import Locator
+    from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.mesh import Probe
 
 UNEXPLAINED = (Reason.IMPLAUSIBLE, Reason.TANGENTIAL, Reason.OFF_SURFACE)
@@ -158,7 +158,7 @@ def _count(locator: Locator, wrenches: npt.NDArray[np.float64]) -> tuple[int, in
     """Return how many rows are worth locating, and how many of these a touch explains."""
     if not len(wrenches):
         return 0, 0
-    answers: Answers = locator.locate_batch(np.ascontiguousarray(wrenches))
+    answers: Batch = locator.locate_batch(np.ascontiguousarray(wrenches))
     located = ~np.isin(answers.reasons, NOT_LOCATED)
     return int(located.sum()), int((located & ~np.isin(answers.reasons, UNEXPLAINED)).sum())
 

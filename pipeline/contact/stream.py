@@ -9,11 +9,11 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol, TypeVar
 
 import numpy as np
 
-from contactbench.pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
+from contactbench.pipeline.contact.contact_csv import HEADER, REASONS, ContactRows
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
 from contactbench.pipeline.contact.plausibility import Plausibility, Sample, unexplained
 from contactbench.pipeline.contact.wrench_csv import WrenchBlock, WrenchFileError, WrenchReader
@@ -40,7 +40,7 @@ _Done = TypeVar("_Done")
 class Locator(Protocol):
     """A solver or a method."""
 
-    def locate_batch(self, wrenches: npt.NDArray[np.float64], /) -> Answers:
+    def locate_batch(self, wrenches: npt.NDArray[np.float64], /) -> Batch:
         """Locate each row of (n, 6) on its own."""
 
 
@@ -150,7 +150,7 @@ def locate_file(
         for rows, answers in ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             marks = mark(answers.faces)
-            more = None if patches is None else patches.rows(rows.wrenches, cast("Batch", answers))
+            more = None if patches is None else patches.rows(rows.wrenches, answers)
             write(text.encode(rows.times, answers, sigma_mm, marks, more))
             tally.add(answers.reasons, sigma_mm, marks)
             sample.add(rows.wrenches, answers.reasons)
@@ -179,7 +179,7 @@ class _Untracked:
     def __init__(self, locator: Locator) -> None:
         self._locator = locator
 
-    def __call__(self, rows: WrenchBlock) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Batch:
         return self._locator.locate_batch(rows.wrenches)
 
     def warnings(self) -> tuple[str, ...]:
@@ -196,7 +196,7 @@ class _Tracked(_Untracked):
         self._first_stale = 0
         solver.reset()
 
-    def __call__(self, rows: WrenchBlock) -> Answers:
+    def __call__(self, rows: WrenchBlock) -> Batch:
         assert rows.t is not None  # noqa: S101  (the reader was asked for it)
         # fmax: a NaN, where they are allowed, is not a time, but does not hide the times after it.
         newest = np.fmax.accumulate(np.concatenate(([self._latest], rows.t)))
@@ -206,7 +206,7 @@ class _Tracked(_Untracked):
             self._first_stale = int(rows.lines[np.argmax(late)])
         self._stale += int(np.count_nonzero(late))
         # An age of NaN is over any limit, even over none.
-        answers: Answers = self._solver.track_batch(rows.wrenches, np.where(late, np.nan, 0.0))
+        answers: Batch = self._solver.track_batch(rows.wrenches, np.where(late, np.nan, 0.0))
         return answers
 
     def warnings(self) -> tuple[str, ...]:

@@ -6,8 +6,8 @@ reason                                                          what it does
 ==============================================================  =====================================================
 ok, vertex, by_region                                           turns by the place: who declares regions says where
                                                                 it may be touched
-ambiguous, by_region where a bundle's gates do not accept it    turns by the likeliest place or the second, whichever
-                                                                is within 10 mm of the last sure one; else as below
+ambiguous, uncertain,                                           turns by the likeliest place or the second, whichever
+by_region where a bundle's gates do not accept it               is within 10 mm of the last sure one; else as below
 two_touches, low_force, tangential, off_surface,                keeps the force and does not turn; after 2 s it goes
 outside_region, implausible                                     back
 stale, not_finite, not_a_rotation, unhealthy                    holds: the readings are not to be believed
@@ -48,6 +48,7 @@ HEED = {
     Reason.VERTEX: Heed.TURN,
     Reason.BY_REGION: Heed.NEAR,
     Reason.AMBIGUOUS: Heed.NEAR,
+    Reason.UNCERTAIN: Heed.NEAR,
     Reason.TWO_TOUCHES: Heed.KEEP,
     Reason.LOW_FORCE: Heed.KEEP,
     Reason.TANGENTIAL: Heed.KEEP,

@@ -29,7 +29,11 @@ if TYPE_CHECKING:
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
-_WORTH_SAYING = 0.1  # of the contacts: a larger share that could be elsewhere is told
+_WORTH_SAYING = 0.1  # of the contacts: a larger share that could be elsewhere, or is not near, is told
+_REMEDIES = {
+    "ambiguous": message("mark the touched region, and locate them again"),
+    "uncertain": message("press harder, or allow a larger sigma"),
+}
 _LONGEST_STEPS = 5.0  # medians: a contact does not last through a gap in the recording
 _BLOCK_ROWS = 65_536
 
@@ -284,13 +288,14 @@ def _contacts(
 ) -> Contacts:
     used = _used(reasons, points)
     names, counts = np.unique(reasons[~used], return_counts=True)
-    doubtful = int(counts[names == b"ambiguous"].sum())
-    if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
-        said = message(
-            f"{arg(doubtful):,} of {arg(doubtful + used.sum()):,} contacts are ambiguous and not in the map:"
-            " mark the touched region, and locate them again."
-        )
-        notes = (*notes, said)
+    for reason, remedy in _REMEDIES.items():
+        doubtful = int(counts[names == reason.encode()].sum())
+        if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
+            said = message(
+                f"{arg(doubtful):,} of {arg(doubtful + used.sum()):,} contacts are {arg(reason)} and not in the map:"
+                f" {arg(remedy)}."
+            )
+            notes = (*notes, said)
     usual = usual_step(times)
     seconds = np.clip(np.append(np.diff(times), usual), 0.0, _LONGEST_STEPS * usual)
     return Contacts(

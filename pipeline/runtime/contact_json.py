@@ -44,6 +44,7 @@ def contact_schema() -> bytes:
         "force_S_N": _numbers("Of the tissue on the probe, compensated and filtered, N."),
         "torque_S_Nm": _numbers("The same, about the sensor's origin, N·m."),
         "covariance_S_m2": _numbers("Of the point, row by row, m²."),
+        "within_m": _numbers("How far the 95 % ellipse of the point reaches, m; null: none.", array=False),
         "face": {**whole, "description": "-1: none."},
         "vertex": {**whole, "description": "-1: none."},
         "region": {**whole, "description": "Rank; 0: none."},

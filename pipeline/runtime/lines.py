@@ -98,6 +98,7 @@ def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on:
         f',"force_S_N":{_array(None if wrench is None else wrench[:3])}'
         f',"torque_S_Nm":{_array(None if wrench is None else wrench[3:])}'
         f',"covariance_S_m2":{_array(None if covariance is None else covariance.ravel())}'
+        f',"within_m":{number(contact.within)}'
         f',"face":{_index(contact.face)},"vertex":{_index(contact.vertex)},"region":{contact.region}'
         f',"on":{_text(on)}'
         f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'

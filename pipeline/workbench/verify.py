@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError, arg, message
+from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
 from contactbench.pipeline.session.why import why_locked
@@ -88,6 +89,7 @@ class TouchTool:
     model: GravityModel
     content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
     regions: tuple[Region, ...] = ()  # Names and colours, in the order of their ranks
+    sigma_max: float = 0.0  # m: as near as the bundle will ask of a contact
 
 
 def tool_of(folder: Path, state: State) -> TouchTool:
@@ -115,7 +117,13 @@ def tool_of(folder: Path, state: State) -> TouchTool:
         raise InputError(
             "The calibration was refused, so a verification with it would not count. Recalibrate."
         )
-    return TouchTool(probe, calibration.model, content, regions)
+    return TouchTool(probe, calibration.model, content, regions, asked_near(state))
+
+
+def asked_near(state: State) -> float:
+    """Return the gate `sigma_max` that an export of the session asks for, m."""
+    given = state.setting("config.sigma_max")
+    return float(given if isinstance(given, float | int) else ExportKnobs().sigma_max)
 
 
 def tool_key(state: State) -> tuple[str, str] | None:

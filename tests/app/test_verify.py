@@ -277,6 +277,7 @@ def found(reason, **known):
         "normal": np.array([0.0, 0.0, 1.0]),
         "covariance": 1e-8 * np.eye(3),
         "sigma_max": 1e-4,
+        "within": 1.23e-3,
         "confidence": 0.98,
         "candidates": [],
         "second": None,
@@ -308,11 +309,18 @@ RIVALS = [SimpleNamespace(point=np.array([0.0, 0.02, 0.1])), SimpleNamespace(poi
 @pytest.mark.parametrize(
     ("contact", "words", "sure", "rings", "caption"),
     [
-        (found(Reason.OK, candidates=RIVALS), "Confidence 98 %", True, None, None),
-        (found(Reason.VERTEX, confidence=1.0), "Confidence 99.9 %", True, None, None),
+        (found(Reason.OK, candidates=RIVALS), "Sure, within 1.2 mm", True, None, None),
+        (found(Reason.VERTEX, within=1e-6), "Sure, within 0.1 mm", True, None, None),
+        (
+            found(Reason.UNCERTAIN, within=0.0123, candidates=RIVALS),
+            "Only within 12.3 mm.",
+            False,
+            None,
+            None,
+        ),
         (
             found(Reason.BY_REGION, candidates=RIVALS),
-            "thanks to the defined regions",
+            "Sure by the defined regions, within 1.2 mm",
             True,
             2,
             "possible alternative",
@@ -340,9 +348,9 @@ def test_how_sure_a_contact_is_and_where_it_could_be_as_well(
     assert words in said
     assert is_sure is sure
     (point, covariance, _, others, captions, sure_words) = seen[-1]
-    assert sure_words == (
-        "" if contact.reason is Reason.TWO_TOUCHES else f"{min(100 * contact.confidence, 99.9):.3g} %"
-    )
+    assert ("sure" in said.lower()) is sure  # no doubt beside it
+    near = f"≤ {max(1e3 * contact.within, 0.1):.1f} mm"
+    assert sure_words == {Reason.TWO_TOUCHES: "", Reason.AMBIGUOUS: "60 %"}.get(contact.reason, near)
     assert point is contact.point
     assert (covariance is None) == (contact.reason is Reason.TWO_TOUCHES)
     assert (others is None) if rings is None else others.shape == (rings, 3)
@@ -375,15 +383,15 @@ def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, rea
 @pytest.mark.parametrize(
     ("on", "words", "sure"),
     [
-        ("measured", "Confidence 98 %", True),
+        ("measured", "Sure, within 1.2 mm", True),
         (
             "invented",
-            "Confidence 98 % On a facet added during repair: its position is an estimate.",
+            "On a facet added during repair: its position is an estimate.",
             False,
         ),
         (
             "untouchable",
-            "Confidence 98 % On an untouchable region: check the region and the mount.",
+            "On an untouchable region: check the region and the mount.",
             False,
         ),
     ],

@@ -40,6 +40,7 @@ BENCHMARKS = {
     "memory": "memory:run",
     "mesh-fuzz": "mesh_fuzz.fuzz:run",
     "mistakes": "mistakes:run",
+    "nearness": "nearness:run",
     "outputs": "outputs:run",
     "painting": "painting:run",
     "prepared-meshes": "prepared_meshes:run",

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from .solids import Floats
 
 _STL_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
-_REAL = Path(__file__).parents[3] / "shared" / "data" / "probes"
+REAL = Path(__file__).parents[3] / "shared" / "data" / "probes"
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ def _sound(mesh: Mesh, **more: object) -> Shape:
 
 def names() -> tuple[str, ...]:
     """List all shapes that can be made here."""
-    return tuple(name for name in _SHAPES if not name.startswith("real-") or _REAL.is_dir())
+    return tuple(name for name in _SHAPES if not name.startswith("real-") or REAL.is_dir())
 
 
 @cache
@@ -796,7 +796,7 @@ def bundled_t_shape() -> Shape:
 
 def _real(name: str) -> Shape:
     """A real file, of which the outside is not known: what sees much of the sky."""
-    content = (_REAL / name).read_bytes()
+    content = (REAL / name).read_bytes()
     records = np.frombuffer(content, _STL_FACET, -1, 84)
     corners = records["corners"].astype(np.float64).reshape(-1, 3)
     vertices, index = np.unique(corners, axis=0, return_inverse=True)

@@ -449,6 +449,42 @@ def test_repr_reads_well(solver):
     assert "no point" in repr(solver.locate(np.zeros(6)))
 
 
+@pytest.mark.parametrize("accept_by_region", [True, False])
+@pytest.mark.parametrize("way", ["locate_batch", "track_batch"])
+def test_asking_for_nearness_changes_what_is_accepted_and_no_place(way, accept_by_region):
+    probe, rng, asked = bundled("t-shape", 1000, regions=True), np.random.default_rng(4), 0.002
+    touches = draw_touches(assets.surface("t-shape"), 600, rng, force=(0.6, 12.0), above=0.1)
+    wrenches = add_noise(touches.wrenches, WrenchNoise(), rng)
+    kinds = {"accept_by_region": accept_by_region}
+    plain, near = (ContactSolver(probe, gates=Gates(**kinds, **more)) for more in ({}, {"sigma_max": asked}))
+    before, after = getattr(plain, way)(wrenches), getattr(near, way)(wrenches)
+    wide = before.accepted & (before.sigma_max > asked)
+    assert 50 < wide.sum() < before.accepted.sum() - 50
+    assert (Reason.BY_REGION in before.reasons[wide]) is accept_by_region
+    assert (after.reasons == np.where(wide, Reason.UNCERTAIN, before.reasons)).all()
+    assert (after.accepted == (before.accepted & ~wide)).all()
+    for each in ("points", "sigma_max", "confidences", "misfits", "candidates", "faces", "seconds"):
+        np.testing.assert_array_equal(getattr(after, each), getattr(before, each))
+    contact = after[int(np.argmax(wide))]
+    assert (contact.reason, contact.accepted) == (Reason.UNCERTAIN, False)
+    assert contact.sigma_max == pytest.approx(np.sqrt(np.linalg.eigvalsh(contact.covariance)[-1]))
+    assert contact.within == pytest.approx(np.sqrt(-2 * np.log(0.05)) * contact.sigma_max)
+    assert near.search_differences(wrenches, None).size == 0
+
+
+def test_an_uncertain_touch_is_followed_and_the_methods_of_others_are_asked_the_same():
+    near, light = (
+        ContactSolver(ball(), gates=Gates(sigma_max=0.002)),
+        push((0.01, 0.02, -0.6), (0.001, 0.002, 0.13)),
+    )
+    assert near.track(push()).accepted
+    assert {near.track(light).reason for _ in range(30)} == {Reason.UNCERTAIN}
+    assert near.previous is not None, "a touch that is there is not lost, however long it is light"
+    for name, sigma_max, reason in (("scan", 0.002, Reason.UNCERTAIN), ("scan", 0.0, Reason.OK)):
+        method = methods.make(name, ball(), gates=Gates(sigma_max=sigma_max))
+        assert method.locate(light).reason == reason
+
+
 def test_more_noise_never_makes_a_touch_surer():
     probe, rng = bundled("t-shape", 1000), np.random.default_rng(8)
     wrenches = random_wrenches(probe, 1_000, rng, pitch=0.001, angle=60)

@@ -197,13 +197,14 @@ def test_a_confidence_that_is_none_is_refused(bench):
     assert "wrong.csv: row 3: the confidence is 1.5" in " ".join(done.output.split())
 
 
-def test_only_sure_places_are_shown(bench):
+@pytest.mark.parametrize("doubt", ["ambiguous", "uncertain"])
+def test_only_sure_places_are_shown(bench, doubt):
     text = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()
     rows = [
         row.replace(",ok,", f",{reason},")
         for row, reason in zip(
             text[1:],
-            ("ok", "vertex", "by_region", "ambiguous", "two_touches", "outside_region", *["ok"] * N),
+            ("ok", "vertex", "by_region", doubt, "two_touches", "outside_region", *["ok"] * N),
             strict=False,
         )
     ]
@@ -211,16 +212,16 @@ def test_only_sure_places_are_shown(bench):
     file.write_text("\n".join([text[0], *rows]), encoding="utf-8")
     said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply", "--bandwidth", 3)
     assert said["contacts"] == N - 3
-    assert said["left_out"] == {"ambiguous": 1, "outside_region": 1, "two_touches": 1}
+    assert said["left_out"] == {doubt: 1, "outside_region": 1, "two_touches": 1}
     assert said["warnings"] == []
     file.write_text(
         "\n".join(
-            [text[0], *(row.replace(",ok,", ",ambiguous,") for row in text[1 : N // 2]), *text[N // 2 :]]
+            [text[0], *(row.replace(",ok,", f",{doubt},") for row in text[1 : N // 2]), *text[N // 2 :]]
         ),
         encoding="utf-8",
     )
     said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply", "--bandwidth", 3)
-    assert f"{N // 2 - 1} of {N} contacts are ambiguous" in said["warnings"][0]
+    assert f"{N // 2 - 1} of {N} contacts are {doubt}" in said["warnings"][0]
 
 
 def test_a_film_of_contacts(bench):

@@ -155,6 +155,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     gates.follow_distance = double(bytes.byte() % 8) * 0.1;
     gates.rival_cost = double(bytes.byte() % 16);
     gates.accept_by_region = bytes.byte() % 2 == 0;
+    gates.sigma_max = double(bytes.byte() % 4) * 0.02;
     const double arm = double(bytes.byte() % 16) * double(bytes.byte() % 4) * 1e-3;
     const MeshTerms terms{double(bytes.byte() % 4) * 1e-3, bytes.byte() % 2 == 0};
     std::vector<double> bonus(bytes.byte() % 2 ? faces.size() : 0);

@@ -255,7 +255,7 @@ inline void check_tracking() {
                     continue;
                 }
                 CHECK(same_answer(want, got) && !got.has_second);
-                if (!contactbench::accepted(got.reason, s.gates)) continue;
+                if (!contactbench::followed(got.reason, s.gates)) continue;
                 last = got.contact()->point, misses = 0;
                 accepted.push_back({w, *got.contact()});
             }

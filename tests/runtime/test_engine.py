@@ -55,6 +55,9 @@ def test_the_same_as_the_kernel_given_everything() -> None:
         assert told["covariance_S_m2"] == (
             None if np.isnan(covariance[0, 0]) else covariance.ravel().tolist()
         )
+        variance = np.nan if np.isnan(covariance).any() else np.linalg.eigvalsh(covariance)[-1]
+        within = np.nan if told["within_m"] is None else told["within_m"]
+        assert within == pytest.approx(np.sqrt(-2 * np.log(0.05) * variance), rel=1e-9, nan_ok=True)
 
 
 def test_the_kernel_gets_what_the_bundle_says_of_a_touch() -> None:

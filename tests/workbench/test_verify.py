@@ -7,6 +7,7 @@ from terminal import invoke
 from workbench.touch_session import STEPWISE, press, touch_all
 
 from contactbench.pipeline.errors import InputError, Message
+from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.workbench.desk import Desk
@@ -71,6 +72,12 @@ def test_the_recording_is_judged_and_anybody_gets_the_same_bytes(bench, folder):
     assert done.exit_code == 0, done.stderr
     with Session.open(folder, write=False) as session:
         assert session.state.current_results["verification", "verification.json"].outcome == made.outcome
+
+
+def test_contacts_are_asked_for_as_near_as_the_bundle_will(bench):
+    assert bench.tool.sigma_max == ExportKnobs().sigma_max == 0.002
+    bench.set("config.sigma_max", 0.0)
+    assert tool_of(bench.desk.folder, bench.desk.state).sigma_max == 0.0
 
 
 def test_what_is_limited_later_makes_it_stale(bench):

@@ -125,7 +125,9 @@ void bind_contact(nb::module_& m) {
         .value("IMPLAUSIBLE", Reason::implausible,
                "No single touch explains the wrench: two touches, a wrong model, or wrong units.")
         .value("TWO_TOUCHES", Reason::two_touches, "A second touch joined the one that is followed; both are given.")
-        .value("UNHEALTHY", Reason::unhealthy, "The sensor hangs, or its clock has just leapt.");
+        .value("UNHEALTHY", Reason::unhealthy, "The sensor hangs, or its clock has just leapt.")
+        .value("UNCERTAIN", Reason::uncertain,
+               "One place, but its standard deviation is over the gate sigma_max; tracking follows it.");
 
     nb::class_<ContactCandidate>(m, "Candidate", "Another place that explains the wrench, and why it lost.")
         .def_prop_ro("point", [](const ContactCandidate& c) { return to_array(c.candidate.point); }, "(3,) S, m.")
@@ -180,8 +182,12 @@ void bind_contact(nb::module_& m) {
             "(3, 3) S, m², along the facet's plane: noise, calibration, model error, mesh; None without a point.")
         .def_prop_ro("sigma_max", [](const Contact& c) {
             if (!c.chosen()) return nan;
-            return norm(ellipse_axes(covariance_of(c), c.chosen()->normal)[0]); },
+            return largest_sigma(covariance_of(c), c.chosen()->normal); },
             "Largest standard deviation of the point, m; NaN without a point.")
+        .def_prop_ro("within", [](const Contact& c) {
+            const bool one = c.chosen() && !c.answer.has_second;
+            return one ? sigmas_of_95 * largest_sigma(covariance_of(c), c.chosen()->normal) : nan; },
+            "m: how far the 95 % ellipse of the point reaches; NaN without a point, and for TWO_TOUCHES.")
         .def_prop_ro("ellipse", [](const Contact& c) -> nb::object {
             if (!c.chosen()) return nb::none();
             const auto axes = ellipse_axes(covariance_of(c), c.chosen()->normal);

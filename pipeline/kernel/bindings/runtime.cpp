@@ -264,6 +264,8 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1.")
         .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
                      "(3,) S, m: the likeliest other place, or None.")
+        .def_prop_ro("within", [](const C& c) { return c.within; },
+                     "m: how far the 95 % ellipse of the point reaches; NaN where there is none.")
         .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); },
                      "(3,) S, m: a touch that joined this one, or None.");
 }

@@ -146,7 +146,7 @@ nb::object batch_covariances(const Batch& b) {
 
 nb::object batch_sigma_max(const Batch& b) {
     std::vector<double> out(b.size(), std::numeric_limits<double>::quiet_NaN());
-    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3 normal) { out[i] = norm(ellipse_axes(s, normal)[0]); });
+    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3 normal) { out[i] = largest_sigma(s, normal); });
     return make_array(std::move(out), {b.size()});
 }
 
@@ -159,7 +159,7 @@ struct Main {
     Answer solve(const Wrench& w) const { return context->locate(w); }
 };
 
-// A rival that knows one answer and no doubt: the gates are the same, the reason is ok or off_surface.
+// A rival that knows one answer and no doubt: the gates are the same, the reason is ok, uncertain or off_surface.
 template <class Find>
 Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
     Answer a;
@@ -172,7 +172,7 @@ Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
     a.candidates[0] = c;
     a.count = 1;
     a.chosen = 0;
-    a.reason = Reason::ok;
+    a.reason = context.asked_near(w, c, Reason::ok);
     a.confidence = 1.0;
     return a;
 }

@@ -377,7 +377,7 @@ def test_how_a_recording_is_read_is_chosen_as_on_the_command_line(
     box.own_mount.setChecked(True)
     box.mount[2].setValue(90.0)
     box.delay.setValue(20.0)
-    box.least.field.setValue(2.0)
+    box.limits["min_force"].field.setValue(2.0)
     qtbot.waitUntil(lambda: viewer.sources[0] is not first and settled(viewer), timeout=LONG)
     viewer.controls.bandwidth.setValue(3.0)
     mine = saved_mesh(qtbot, viewer, tmp_path / "mine.ply", monkeypatch)

@@ -26,7 +26,7 @@ LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
 DOUBT, MOST_ACCELERATION, BEND_SPAN = 8, 100.0, 0.07
 LATE, CLOCK, OVERRANGE = 8, 32, 1
 FROZEN, SILENT, FLAGGED, NO_POSE, LEAPT = 1, 2, 4, 8, 16
-POINTS = {"ok", "vertex", "ambiguous", "by_region", "two_touches"}
+POINTS = {"ok", "vertex", "ambiguous", "by_region", "two_touches", "uncertain"}
 UNKNOWN = np.full(3, np.nan)
 
 
@@ -504,7 +504,7 @@ class Reference:
         self.wrench: Array | None = None
         self.held: Array | None = None
         self.previous: Array | None = None
-        self.misses = 0
+        self.misses = self.uncertain = 0
         self.pair = TwoTouches()
         self.stale_count, self.stale_begin, self.stale_last = 0, 0.0, 0.0
 
@@ -701,7 +701,8 @@ class Reference:
     def _describe(self, found: Found, C: Array, out: Answer) -> None:
         out.reason, out.candidates, out.misfit = found.reason, found.candidates, found.misfit
         out.left_over, out.arm, out.confidence = found.left_over, found.arm, found.confidence
-        out.accepted = out.health == 0 and self.taken(found.reason)
+        out.accepted = out.health == 0 and self.accepts(found.reason)
+        self.uncertain = 0 if out.accepted else self.uncertain + (found.reason == "uncertain")
         if found.chosen is not None and self.wrench is not None:
             c = found.chosen
             out.point, out.normal, out.k, out.region = c.point, c.normal, c.k, c.region
@@ -712,7 +713,7 @@ class Reference:
             out.second = UNKNOWN if found.second is None else found.second.point
         if out.accepted:
             self.held = self.low_pass.take(out.point)
-        elif self.previous is None:
+        elif self.previous is None or self.uncertain > self.gates["recent_samples"]:
             self.low_pass.reset()
             self.held = None
         if self.held is not None:
@@ -802,6 +803,10 @@ class Reference:
         found.confidence = 1 / (1 + sum(float(np.exp(-each / 2)) for each in delta))
         if self.gates["region_only"] and (chosen.region == 0 or chosen.prior < 0):
             found.reason, found.chosen, found.confidence = "outside_region", None, 0.0
+        asked = self.gates.get("sigma_max_m", 0.0)
+        if asked > 0 and self.accepts(found.reason):
+            variance = float(np.linalg.eigvalsh(wrench.covariance(chosen.face, chosen.point))[-1])
+            found.reason = found.reason if variance <= asked**2 else "uncertain"
         return found
 
     def _left_over(self, wrench: Wrench, point: Array, normal: Array, k: float) -> float:
@@ -824,8 +829,11 @@ class Reference:
 
     # -- following (17) and two touches (18)
 
-    def taken(self, reason: str) -> bool:
+    def accepts(self, reason: str) -> bool:
         return reason in ("ok", "vertex") or (reason == "by_region" and self.gates["accept_by_region"])
+
+    def taken(self, reason: str) -> bool:
+        return self.accepts(reason) or reason == "uncertain"
 
     def _miss_or_take(self, found: Found) -> None:
         if self.taken(found.reason) and found.chosen is not None:

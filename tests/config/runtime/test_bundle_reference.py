@@ -35,6 +35,7 @@ ALWAYS |= {f"health {bits}" for bits in (0, 1, 4, 8, 16)}
 SOMETIMES = {
     "as exported": {"ambiguous", "by_region", "vertex", "two_touches", "saturated"},
     "unfiltered, in regions only": {"outside_region", "tangential"},
+    "still, without a mount": {"uncertain"},
 }
 TURNED = [0.5, 0.5, -0.5, 0.5]
 
@@ -75,6 +76,7 @@ VARIANTS = {
             "gates.friction_angle_rad": 0.9,
             "gates.ambiguity_distance_m": 0.001,
             "gates.follow_odds": 30.0,
+            "gates.sigma_max_m": 0.0008,
             "touch.torsion_arm_m": 0.0003,
         },
     ),

@@ -597,6 +597,9 @@ def test_settings_from_a_file_reach_everything(bench):
     found = RuntimeConfig.load(bench / "b").model.to_json()
     assert found["gates"].pop("friction_angle_rad") == pytest.approx(whole["gates"].pop("friction_angle_rad"))
     del found["filters"]["location"]["sections"]
+    assert (
+        found["gates"].pop("sigma_max_m") == 0.002
+    )  # asked of every new bundle, unless the file says otherwise
     for name in given:
         assert found[name] == whole[name]
 

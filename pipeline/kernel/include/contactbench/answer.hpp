@@ -24,18 +24,22 @@ enum class Reason : std::uint8_t {
     implausible,
     two_touches,
     unhealthy,
+    uncertain,
 };
-inline constexpr int reason_count = 15;
+inline constexpr int reason_count = 16;
 
 // Does an answer with this reason carry a point?
 inline bool has_point(Reason r) {
-    return r <= Reason::ambiguous || r == Reason::by_region || r == Reason::two_touches;
+    return r <= Reason::ambiguous || r == Reason::by_region || r == Reason::two_touches || r == Reason::uncertain;
 }
 
-// May a controller use it, and tracking follow it?
+// May a controller use it?
 inline bool accepted(Reason r, const Gates& g) {
     return r <= Reason::vertex || (r == Reason::by_region && g.accept_by_region);
 }
+
+// May tracking follow it? What is uncertain is there, and nowhere else: asking for nearness moves no point.
+inline bool followed(Reason r, const Gates& g) { return accepted(r, g) || r == Reason::uncertain; }
 
 inline constexpr double same_touch_sigmas = 4.5;
 

@@ -34,6 +34,8 @@ struct Gates {
     bool region_only = false;
     // Accept, and follow when tracking, contacts whose place is certain only because of the regions of the mesh.
     bool accept_by_region = true;
+    // Reason uncertain when the largest standard deviation of the point is more than this. 0: not asked.
+    double sigma_max = 0.0;
     // Nearer surfaces, m along the force, are one.
     double behind_distance = 0.003;
 };
@@ -57,6 +59,7 @@ void each_gate(Gates& g, Visit&& visit) {
     visit("saturation", "saturation", g.saturation, From::value);
     visit("region_only", "region_only", g.region_only, From::value);
     visit("accept_by_region", "accept_by_region", g.accept_by_region, From::value);
+    visit("sigma_max_m", "sigma_max", g.sigma_max, From::value);
 }
 
 }  // namespace contactbench

@@ -359,4 +359,10 @@ inline std::array<Vec3, 2> ellipse_axes(const Mat3& s, Vec3 n) {
     return {large * major, small * cross(n, major)};
 }
 
+// The largest standard deviation of a point, m: the root of the largest eigenvalue of its rank-2 covariance.
+inline double largest_sigma(const Mat3& s, Vec3 n) { return norm(ellipse_axes(s, n)[0]); }
+
+// The 95 % ellipse of a point reaches so many standard deviations: sqrt(-2 ln 0.05).
+inline constexpr double sigmas_of_95 = 2.4477468306808161;
+
 }  // namespace contactbench

@@ -16,8 +16,8 @@
 //              unfiltered one, too.
 //   gaps       a sample more than `gates.max_age` after the last one starts anew, as after reset.
 //   zero       watched beside all this, on the compensated readings before the filter; see zero.hpp.
-//   location   filtered over accepted contacts only; held while contact is lost for at most
-//              `gates.recent_samples` samples, and started anew after that.
+//   location   filtered over accepted contacts only; held while contact is lost for at most `gates.recent_samples`
+//              samples, or as many are uncertain, and started anew after that.
 #pragma once
 
 #include "health.hpp"
@@ -57,7 +57,7 @@ inline const char* reason_name(std::int32_t reason) {
     static constexpr const char* names[] = {"ok",          "vertex",         "ambiguous", "low_force",
                                             "tangential",  "off_surface",    "outside_region", "saturated",
                                             "stale",       "not_finite",     "not_a_rotation", "by_region",
-                                            "implausible", "two_touches",    "unhealthy"};
+                                            "implausible", "two_touches",    "unhealthy",      "uncertain"};
     static_assert(sizeof names / sizeof *names == reason_count);
     return reason >= 0 && reason < reason_count ? names[reason] : "unknown";
 }
@@ -91,8 +91,9 @@ struct RuntimeContact {
     double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
     double latency = detail::unknown;   // s: arrival less time, and how old the filter's wrench is by then
+    double within = detail::unknown;    // m: how far the 95 % ellipse of the point reaches
 };
-static_assert(sizeof(RuntimeContact) == 8 * 4 + 38 * 8);
+static_assert(sizeof(RuntimeContact) == 8 * 4 + 39 * 8);
 
 // Each column and row of unit length and at right angles to within 1e-3, and not a mirror.
 inline bool is_rotation(const double R[9]) {
@@ -364,6 +365,7 @@ private:
         if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
             const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
             std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
+            out.within = sigmas_of_95 * largest_sigma(s, c->normal);
         }
         if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);
         if (answer_.has_second) put(out.second, answer_.second.point);
@@ -374,7 +376,9 @@ private:
             const Vec3 point{out.point[0], out.point[1], out.point[2]};
             held_ = low_pass_.update(point);
             holding_ = true;
-        } else if (!solver_.previous()) {
+            uncertain_ = 0;
+        } else if (!solver_.previous() ||
+                   (answer_.reason == Reason::uncertain && ++uncertain_ > settings_.gates.recent_samples)) {
             low_pass_.reset();
             holding_ = false;
         }
@@ -397,6 +401,7 @@ private:
     static constexpr int most_stale = 50;
     double last_time_ = 0.0, stale_first_ = 0.0, stale_last_ = 0.0;
     double heard_ = -HUGE_VAL;  // when the last sample came, whatever was wrong with it
+    std::int64_t uncertain_ = 0;  // samples since the last accepted one; the contact is followed, but what is held grows old
     int stale_ = 0;  // times in a row that increased, but not beyond last_time_
     bool running_ = false, holding_ = false, has_wrench_ = false;
 };

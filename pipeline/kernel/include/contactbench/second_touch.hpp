@@ -50,7 +50,7 @@ private:
     // Only the second is there any more: it explains the wrench by itself.
     bool has_left(const Answer& a, const Gates& g) const {
         const Candidate* c = a.contact();
-        return c && accepted(a.reason, g) && norm(c->point - second_.point) <= std::max(detail::own_radius(*c, g), g.follow_distance);
+        return c && followed(a.reason, g) && norm(c->point - second_.point) <= std::max(detail::own_radius(*c, g), g.follow_distance);
     }
 
     static double least_step(const Gates& g) { return 2.0 * g.min_force; }
@@ -94,7 +94,7 @@ private:
 
     // The moment before is between half a moment and one old.
     void note(const Wrench& w, const Gates& g, const Answer& a) {
-        if (!accepted(a.reason, g)) return;
+        if (!followed(a.reason, g)) return;
         if (!before_.known || 2 * ++age_ >= g.recent_samples) {
             before_ = next_.known ? next_ : Moment{w, *a.contact(), true};
             next_ = {w, *a.contact(), true};

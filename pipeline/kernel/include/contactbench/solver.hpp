@@ -9,7 +9,7 @@
 //   units      S frame, N, N*m, m, s.
 //   locate     const and thread-safe. The same wrench and previous contact give the same answer,
 //              bit for bit, whatever came before.
-//   track      one stream, not thread-safe. Equal to locate with the last accepted contact as
+//   track      one stream, not thread-safe. Equal to locate with the last followed contact as
 //              `previous`, as long as that is recent; but where a second touch has joined it, it says so.
 //   cost       O(log n) where the wrench is precise against the probe's size; no allocation.
 #pragma once
@@ -76,7 +76,7 @@ public:
             Solver::answer<Search>(doubled_, step, nullptr, -1, out);
         };
         pair_.observe(w, gates_, previous() != nullptr, a, alone);
-        if (accepted(a.reason, gates_)) {
+        if (followed(a.reason, gates_)) {
             last_ = a.contact()->point;
             touched_ = true;
             misses_ = 0;
@@ -99,10 +99,25 @@ public:
     // Of a point on a plane, whoever found it there; S, m^2.
     Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face) const {
         const Query q = make_query(model_->frame, w, uncertainty_);
-        return plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
+        return covariance(q, point, normal, face);
+    }
+
+    // The reason of an answer, or uncertain where it would be accepted, but is not as near as gates().sigma_max asks.
+    Reason asked_near(const Wrench& w, const Candidate& c, Reason reason) const {
+        return gates_.sigma_max > 0.0 ? asked_near(make_query(model_->frame, w, uncertainty_), c, reason) : reason;
     }
 
 private:
+    Reason asked_near(const Query& q, const Candidate& c, Reason reason) const {
+        if (!(gates_.sigma_max > 0.0) || !accepted(reason, gates_)) return reason;
+        const Mat3 s = covariance(q, c.point, c.normal, c.face);
+        return largest_sigma(s, c.normal) <= gates_.sigma_max ? reason : Reason::uncertain;
+    }
+
+    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face) const {
+        return plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
+    }
+
     double depth_of(const Query& q, Vec3 point) const {
         return dot((1.0 / model_->frame.scale) * (point - model_->frame.centre), q.f);
     }
@@ -158,7 +173,9 @@ private:
             found = finder.next(hunt);
             if (found.touch.slot < 0) break;
         }
-        a.left_over = left_over(w, a.candidates[decide(a, gates_, q.f)]);
+        const Candidate& best = a.candidates[decide(a, gates_, q.f)];
+        a.left_over = left_over(w, best);
+        a.reason = asked_near(q, best, a.reason);
     }
 
     // Without the torsion that a touch may have: a larger one is left over, too.

@@ -119,6 +119,7 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_array("force_S_N", c.force, 3);
     print_array("torque_S_Nm", c.torque, 3);
     print_array("covariance_S_m2", c.covariance, 9);
+    print_one("within_m", c.within);
     constexpr const char* marks[] = {"null", "\"measured\"", "\"invented\"", "\"untouchable\""};
     std::printf(",\"face\":%d,\"vertex\":%d,\"region\":%d,\"on\":%s,\"candidates\":%d", int(c.face), int(c.vertex),
                 int(c.region), marks[c.on - CB_ON_NOTHING], int(c.candidates));

@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.2.0"
+#define CB_RUNTIME_VERSION "2.3.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -68,7 +68,8 @@ enum {
     CB_BY_REGION = 11,      /* sure only because of the declared regions */
     CB_IMPLAUSIBLE = 12,    /* no single touch explains the wrench: `misfit`, `left_over` and `arm` say by how much */
     CB_TWO_TOUCHES = 13,    /* a second touch has joined the one that was followed: `point` and `second` */
-    CB_UNHEALTHY = 14       /* `health` says why: the sensor hangs, or its clock has just leapt; the filters hold */
+    CB_UNHEALTHY = 14,      /* `health` says why: the sensor hangs, or its clock has just leapt; the filters hold */
+    CB_UNCERTAIN = 15       /* one place, but its largest sigma is over gates.sigma_max_m of the bundle; since 2.3 */
 };
 
 /* Bits of cb_contact.health; 0: nothing is wrong. What is unhealthy is never accepted. */
@@ -139,6 +140,7 @@ typedef struct {
     double latency;      /* s: arrival less time, and the age of the filtered wrench at that time */
     int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
     int32_t reserved;
+    double within;       /* m: how far the 95 % ellipse of `point` reaches, 2.45 of its largest sigma. Since 2.3 */
 } cb_contact;
 
 /* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */

@@ -32,7 +32,8 @@ constexpr bool needs_avx2 = false;
 using contactbench::Reason;
 static_assert(CB_OK_FACET == int(Reason::ok) && CB_NOT_A_ROTATION == int(Reason::not_a_rotation) &&
               CB_BY_REGION == int(Reason::by_region) && CB_IMPLAUSIBLE == int(Reason::implausible) &&
-              CB_UNHEALTHY == int(Reason::unhealthy) && CB_UNHEALTHY + 1 == contactbench::reason_count);
+              CB_UNHEALTHY == int(Reason::unhealthy) && CB_UNCERTAIN == int(Reason::uncertain) &&
+              CB_UNCERTAIN + 1 == contactbench::reason_count);
 using contactbench::Flag;
 using contactbench::Health;
 static_assert(CB_HEALTH_FROZEN == Health::frozen && CB_HEALTH_SILENT == Health::silent &&
@@ -114,7 +115,7 @@ void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& 
     copy(out.covariance, c.covariance, 9), copy(out.filtered_point, c.filtered_point, 3);
     out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
     copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
-    out.pose_age = c.pose_age, out.latency = c.latency;
+    out.pose_age = c.pose_age, out.latency = c.latency, out.within = c.within;
     if (c.face >= 0) out.on = runtime.marks[std::size_t(c.face)];
     hand_over(out, contact);
 }

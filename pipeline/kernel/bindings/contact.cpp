@@ -42,7 +42,7 @@ nb::list candidates_of(const Contact& c) {
 
 Mat3 covariance_of(const Contact& c) {
     const Candidate& p = *c.chosen();
-    return c.context->covariance(c.wrench, p.point, p.normal, p.face);
+    return c.context->covariance(c.wrench, p.point, p.normal, p.face, p.depth);
 }
 
 nb::object repr(const Contact& c) {

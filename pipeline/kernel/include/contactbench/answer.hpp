@@ -38,6 +38,10 @@ inline bool accepted(Reason r, const Gates& g) {
 }
 
 inline constexpr double same_touch_sigmas = 4.5;
+// Off a touch's plane, along the force: m, and per metre along it. A surface that bends away faster is another place.
+inline constexpr double same_touch_depth = 0.002, same_touch_slope = 0.5;
+// A surface that lies further off than this is not the touch's own; and within this much d2 two touches are as likely.
+inline constexpr double layer_depth = 0.0006, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
 
 enum class Why : std::uint8_t { chosen, misfit, region, previous, downstream };
 
@@ -51,6 +55,7 @@ struct Candidate {
     double follow = 0.0;   // of the last contact
     double behind = 0.0;   // cost of lying behind another candidate
     double across = 0.0;   // largest standard deviation of the point, seen along the force, m
+    double depth = 0.0;    // standard deviation along the force, for another surface may be the one that is touched, m
     Vec3 slope;            // f + cosine * normal: the force along the facet, over |F|
     std::int32_t face = -1, vertex = -1, region = 0;
     std::int32_t slot = -1;
@@ -116,6 +121,26 @@ inline double apart(const Candidate& touch, Vec3 p) {
 // Within this it is the same touch.
 inline double own_radius(const Candidate& c, const Gates& g) {
     return std::max(g.ambiguity_distance, same_touch_sigmas * c.across);
+}
+
+// Where p lies off a touch's plane, against the force, and how far it is along the plane; m. On a steep plane noise leads
+// further, and a curved surface bends away further: both are over the cosine.
+struct Off {
+    double height, along;
+};
+
+inline Off off_plane(const Candidate& touch, Vec3 p) {
+    const Vec3 d = p - touch.point;
+    const double off = dot(d, touch.normal), steep = 1.0 / touch.cosine;
+    return {steep * off, steep * std::sqrt(std::max(0.0, norm2(d) - off * off))};
+}
+
+// Is p another place than a touch? Noise moves the point across the force, and along it only as far as the touch's own
+// surface leads: what lies deeper or higher than that is another surface, however near it is across.
+inline bool elsewhere(const Candidate& touch, double radius, Vec3 p) {
+    if (apart(touch, p) > radius) return true;
+    const Off off = off_plane(touch, p);
+    return std::fabs(off.height) > same_touch_depth + same_touch_slope * off.along;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.

@@ -358,7 +358,7 @@ private:
         out.torque_about_normal = c->torque;
         out.face = c->face, out.vertex = c->vertex, out.region = c->region;
         if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
-            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
+            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth);
             std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
         }
         if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);

@@ -70,7 +70,7 @@ struct Answer {
     double misfit = std::numeric_limits<double>::quiet_NaN();  // of the best touch, chosen or not
     double arm = std::numeric_limits<double>::quiet_NaN();     // m: pitch, M . F / |F|^2
     double left_over = std::numeric_limits<double>::quiet_NaN();  // N*m that the best touch does not explain
-    double confidence = 0.0;
+    double confidence = 0.0;  // 1 / (1 + the odds of every other place): no probability, see decide()
     bool has_second = false;
     Candidate second;  // a touch that joined the one that is followed
 

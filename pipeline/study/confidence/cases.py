@@ -258,15 +258,6 @@ def errors(
     return measured | {f"{by}, no point": float(np.isnan(off).mean()) for by, off in found.items()}
 
 
-def pruning(name: str, facets: int, count: int, rng: np.random.Generator) -> int:
-    """Count answers of the pruned search that differ from looking at every facet, of touches and of any wrenches."""
-    solver, body = ContactSolver(mesh(name, facets)), body_of(name)
-    touches = draw_touches(body.surface, count // 2, rng, force=(1.0, 20.0), above=body.above)
-    wild = rng.standard_normal((count - count // 2, 6)) * np.repeat([8.0, 0.5], 3)
-    wrenches = np.vstack([add_noise(touches.wrenches, solver.noise, rng), wild])
-    return len(solver.search_differences(wrenches, None))
-
-
 # ---- a capsule with a fin -------------------------------------------------------------------------------------
 
 

@@ -42,10 +42,8 @@ PARTS = {
     "reliability": "Confidence told, no probability, against how often the place is right",
     "ellipse": "True points in the 95 % ellipse",
     "error": "Error of all answers, beside the wrench axis",
-    "pruning": "The pruned search against every facet one by one",
 }
 _BINS = np.array([0.0, *np.linspace(0.5, 0.9, 5), 0.99, 1.0])
-_PRUNED_FACETS = 500
 _RELIABILITY = ("probe", "touched", "confidence", "answers", "mean told", "right")
 
 
@@ -58,10 +56,9 @@ class ConfidenceSizes:
     seeds: int = 5
     facets: int = 2_000  # of the meshes, where they do not vary
     ellipse_facets: tuple[int, ...] = (500, 1_000, 2_000, 20_000)
-    pruned: int = 100_000  # wrenches of a probe that are compared with every facet one by one
 
 
-QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
+QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000))
 
 
 @dataclass(frozen=True)
@@ -170,8 +167,6 @@ def run(
         progress(title)
         if part == "reliability":
             rows += _reliability(names, sizes, seed)
-        elif part == "pruning":
-            rows += _pruning(names, sizes, seed)
         else:
             rows += (row for case in tried if case.part == part for row in rows_of(case, sizes, seed))
     about = {"probes": [title_of(name) for name in names], "seed": seed, **asdict(sizes)}
@@ -196,7 +191,7 @@ def rows_of(case: Case, sizes: ConfidenceSizes, seed: int) -> Iterator[Confidenc
 
 
 def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
-    """Give every case but the reliability and the pruning, which are no figures of several seeds."""
+    """Give every case but the reliability, which is no figure of several seeds."""
     count, facets = sizes.touches, sizes.facets
     noises, (little, _), (gentle, _) = cases.NOISES.items(), cases.TORSIONS_M, cases.PULLS_N
     wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
@@ -261,14 +256,6 @@ def bins(probe: str, case: str, told: Float, right: Bools) -> Iterator[Confidenc
         value, least, most = (100.0 * share for share in (hits / count, *share_interval(hits, count)))
         mean = 100.0 * float(told[own].mean())
         yield ConfidenceRow("reliability", probe, case, figure, "%", count, value, least, most, stated=mean)
-
-
-def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
-    for i, name in enumerate(names):
-        found = cases.pruning(name, _PRUNED_FACETS, sizes.pruned, np.random.default_rng((seed, i)))
-        differ = (float(found),) * 3
-        case, figure = f"{_PRUNED_FACETS} facets", "answers that differ"
-        yield ConfidenceRow("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
 
 
 # ---- the page ----------------------------------------------------------------------------------------------

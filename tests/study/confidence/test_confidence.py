@@ -13,7 +13,7 @@ from contactbench.pipeline.study.confidence import cases, study
 from contactbench.pipeline.study.harness import Case
 from contactbench.pipeline.study.pages import make_page, publish
 
-TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
+TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,))
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 STANDARD_GRAVITY = 9.80665
 BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
 STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
-LEAST_VARIANCE, MOST_Q, FAR = 1e-12, 1.75, 1000.0
+LEAST_VARIANCE, MOST_Q, FAR, TIE, NO_FURTHER = 1e-12, 1.75, 1000.0, 2.0**-24, 1e-9
 MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
 TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 1.5, 512
 LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
@@ -225,8 +225,14 @@ class Wrench:
             "point": W[:, :1] * v[:, 0] + (W[:, 1:2] * v[:, 1] + W[:, 2:] * v[:, 2]),
         }
 
-    def depth(self, point: Array) -> float:
-        return float((point - self.mesh.centre) / self.mesh.scale @ self.f)
+    def depth(self, points: Array) -> Any:
+        return (1 / self.mesh.scale) * (points - self.mesh.centre) @ self.f
+
+    def least(self, key: Array, points: Array) -> int:
+        """Of equal keys the point that is met first, and of those the lowest number."""
+        rounded = np.rint(key / TIE)
+        equal = np.flatnonzero(rounded == rounded.min())
+        return int(equal[np.rint(self.depth(points[equal]) / TIE).argmin()])
 
     def at_touch(self, face: int, point: Array) -> dict[str, Any]:
         m = self.mesh
@@ -439,7 +445,7 @@ class Reference:
         sigma = np.concatenate([error["force_N"], error["torque_Nm"]])
         self.C = np.array(about["noise"]["wrench_covariance"]) + np.diag(sigma**2)
         self.arm = about["touch"]["torsion_arm_m"]
-        self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST)
+        self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST) - TIE
         self.rival, self.behind, self.follow = (
             2 * float(np.log(self.gates[f"{name}_odds"])) for name in ("rival", "first", "follow")
         )
@@ -701,7 +707,7 @@ class Reference:
         if not usable.any():
             return self._no_touch(wrench, fits, facing, arm)
         key = np.where(usable, d2 - prior - near, np.inf)
-        best = int(key.argmin())  # the first, and so the lowest number, of equals
+        best = wrench.least(key, points)
         limit = key[best] + self.rival
         key = np.where(usable, d2 - np.maximum(prior, prior[best]) - near, np.inf)
         free, candidates, hidden = usable.copy(), [], False
@@ -714,7 +720,7 @@ class Reference:
             away = np.sqrt(np.maximum(0, (d**2).sum(axis=1) - (d @ c.slope) ** 2))
             free &= away > c.radius
             left = np.where(free & (key <= limit), key, np.inf)
-            best = int(left.argmin())
+            best = wrench.least(left, points)
             if len(candidates) == MOST_CANDIDATES or np.isinf(left[best]):
                 break
         return self._ranked(wrench, candidates, arm)
@@ -724,7 +730,7 @@ class Reference:
         V = wrench.at_touch(face, point)
         larger = 0.5 * (V["aa"] + V["bb"]) + np.sqrt((0.5 * (V["aa"] - V["bb"])) ** 2 + V["ab"] ** 2)
         n = m.normals[face]
-        whole = np.flatnonzero(fits["weights"][face] == 1)
+        whole = np.flatnonzero(fits["weights"][face] >= 1 - TIE)
         return Touch(
             face,
             point,
@@ -735,17 +741,21 @@ class Reference:
             near,
             int(m.faces[face][whole[-1]]) if len(whole) else -1,
             int(m.region[face]),
-            max(self.gates["ambiguity_distance_m"], SAME_TOUCH * m.scale * float(np.sqrt(larger))),
+            max(self.gates["ambiguity_distance_m"], SAME_TOUCH * m.scale * float(np.sqrt(larger)))
+            + NO_FURTHER,
             wrench.f - (n @ wrench.f) * n,
         )
 
     def _hides(self, x: Touch, y: Touch, f: Array) -> bool:
-        return float((y.point - x.point) @ f) > BEHIND_DISTANCE and x.unhidden <= y.unhidden + self.behind
+        return (
+            float((y.point - x.point) @ f) > BEHIND_DISTANCE + NO_FURTHER
+            and x.unhidden <= y.unhidden + self.behind
+        )
 
     def _ranked(self, wrench: Wrench, candidates: list[Touch], arm: float) -> Found:
         for y in candidates:
             y.hidden = self.behind if any(self._hides(x, y, wrench.f) for x in candidates) else 0.0
-        chosen = min(candidates, key=lambda c: c.cost)
+        chosen = min(candidates, key=lambda c: np.rint(c.cost / TIE))  # the first of equals
         others = [c for c in candidates if c is not chosen]
         delta = [c.cost - chosen.cost for c in others]
         reason = "ok" if chosen.vertex < 0 else "vertex"
@@ -754,7 +764,11 @@ class Reference:
         elif any(c.free - chosen.free <= self.rival for c in others):
             reason = "by_region"
         found = Found(
-            reason, chosen, min(others, key=lambda c: c.cost) if others else None, len(candidates), chosen.d2
+            reason,
+            chosen,
+            min(others, key=lambda c: np.rint(c.cost / TIE)) if others else None,
+            len(candidates),
+            chosen.d2,
         )
         found.arm, found.left_over = arm, self._left_over(wrench, chosen.point, chosen.normal, chosen.k)
         found.confidence = 1 / (1 + sum(float(np.exp(-each / 2)) for each in delta))
@@ -771,7 +785,8 @@ class Reference:
         found, d2 = Found("off_surface", arm=arm), fits["d2"]
         if (facing >= self.c_min).any():
             found.reason = "implausible"
-            best = int(np.where(facing >= self.c_min, d2 - self.mesh.prior.max(), np.inf).argmin())
+            key = np.where(facing >= self.c_min, d2 - self.mesh.prior.max(), np.inf)
+            best = wrench.least(key, fits["point"])
             found.misfit = float(d2[best])
             found.left_over = self._left_over(
                 wrench, fits["point"][best], self.mesh.normals[best], float(fits["k"][best])

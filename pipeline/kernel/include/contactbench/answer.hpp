@@ -39,6 +39,13 @@ inline bool accepted(Reason r, const Gates& g) {
 
 inline constexpr double same_touch_sigmas = 4.5;
 
+// Numbers that differ by less than this are equal: what is symmetric ties, and rounding shall not decide. They are
+// rounded to it rather than compared with a tolerance, so that an order stays an order.
+inline constexpr double tie = 1.0 / (1 << 24);
+inline double to_tie(double x) { return std::nearbyint(x / tie); }
+// m: what is exactly as far as is asked, as steps are made to be, is no further.
+inline constexpr double no_further = 1e-9;
+
 enum class Why : std::uint8_t { chosen, misfit, region, previous, downstream };
 
 // The best touch on a facet, and what it costs: d2 less the prior. The least cost is the likeliest touch.
@@ -87,7 +94,7 @@ struct Answer {
 inline const Candidate* runner_up(const Answer& a) {
     const Candidate* best = nullptr;
     for (int i = 0; i < a.count; ++i)
-        if (i != a.chosen && (!best || a.candidates[i].cost() < best->cost())) best = &a.candidates[i];
+        if (i != a.chosen && (!best || to_tie(a.candidates[i].cost()) < to_tie(best->cost()))) best = &a.candidates[i];
     return best;
 }
 
@@ -115,12 +122,12 @@ inline double apart(const Candidate& touch, Vec3 p) {
 
 // Within this it is the same touch.
 inline double own_radius(const Candidate& c, const Gates& g) {
-    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across);
+    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across) + no_further;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.
 inline bool hides(const Candidate& front, const Candidate& back, const Gates& g, Vec3 f) {
-    return dot(back.point - front.point, f) > g.behind_distance &&
+    return dot(back.point - front.point, f) > g.behind_distance + no_further &&
            front.cost_unhidden() <= back.cost_unhidden() + g.behind_cost;
 }
 
@@ -141,7 +148,7 @@ inline int decide(Answer& a, const Gates& g, Vec3 f) {
             if (detail::hides(a.candidates[j], a.candidates[i], g, f)) a.candidates[i].behind = g.behind_cost;
     int best = 0;
     for (int i = 1; i < a.count; ++i)
-        if (a.candidates[i].cost() < a.candidates[best].cost()) best = i;
+        if (to_tie(a.candidates[i].cost()) < to_tie(a.candidates[best].cost())) best = i;
     a.chosen = best;
     Candidate& winner = a.candidates[best];
     a.misfit = winner.misfit;

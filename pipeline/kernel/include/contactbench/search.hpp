@@ -4,7 +4,7 @@
 // descent keeps the bounds of what it opened (`Opened`), and later hunts go on from there.
 //
 // Contract: exhaust is O(n); search is O(log n) where the wrench is precise against the size of the probe. Nothing
-// allocates. Of equal touches the one on the facet of the lowest number is taken.
+// allocates. Of equal touches the one that is met first is taken, and of those the one on the facet of the lowest number.
 #pragma once
 
 #include "answer.hpp"
@@ -25,8 +25,17 @@ struct Hunt {
 
 namespace detail {
 
+// Of touches of one key the surface met first counts, then the facet of the lowest number.
+struct Rank {
+    double key = HUGE_VAL, depth = HUGE_VAL;  // to_tie()
+    std::int32_t face = -1;
+
+    auto operator<=>(const Rank&) const = default;
+};
+
 struct Found {
     double key = HUGE_VAL;
+    Rank rank;
     Candidate touch;  // slot < 0: none
 };
 
@@ -45,10 +54,12 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     double follow = 0.0;
     if (hunt.previous && norm(point - *hunt.previous) <= hunt.follow_distance) follow = hunt.follow_cost;
     key -= follow;
-    if (!(key <= hunt.limit) || key > best.key || (key == best.key && face > best.touch.face)) return;
+    if (!(key <= hunt.limit) || key > best.key + tie) return;
+    const Rank rank{to_tie(key), to_tie(dot((1.0 / m.frame.scale) * (point - m.frame.centre), q.f)), face};
+    if (!(rank < best.rank)) return;
     for (int i = 0; i < hunt.away_count; ++i)
         if (apart(hunt.away[i], point) <= hunt.radius[i]) return;
-    best.key = key;
+    best.key = key, best.rank = rank;
     Candidate& c = best.touch;
     c = Candidate{};
     c.point = point;
@@ -62,7 +73,7 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     c.slot = std::int32_t(slot);
     c.region = m.region(face);
     for (std::size_t i = 0; i < 3; ++i)
-        if (fit.weight[i] == 1.0) c.vertex = t[i];
+        if (fit.weight[i] >= 1.0 - tie) c.vertex = t[i];
 }
 
 // What is near a touch, in the search's own numbers: see apart().

@@ -134,7 +134,7 @@ private:
             return;
         }
         Hunt hunt;
-        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine);
+        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine) - tie;
         hunt.most_misfit = gates_.implausible_misfit;
         hunt.previous = previous;
         hunt.follow_cost = previous ? gates_.follow_cost : 0.0;

@@ -369,7 +369,7 @@ void bind_batch(nb::module_& m) {
                      "(n,) torque that it does not explain, N·m.")
         .def_prop_ro("arms", [](const Batch& b) { return view(b, &Rows::arms, {b.size()}); },
                      "(n,) torque along the force over the force, m.")
-        .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1.")
+        .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("seconds", [](const Batch& b) { return view(b, &Rows::seconds, {b.size(), 3}); },
                      "(n, 3) S, m: a touch that joined the one that is followed.")
         .def_prop_ro("accepted", [](const Batch& b) {

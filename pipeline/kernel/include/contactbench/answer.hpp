@@ -43,6 +43,13 @@ inline constexpr double same_touch_depth = 0.002, same_touch_slope = 0.5;
 // A surface that lies further off than this is not the touch's own; and within this much d2 two touches are as likely.
 inline constexpr double layer_depth = 0.0006, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
 
+// Numbers that differ by less than this are equal: what is symmetric ties, and rounding shall not decide. They are
+// rounded to it rather than compared with a tolerance, so that an order stays an order.
+inline constexpr double tie = 1.0 / (1 << 24);
+inline double to_tie(double x) { return std::nearbyint(x / tie); }
+// m: what is exactly as far as is asked, as steps are made to be, is no further.
+inline constexpr double no_further = 1e-9;
+
 enum class Why : std::uint8_t { chosen, misfit, region, previous, downstream };
 
 // The best touch on a facet, and what it costs: d2 less the prior. The least cost is the likeliest touch.
@@ -75,7 +82,7 @@ struct Answer {
     double misfit = std::numeric_limits<double>::quiet_NaN();  // of the best touch, chosen or not
     double arm = std::numeric_limits<double>::quiet_NaN();     // m: pitch, M . F / |F|^2
     double left_over = std::numeric_limits<double>::quiet_NaN();  // N*m that the best touch does not explain
-    double confidence = 0.0;
+    double confidence = 0.0;  // 1 / (1 + the odds of every other place): no probability, see decide()
     bool has_second = false;
     Candidate second;  // a touch that joined the one that is followed
 
@@ -92,7 +99,7 @@ struct Answer {
 inline const Candidate* runner_up(const Answer& a) {
     const Candidate* best = nullptr;
     for (int i = 0; i < a.count; ++i)
-        if (i != a.chosen && (!best || a.candidates[i].cost() < best->cost())) best = &a.candidates[i];
+        if (i != a.chosen && (!best || to_tie(a.candidates[i].cost()) < to_tie(best->cost()))) best = &a.candidates[i];
     return best;
 }
 
@@ -120,7 +127,7 @@ inline double apart(const Candidate& touch, Vec3 p) {
 
 // Within this it is the same touch.
 inline double own_radius(const Candidate& c, const Gates& g) {
-    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across);
+    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across) + no_further;
 }
 
 // Where p lies off a touch's plane, against the force, and how far it is along the plane; m. On a steep plane noise leads
@@ -140,12 +147,12 @@ inline Off off_plane(const Candidate& touch, Vec3 p) {
 inline bool elsewhere(const Candidate& touch, double radius, Vec3 p) {
     if (apart(touch, p) > radius) return true;
     const Off off = off_plane(touch, p);
-    return std::fabs(off.height) > same_touch_depth + same_touch_slope * off.along;
+    return std::fabs(off.height) > same_touch_depth + same_touch_slope * off.along + no_further;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.
 inline bool hides(const Candidate& front, const Candidate& back, const Gates& g, Vec3 f) {
-    return dot(back.point - front.point, f) > g.behind_distance &&
+    return dot(back.point - front.point, f) > g.behind_distance + no_further &&
            front.cost_unhidden() <= back.cost_unhidden() + g.behind_cost;
 }
 
@@ -166,7 +173,7 @@ inline int decide(Answer& a, const Gates& g, Vec3 f) {
             if (detail::hides(a.candidates[j], a.candidates[i], g, f)) a.candidates[i].behind = g.behind_cost;
     int best = 0;
     for (int i = 1; i < a.count; ++i)
-        if (a.candidates[i].cost() < a.candidates[best].cost()) best = i;
+        if (to_tie(a.candidates[i].cost()) < to_tie(a.candidates[best].cost())) best = i;
     a.chosen = best;
     Candidate& winner = a.candidates[best];
     a.misfit = winner.misfit;

@@ -85,7 +85,7 @@ struct RuntimeContact {
     double misfit = detail::unknown;     // d2 of the best touch, in standard deviations squared
     double left_over = detail::unknown;  // N*m that it does not explain
     double arm = detail::unknown;        // m: M . F / |F|^2
-    double confidence = 0.0;             // 0 to 1
+    double confidence = 0.0;             // see Answer
     double runner_up[3] = {detail::unknown, detail::unknown, detail::unknown};  // the likeliest other place
     double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is

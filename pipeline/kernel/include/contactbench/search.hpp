@@ -4,7 +4,7 @@
 // descent keeps the bounds of what it opened (`Opened`), and later hunts go on from there.
 //
 // Contract: exhaust is O(n); search is O(log n) where the wrench is precise against the size of the probe. Nothing
-// allocates. Of equal touches the one on the facet of the lowest number is taken.
+// allocates. Of equal touches the one that is met first is taken, and of those the one on the facet of the lowest number.
 #pragma once
 
 #include "answer.hpp"
@@ -29,6 +29,14 @@ struct Hunt {
 
 namespace detail {
 
+// Of touches of one key the surface met first counts, then the facet of the lowest number.
+struct Rank {
+    double key = HUGE_VAL, depth = HUGE_VAL;  // to_tie()
+    std::int32_t face = -1;
+
+    auto operator<=>(const Rank&) const = default;
+};
+
 // Surfaces at a touch's place that are not its own: steps, and layers too near behind each other to be two places.
 struct Layers {
     double variance = 0.0;  // how far off the touch's plane they lie along the force, as likely as they are, m^2
@@ -38,17 +46,19 @@ struct Layers {
     // What explains the wrench with d2 at the place of `touch`. True: it is the one to be met first.
     bool add(const Candidate& touch, Vec3 point, double d2, std::int32_t face) {
         const Off off = off_plane(touch, point);
-        if (d2 > touch.misfit + layer_cost || std::fabs(off.height) <= layer_depth + layer_slope * off.along) return false;
-        variance = std::max(variance, off.height * off.height * std::exp(-0.5 * std::max(0.0, d2 - touch.misfit)));
-        if (!(d2 <= touch.misfit + same_misfit) || off.height < height || (off.height == height && face > first.face))
+        if (d2 > touch.misfit + layer_cost || std::fabs(off.height) <= layer_depth + layer_slope * off.along + no_further)
             return false;
-        height = off.height;
+        variance = std::max(variance, off.height * off.height * std::exp(-0.5 * std::max(0.0, d2 - touch.misfit)));
+        const double up = to_tie(off.height);
+        if (!(d2 <= touch.misfit + same_misfit) || up < height || (up == height && face > first.face)) return false;
+        height = up;
         return true;
     }
 };
 
 struct Found {
     double key = HUGE_VAL;
+    Rank rank;
     Candidate touch;  // slot < 0: none
     bool layered = false;  // `layers` holds all there are
     Layers layers;
@@ -70,7 +80,8 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     if (hunt.previous && norm(point - *hunt.previous) <= hunt.follow_distance) follow = hunt.follow_cost;
     key -= follow;
     if (!(key <= hunt.limit)) return;
-    if (!best.layered && (key > best.key || (key == best.key && face > best.touch.face))) return;
+    const Rank rank{to_tie(key), to_tie(dot((1.0 / m.frame.scale) * (point - m.frame.centre), q.f)), face};
+    if (!best.layered && !(rank < best.rank)) return;
     if (hunt.inside && elsewhere(*hunt.inside, hunt.radius[0], point)) return;
     Candidate* to = &best.touch;
     for (int i = 0; i < hunt.away_count; ++i) {
@@ -79,9 +90,9 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
         to = &best.layers.first;
     }
     if (to == &best.touch) {
-        if (key > best.key || (key == best.key && face > best.touch.face)) return;
-        best.key = key;
         best.layered = best.layered && fit.d2 - bonus - follow > hunt.rival;
+        if (!(rank < best.rank)) return;
+        best.key = key, best.rank = rank;
     }
     Candidate& c = *to;
     c = Candidate{};
@@ -96,7 +107,7 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     c.slot = std::int32_t(slot);
     c.region = m.region(face);
     for (std::size_t i = 0; i < 3; ++i)
-        if (fit.weight[i] == 1.0) c.vertex = t[i];
+        if (fit.weight[i] >= 1.0 - tie) c.vertex = t[i];
 }
 
 // What is near a touch, in the search's own numbers: see elsewhere().

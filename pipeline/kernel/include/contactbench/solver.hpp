@@ -15,6 +15,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "second_touch.hpp"
 
@@ -138,7 +139,7 @@ private:
             return;
         }
         Hunt hunt;
-        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine);
+        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine) - tie;
         hunt.most_misfit = gates_.implausible_misfit;
         hunt.previous = previous;
         hunt.follow_cost = previous ? gates_.follow_cost : 0.0;

@@ -390,7 +390,9 @@ class HeatmapSettings(ReadingSettings):
     end: float | None = knob(None, "Only contacts up to here, s after the first sample.", option="--to")
     least_force: float | None = knob(None, "Only contacts with this force or more, N.", option="--force-from")
     most_force: float | None = knob(None, "Only contacts with this force or less, N.", option="--force-to")
-    by_confidence: bool = knob(False, "Weight each contact by the confidence of its place, 0 to 1.")
+    by_confidence: bool = knob(
+        False, "Weight each contact by its confidence, 1 / (1 + the odds of every other place)."
+    )
 
 
 # ---- motion control in simulation --------------------------------------------------------------

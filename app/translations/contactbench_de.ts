@@ -8459,8 +8459,8 @@ Tasten: links und rechts; Leertaste wechselt den Griff.</translation>
         <translation>Wiegen Sie das Werkzeug und geben Sie seine Masse an.</translation>
     </message>
     <message>
-        <source>Weight each contact by the confidence of its place, 0 to 1.</source>
-        <translation>Jeden Kontakt mit der Sicherheit seines Ortes gewichten, 0 bis 1.</translation>
+        <source>Weight each contact by its confidence, 1 / (1 + the odds of every other place).</source>
+        <translation>Jeden Kontakt mit seiner Sicherheit gewichten: 1 / (1 + Quote jedes anderen Ortes).</translation>
     </message>
     <message>
         <source>Weight {0} kg, Cx {1} mm, Cy {2} mm, Cz {3} mm</source>

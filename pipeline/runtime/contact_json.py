@@ -54,7 +54,9 @@ def contact_schema() -> bytes:
             " null: none.",
         },
         "candidates": whole,
-        "confidence": _numbers("That this place is touched and no other, 0 to 1.", array=False),
+        "confidence": _numbers(
+            "1 / (1 + the odds of every other place): 0 to 1, no probability.", array=False
+        ),
         "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
         "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
         "arm_m": _numbers("Torque along the force over the force, m.", array=False),

@@ -80,7 +80,7 @@ def stability(settings: StabilitySettings) -> None:
 
 @study_app.command(example="study confidence --quick --out confidence-study")
 def confidence(settings: ConfidenceSettings) -> None:
-    """Measure how reliable the stated confidence is: thin fins, regions, pulls, two touches, the ellipse.
+    """Measure what an answer's own word is worth: thin fins, regions, two touches, confidence told against right.
 
     Exit code 1: a figure misses its bound.
     """

@@ -51,7 +51,7 @@ class TouchFigure:
     torque_arm_mm: float | None = None  # Local torque over force, k / |F|
     # Of the point, S: xx, xy, xz, yy, yz, zz; files of before do not have it, nor the two below
     covariance_mm2: tuple[float, float, float, float, float, float] | None = None
-    confidence: float | None = None  # How sure the place is, 0 to 1; None: not known
+    confidence: float | None = None  # 1 / (1 + odds of its rivals), no probability; None: not known
     rivals_mm: tuple[Vector, ...] = ()  # Other places that explain the wrench, the likeliest first
 
 

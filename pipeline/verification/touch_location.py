@@ -45,7 +45,7 @@ class TouchLocation:
     ambiguous: bool
     # No single touch explains the wrench, unless with more torque about the normal than a tip can give
     implausible: bool = False
-    confidence: float = float("nan")  # How sure it is that it is there, and not at a rival place, 0 to 1
+    confidence: float = float("nan")  # 1 / (1 + odds of its rivals), no probability
     rivals: tuple[
         tuple[float, float, float], ...
     ] = ()  # Other places that explain the wrench, the likeliest first

@@ -56,6 +56,7 @@ BENCHMARKS = {
     "shell": "preparation.shell:run",
     "simplify": "preparation.simplify:run",
     "solver": "solver.exact:run",
+    "ties": "solver.ties:run",
     "verification": "verification:run",
     "waiting": "waiting:run",
     "window-brush": "window.brush:run",

@@ -88,6 +88,9 @@ struct Flat {
     std::array<std::int32_t, 3> vertex{-1, -1, -1};
 };
 
+// As the page says of equals.
+inline Real rounded(Real x) { return std::rint(x * 16777216.0L); }
+
 // The best touch on it.
 struct Place {
     const Flat* flat = nullptr;
@@ -184,7 +187,7 @@ public:
             out.nearly_corner |= std::fabs(s) < 1e-7L || std::fabs(s - 1) < 1e-7L;
         }
         for (int i = 0; i < 3; ++i)
-            if (out.weight[i] == 1) out.vertex = flat.vertex[std::size_t(i)];
+            if (out.weight[i] >= 1 - 1 / 16777216.0L) out.vertex = flat.vertex[std::size_t(i)];
         out.torque = arm_ * force * arm_ * force * inner(W(flat.normal), W(residual(out.point)));
         return out;
     }
@@ -306,7 +309,7 @@ inline bool same_place(const Place& a, const Place& b, Real size) {
 inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const Gates& g, const Vec3* previous) {
     Verdict v;
     std::vector<Place> all;
-    const Real cap = std::max(g.cos_friction, 1e-3), grazing = std::cos(89.0L / 180 * half_turn);
+    const Real cap = std::max(g.cos_friction, 1e-3) - 1 / 16777216.0L, grazing = std::cos(89.0L / 180 * half_turn);
     const Place* fittest = nullptr;
     bool beyond_the_cone = false;
     for (const Flat& flat : flats) {
@@ -335,10 +338,10 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     std::erase_if(all, [&](const Place& p) { return p.d2 > g.implausible_misfit; });
 
     // The likeliest; then, each away from those before it, whatever may matter with its odds or without.
-    const auto own_radius = [&](const Place& p) { return std::max(Real(g.ambiguity_distance), 4.5L * p.across); };
+    const auto own_radius = [&](const Place& p) { return std::max(Real(g.ambiguity_distance), 4.5L * p.across) + 1e-9L; };
     // The line of force meets `front` first, and that is about as likely: the one behind it is the less likely.
     const auto hides = [&](const Place& front, const Place& back) {
-        return v.less(g.behind_distance / d.size, inner(back.point - front.point, d.f) / d.size) &&
+        return v.less((g.behind_distance + 1e-9L) / d.size, inner(back.point - front.point, d.f) / d.size) &&
                !v.less(back.unhidden() + g.behind_cost, front.unhidden());
     };
     Real least_bonus = -HUGE_VAL, limit = HUGE_VAL;
@@ -346,12 +349,16 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
     while (v.places.size() < 8) {
         const auto key = [&](const Place& p) { return p.d2 - p.follow - std::max(Real(p.flat->bonus), least_bonus); };
         const Place* best = nullptr;
+        const auto rank = [&](const Place& p) {
+            return std::make_pair(rounded(key(p)), rounded(inner(p.point - d.middle, d.f) / d.size));
+        };
         for (const Place& p : all)
-            if (!best || key(p) < key(*best)) best = &p;
+            if (!best || rank(p) < rank(*best)) best = &p;
         if (!best || v.less(limit, key(*best))) break;
+        // What is that near to where numbers are rounded is doubtful.
         for (const Place& p : all)
-            if (key(p) - key(*best) < rounding_of(key(p)) && !same_place(p, *best, d.size) && p.flat->vertex != best->flat->vertex)
-                v.doubtful = true;
+            if (key(p) - key(*best) < 1e-7L && !same_place(p, *best, d.size))
+                v.doubtful |= rounded(key(p) - rounding_of(key(p))) != rounded(key(p) + rounding_of(key(p)));
         Place found = *best;
         found.across = d.across(found.point, *found.flat);
         v.doubtful |= found.nearly_corner;
@@ -376,7 +383,7 @@ inline Verdict judge(const std::vector<Flat>& flats, const Definition& d, const 
             if (hides(other, p)) p.behind = g.behind_cost;
     v.chosen = 0;
     for (std::size_t i = 1; i < v.places.size(); ++i)
-        if (v.less(v.places[i].cost(), v.places[std::size_t(v.chosen)].cost())) v.chosen = int(i);
+        if (rounded(v.places[i].cost()) < rounded(v.places[std::size_t(v.chosen)].cost())) v.chosen = int(i);
     Place& winner = v.places[std::size_t(v.chosen)];
     v.misfit = winner.d2;
     v.left_over = d.left_over(winner, g.implausible_misfit);

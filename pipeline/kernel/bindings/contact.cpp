@@ -42,7 +42,7 @@ nb::list candidates_of(const Contact& c) {
 
 Mat3 covariance_of(const Contact& c) {
     const Candidate& p = *c.chosen();
-    return c.context->covariance(c.wrench, p.point, p.normal, p.face);
+    return c.context->covariance(c.wrench, p.point, p.normal, p.face, p.depth);
 }
 
 nb::object repr(const Contact& c) {
@@ -172,7 +172,7 @@ void bind_contact(nb::module_& m) {
         .def_prop_ro("arm", [](const Contact& c) { return c.answer.arm; },
                      "Torque along the force over the force, m: what torsion of the skin would have to reach.")
         .def_prop_ro("confidence", [](const Contact& c) { return c.answer.confidence; },
-                     "0 to 1: how much likelier this place is than all others together.")
+                     "1 / (1 + the odds of every other place): 0 to 1, no probability.")
         .def_prop_ro("second", [](const Contact& c) -> nb::object {
             return c.answer.has_second ? to_array(c.answer.second.point) : nb::none(); },
             "(3,) S, m: a touch that joined this one while it was followed, or None.")

@@ -261,7 +261,7 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("misfit", [](const C& c) { return c.misfit; }, "d2 of the best touch, standard deviations squared.")
         .def_prop_ro("left_over", [](const C& c) { return c.left_over; }, "Torque that it does not explain, N·m.")
         .def_prop_ro("arm", [](const C& c) { return c.arm; }, "Torque along the force over the force, m.")
-        .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1.")
+        .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1, no probability.")
         .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
                      "(3,) S, m: the likeliest other place, or None.")
         .def_prop_ro("within", [](const C& c) { return c.within; },
@@ -297,7 +297,7 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("misfits", [](const B& b) { return column<double>(b, &C::misfit, {}); }, "(n,) standard deviations squared.")
         .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
         .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
-        .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1.")
+        .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("runners_up", [](const B& b) { return column<double>(b, &C::runner_up, {3}); }, "(n, 3) S, m.")
         .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.");
 }

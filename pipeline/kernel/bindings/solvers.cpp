@@ -47,7 +47,7 @@ void each_row(std::size_t rows, unsigned threads, const Work& work) {
 struct Rows {
     explicit Rows(std::size_t n)
         : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), previous(3 * n, nan), seconds(3 * n),
-          torques(n), misfits(n), left_overs(n), arms(n), confidences(n), faces(n), vertices(n), candidates(n),
+          depths(n), torques(n), misfits(n), left_overs(n), arms(n), confidences(n), faces(n), vertices(n), candidates(n),
           regions(n), reasons(n) {}
 
     void set(std::size_t i, const Wrench& w, const Answer& a) {
@@ -58,7 +58,7 @@ struct Rows {
         put(seconds, i, a.has_second ? a.second.point : Vec3{nan, nan, nan});
         misfits[i] = a.misfit, left_overs[i] = a.left_over, arms[i] = a.arm, confidences[i] = a.confidence;
         put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F), put(moments, i, w.M);
-        torques[i] = c.torque;
+        depths[i] = c.depth, torques[i] = c.torque;
         faces[i] = c.face, vertices[i] = c.vertex, regions[i] = c.region;
         candidates[i] = a.count;
         reasons[i] = std::uint8_t(a.reason);
@@ -73,7 +73,7 @@ struct Rows {
 
     static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> points, normals, forces, moments, previous, seconds;
-    std::vector<double> torques, misfits, left_overs, arms, confidences;
+    std::vector<double> depths, torques, misfits, left_overs, arms, confidences;
     std::vector<std::int32_t> faces, vertices, candidates, regions;
     std::vector<std::uint8_t> reasons;
 };
@@ -112,7 +112,7 @@ Contact row_contact(const Batch& b, std::size_t i) {
     if (b.complete && reason != Reason::two_touches) return c;
     Candidate& k = a.candidates[0] = Candidate{};
     k.point = Rows::get(rows.points, i), k.normal = Rows::get(rows.normals, i);
-    k.torque = rows.torques[i];
+    k.depth = rows.depths[i], k.torque = rows.torques[i];
     k.misfit = rows.misfits[i];
     k.cosine = -dot(k.normal, c.wrench.F) / norm(c.wrench.F);
     k.face = rows.faces[i], k.vertex = rows.vertices[i];
@@ -132,7 +132,7 @@ void visit_covariances(const Batch& b, Use&& use) {
         if (!has_point(Reason(b.rows->reasons[i]))) return;
         const Vec3 normal = Rows::get(b.rows->normals, i);
         const Wrench w{Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)};
-        use(i, b.context->covariance(w, Rows::get(b.rows->points, i), normal, b.rows->faces[i]), normal);
+        use(i, b.context->covariance(w, Rows::get(b.rows->points, i), normal, b.rows->faces[i], b.rows->depths[i]), normal);
     });
 }
 
@@ -369,7 +369,7 @@ void bind_batch(nb::module_& m) {
                      "(n,) torque that it does not explain, N·m.")
         .def_prop_ro("arms", [](const Batch& b) { return view(b, &Rows::arms, {b.size()}); },
                      "(n,) torque along the force over the force, m.")
-        .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1.")
+        .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1, no probabilities.")
         .def_prop_ro("seconds", [](const Batch& b) { return view(b, &Rows::seconds, {b.size(), 3}); },
                      "(n, 3) S, m: a touch that joined the one that is followed.")
         .def_prop_ro("accepted", [](const Batch& b) {

@@ -36,6 +36,9 @@ TORSIONS_M = (0.0003, 0.003)
 ASTRAY_M = 0.010
 _FACE_M, _FACING = 0.015, 0.7  # the lens: so near to the tip, and so level
 _APART_M = 0.020
+EVENLY, LENS, ANYWHERE = "anywhere, no region", "on the lens, declared", "anywhere, lens declared"
+TOUCHED = (EVENLY, LENS, ANYWHERE)
+_NEAR_M, _DEPTH_M, _STEEP = 0.005, 0.002, 0.5  # one place: across the force; along it, and per metre across
 # Within 95 % of a normal distribution in two dimensions.
 _ELLIPSE = -2 * np.log(0.05)
 
@@ -192,15 +195,27 @@ def single(
 
 
 def reliability(
-    name: str, facets: int, count: int, rng: np.random.Generator, *, region: bool
+    name: str, facets: int, touched: str, count: int, rng: np.random.Generator
 ) -> tuple[Float, Bools]:
-    """Return stated confidence, and whether the point was within 5 mm or 4.5 sigma, of all answers with a point."""
-    solver = ContactSolver(mesh(name, facets, region=region))
-    arm = solver.model.torsion_arm
-    asked = press(body_of(name), solver, count, rng, drift=True, force=(2.0, 20.0), torsion_arm=arm)
+    """Return confidence and whether the place was right, of all answers with a point; touched as `TOUCHED` names it."""
+    probe = mesh(name, facets, region=touched != EVENLY)
+    solver = ContactSolver(probe)
+    where = {"above": float(probe.bounds[1, 2]) - _FACE_M, "facing": _FACING} if touched == LENS else {}
+    drawn = where | {"force": (1.0, 12.0), "angle": (0.0, 15.0), "torsion_arm": solver.model.torsion_arm}
+    asked = press(body_of(name), solver, count, rng, drift=True, **drawn)
     given = np.isfinite(asked.errors)
-    near = np.maximum(0.005, 4.5 * asked.batch.sigma_max)
-    return asked.batch.confidences[given], (asked.errors <= near)[given]
+    return asked.batch.confidences[given], (_same_place(asked) | (asked.errors <= _NEAR_M))[given]
+
+
+def _same_place(asked: Asked) -> Bools:
+    """Tell which touches lie at the place of their answer, as the solver keeps places apart: across, and in depth."""
+    off, normals = asked.touches.points - asked.batch.points, asked.batch.normals
+    force = asked.wrenches[:, :3] / np.linalg.norm(asked.wrenches[:, :3], axis=1, keepdims=True)
+    across = np.linalg.norm(np.cross(off, force), axis=1)
+    height = np.abs(np.sum(off * normals, axis=1) / np.sum(force * normals, axis=1))
+    return np.asarray(
+        (across <= np.maximum(_NEAR_M, 4.5 * asked.batch.sigma_max)) & (height <= _DEPTH_M + _STEEP * across)
+    )
 
 
 def ellipse(
@@ -241,15 +256,6 @@ def errors(
     both = np.all(np.isfinite(list(found.values())), axis=0)
     measured = {f"{by}, mean": float(1e3 * off[both].mean()) for by, off in found.items()}
     return measured | {f"{by}, no point": float(np.isnan(off).mean()) for by, off in found.items()}
-
-
-def pruning(name: str, facets: int, count: int, rng: np.random.Generator) -> int:
-    """Count answers of the pruned search that differ from looking at every facet, of touches and of any wrenches."""
-    solver, body = ContactSolver(mesh(name, facets)), body_of(name)
-    touches = draw_touches(body.surface, count // 2, rng, force=(1.0, 20.0), above=body.above)
-    wild = rng.standard_normal((count - count // 2, 6)) * np.repeat([8.0, 0.5], 3)
-    wrenches = np.vstack([add_noise(touches.wrenches, solver.noise, rng), wild])
-    return len(solver.search_differences(wrenches, None))
 
 
 # ---- a capsule with a fin -------------------------------------------------------------------------------------

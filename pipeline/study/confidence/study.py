@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
+    from rich.table import Table
+
     from contactbench.pipeline.study.confidence.cases import Bools, Float
     from contactbench.pipeline.study.results import Results
 
@@ -37,16 +39,12 @@ PARTS = {
     "pull": "Presses of the lens, 7 N, and a pull at the tool's side that the wrench's model leaves out",
     "two touches": "Two touches more than 20 mm apart, the stronger 8 to 10 N",
     "one touch": "Single touches, 8 to 10 N, up to 30 degrees",
-    "reliability": "Stated confidence against how often the point is right",
+    "reliability": "Confidence told, no probability, against how often the place is right",
     "ellipse": "True points in the 95 % ellipse",
     "error": "Error of all answers, beside the wrench axis",
-    "pruning": "The pruned search against every facet one by one",
 }
-STATED, RIGHT = "stated", "right"
-_BINS = np.array([*np.linspace(0.0, 0.9, 10), 0.99, 1.0])
-_WITHIN = 0.02  # of the stated confidence
-_PRUNED_FACETS = 500
-_FEW = 20  # answers: a bin of fewer says nothing
+_BINS = np.array([0.0, *np.linspace(0.5, 0.9, 5), 0.99, 1.0])
+_RELIABILITY = ("probe", "touched", "confidence", "answers", "mean told", "right")
 
 
 @dataclass(frozen=True)
@@ -58,10 +56,9 @@ class ConfidenceSizes:
     seeds: int = 5
     facets: int = 2_000  # of the meshes, where they do not vary
     ellipse_facets: tuple[int, ...] = (500, 1_000, 2_000, 20_000)
-    pruned: int = 100_000  # wrenches of a probe that are compared with every facet one by one
 
 
-QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
+QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000))
 
 
 @dataclass(frozen=True)
@@ -82,7 +79,7 @@ class ConfidenceRow(CaseRow):
     # at_least, at_most: what the mean must keep
     at_least: float | None = None
     at_most: float | None = None
-    stated: float | None = None  # confidence, mean of the bin
+    stated: float | None = None  # of the reliability: confidence told, mean of the bin, times 100
 
     @property
     def verdict(self) -> FigureVerdict:
@@ -109,6 +106,11 @@ class ConfidenceRow(CaseRow):
                 return f"{number(least)} to {number(most)}"
 
     @property
+    def reliable(self) -> tuple[str, ...]:
+        """It in the columns of the reliability."""
+        return self.probe, self.case, self.figure, f"{self.tries:,}", f"{self.stated:.1f} %", self.words
+
+    @property
     def cells(self) -> tuple[str, ...]:
         """See `CaseRow`."""
         return self.probe, self.case, self.figure, self.words, self.bound
@@ -118,13 +120,27 @@ class ConfidenceRow(CaseRow):
         return asdict(self) | {"verdict": str(self.verdict)}
 
 
+class ConfidenceReport(CasesReport[ConfidenceRow]):
+    """The rows, and the reliability as a table of its own: it has no bounds."""
+
+    def tables(self) -> list[Table]:
+        """Build what misses its bound, and the reliability, for the terminal."""
+        from rich.table import Table
+
+        built = Table(*_RELIABILITY, title=PARTS["reliability"])
+        for row in self.rows:
+            if row.stated is not None:
+                built.add_row(*row.reliable)
+        return [*super().tables(), built]
+
+
 def run(
     names: Sequence[str] = PROBE_NAMES,
     sizes: ConfidenceSizes | None = None,
     *,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> CasesReport[ConfidenceRow]:
+) -> ConfidenceReport:
     """
     Measure every case.
 
@@ -151,13 +167,11 @@ def run(
         progress(title)
         if part == "reliability":
             rows += _reliability(names, sizes, seed)
-        elif part == "pruning":
-            rows += _pruning(names, sizes, seed)
         else:
             rows += (row for case in tried if case.part == part for row in rows_of(case, sizes, seed))
     about = {"probes": [title_of(name) for name in names], "seed": seed, **asdict(sizes)}
     title = f"Confidence, {sizes.touches:,} touches x {sizes.seeds}, seed {seed}"
-    return CasesReport(title, about, tuple(rows))
+    return ConfidenceReport(title, about, tuple(rows))
 
 
 # ---- the parts -----------------------------------------------------------------------------------------
@@ -177,7 +191,7 @@ def rows_of(case: Case, sizes: ConfidenceSizes, seed: int) -> Iterator[Confidenc
 
 
 def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
-    """Give every case but the reliability and the pruning, which are no figures of several seeds."""
+    """Give every case but the reliability, which is no figure of several seeds."""
     count, facets = sizes.touches, sizes.facets
     noises, (little, _), (gentle, _) = cases.NOISES.items(), cases.TORSIONS_M, cases.PULLS_N
     wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
@@ -221,40 +235,27 @@ def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[Case]:
 
 def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     for i, name in enumerate(names):
-        for region in (False, True) if name in PROBE_NAMES else (False,):
+        for touched in cases.TOUCHED if name in PROBE_NAMES else (cases.EVENLY,):
             pairs = [
-                cases.reliability(name, sizes.facets, sizes.touches, rng, region=region)
+                cases.reliability(name, sizes.facets, touched, sizes.touches, rng)
                 for rng in chances(sizes.seeds, seed, i)
             ]
-            stated, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
-            yield from bins(title_of(name), "lens declared" if region else "no region", stated, right)
+            told, right = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
+            yield from bins(title_of(name), touched, told, right)
 
 
-def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[ConfidenceRow]:
-    """Compare stated confidence (n,) with what was right (n,): by its tenths, the last one split at 0.99."""
-    where = np.clip(np.digitize(stated, _BINS) - 1, 0, len(_BINS) - 2)
+def bins(probe: str, case: str, told: Float, right: Bools) -> Iterator[ConfidenceRow]:
+    """Compare confidence (n,) with what was right (n,): by its tenths from 0.5 up, the last one split at 0.99."""
+    where = np.clip(np.digitize(told, _BINS) - 1, 0, len(_BINS) - 2)
     for i, (low, high) in enumerate(pairwise(_BINS)):
         own = where == i
         count, hits = int(own.sum()), int(right[own].sum())
         if not count:
             continue
-        mean = 100.0 * float(stated[own].mean())
-        bounds: Bounds = (None, None)
-        if low >= 0.99:
-            bounds = (99.0, None)
-        elif count >= _FEW:
-            bounds = (mean - 100 * _WITHIN, mean + 100 * _WITHIN)
-        figure = f"{RIGHT}, where {low:g} to {high:g} is {STATED}"
+        figure = f"{low:g} to {high:g}"
         value, least, most = (100.0 * share for share in (hits / count, *share_interval(hits, count)))
-        yield ConfidenceRow("reliability", probe, case, figure, "%", count, value, least, most, *bounds, mean)
-
-
-def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
-    for i, name in enumerate(names):
-        found = cases.pruning(name, _PRUNED_FACETS, sizes.pruned, np.random.default_rng((seed, i)))
-        differ = (float(found),) * 3
-        case, figure = f"{_PRUNED_FACETS} facets", "answers that differ"
-        yield ConfidenceRow("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
+        mean = 100.0 * float(told[own].mean())
+        yield ConfidenceRow("reliability", probe, case, figure, "%", count, value, least, most, stated=mean)
 
 
 # ---- the page ----------------------------------------------------------------------------------------------
@@ -264,12 +265,13 @@ _ABOUT = """Touches whose place is known, on exact surfaces or on a file's own m
 answer is *sure* if its reason is `ok` or `vertex`. Each figure is a mean over seeds, with the least and the most of
 them in brackets; figures in bold miss their bound. Noise is 0.05 N and 2 mN·m, filtered 0.18 times as much.
 
-An answer of the reliability is right if it is within 5 mm or 4.5 standard deviations. Its brackets are 95 % intervals,
-and a bin of at least 20 answers misses its bound if its interval lies outside of it. The ellipse is asked of sure
-answers that are within 10 mm; the share of all others is in the column *left out*. The ellipse allows for the model's
-error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it. The errors beside
-the wrench axis are those of touches where both give a point."""
-_SAID = {_PICTURE: "Stated confidence against the share of right answers, with 95 % intervals."}
+Confidence is no probability, so nothing is asked of the reliability: it shows how often the place is right (within
+5 mm, or 4.5 standard deviations across the force and 2 mm along it) where so much is told. Touches of 1 to 12 N, up
+to 15 degrees, are drawn with all errors that the solver allows for. Brackets are 95 % intervals. The ellipse is asked
+of sure answers that are within 10 mm; the share of all others is in the column *left out*. The ellipse allows for the
+model's error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it. The errors
+beside the wrench axis are those of touches where both give a point."""
+_SAID = {_PICTURE: "Confidence told against the share of right answers, with 95 % intervals."}
 
 
 def make(results: Results, folder: Path) -> str:
@@ -298,12 +300,7 @@ def tables(rows: Sequence[ConfidenceRow]) -> list[tuple[str, str]]:
 
 def _table(rows: Sequence[ConfidenceRow]) -> str:
     if rows and rows[0].stated is not None:
-        columns = ["probe", "case", "answers", "stated", "right", "bound"]
-        lines = [
-            [row.probe, row.case, f"{row.tries:,}", f"{number(row.stated)} %", _marked(row), row.bound]
-            for row in rows
-        ]
-        return table(columns, lines)
+        return table(_RELIABILITY, [row.reliable for row in rows])
     figures = list(dict.fromkeys(row.figure for row in rows))
     bounds = {row.figure: row.bound for row in rows if row.bound and row.probe != "t-shape"}
     cells: dict[tuple[str, str], dict[str, str]] = {}
@@ -337,11 +334,11 @@ def _diagram(rows: Sequence[ConfidenceRow]) -> bytes:
                 [float(r.stated or 0.0) for r in own],
                 [r.value for r in own],
                 [[r.value - r.low for r in own], [r.high - r.value for r in own]],
-                fmt="s" if "declared" in case else "o",
+                fmt="osv"[cases.TOUCHED.index(case)],
                 color=COLOURS[probes.index(probe) % len(COLOURS)],
                 elinewidth=0.8,
                 label=f"{probe}, {case}",
             )
-        axes.set(xlabel="stated confidence, %", ylabel="right, %", xlim=(0, 101), ylim=(0, 101))
+        axes.set(xlabel="confidence told, %", ylabel="right, %", xlim=(0, 101), ylim=(0, 101))
         axes.legend(fontsize=7)
         return png(drawn)

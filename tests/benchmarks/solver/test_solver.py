@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from benchmarks.solver import bits, exact
+from benchmarks.solver import bits, exact, ties
 from benchmarks.solver import hard_meshes as hm
 from benchmarks.solver.bits import Build, Row, Workshop
+from config.runtime import bundle_reference
 
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
@@ -142,3 +143,12 @@ def test_rational_numbers_by_hand() -> None:
     assert max(exact._margins(body, top, force, exact._cross(outside, force))) > 0
     on_edge = tuple((x + y) / 2 for x, y in zip(a, b, strict=True))
     assert max(exact._margins(body, top, force, exact._cross(on_edge, force))) == 0
+
+
+def test_ties_are_broken_alike_and_by_more_than_the_least_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert len(ties.meshes()) == 30
+    assert ties.run(wrenches=300, seed=1).passed
+    monkeypatch.setattr(bundle_reference.Wrench, "least", lambda _self, key, _points: int(key.argmin()))
+    (plates,) = [probe for probe in ties.meshes() if probe.name == "plates 0.4 mm apart"]
+    pruned, told = ties.differences(plates, ties.draw(plates, 100, np.random.default_rng(1)))
+    assert pruned == 0 < told

@@ -18,8 +18,10 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STANDARD_GRAVITY = 9.80665
 BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
+SAME_DEPTH, SAME_SLOPE = 0.002, 0.5
+LAYER_DEPTH, LAYER_SLOPE, LAYER_COST, SAME_MISFIT = 0.0006, 0.4, 4.0, 0.25
 STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
-LEAST_VARIANCE, MOST_Q, FAR = 1e-12, 1.75, 1000.0
+LEAST_VARIANCE, MOST_Q, FAR, TIE, NO_FURTHER = 1e-12, 1.75, 1000.0, 2.0**-24, 1e-9
 MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
 TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 1.5, 512
 LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
@@ -225,8 +227,14 @@ class Wrench:
             "point": W[:, :1] * v[:, 0] + (W[:, 1:2] * v[:, 1] + W[:, 2:] * v[:, 2]),
         }
 
-    def depth(self, point: Array) -> float:
-        return float((point - self.mesh.centre) / self.mesh.scale @ self.f)
+    def depth(self, points: Array) -> Any:
+        return (1 / self.mesh.scale) * (points - self.mesh.centre) @ self.f
+
+    def least(self, key: Array, points: Array) -> int:
+        """Of equal keys the point that is met first, and of those the lowest number."""
+        rounded = np.rint(key / TIE)
+        equal = np.flatnonzero(rounded == rounded.min())
+        return int(equal[np.rint(self.depth(points[equal]) / TIE).argmin()])
 
     def at_touch(self, face: int, point: Array) -> dict[str, Any]:
         m = self.mesh
@@ -259,10 +267,18 @@ class Touch:
     radius: float
     slope: Array
     hidden: float = 0.0
+    depth: float = 0.0
 
-    def apart(self, x: Array) -> float:
+    def off_plane(self, x: Array) -> tuple[Array, Array]:
+        d, steep = x - self.point, 1 / np.sqrt(1 - self.slope @ self.slope)
+        off = d @ self.normal
+        return steep * off, steep * np.sqrt(np.maximum(0, (d * d).sum(axis=-1) - off**2))
+
+    def elsewhere(self, x: Array) -> Any:
         d = x - self.point
-        return float(np.sqrt(max(0.0, float(d @ d) - float(d @ self.slope) ** 2)))
+        apart = np.sqrt(np.maximum(0, (d * d).sum(axis=-1) - (d @ self.slope) ** 2))
+        height, along = self.off_plane(x)
+        return (apart > self.radius) | (np.abs(height) > SAME_DEPTH + SAME_SLOPE * along + NO_FURTHER)
 
     @property
     def unhidden(self) -> float:
@@ -475,7 +491,7 @@ class Reference:
         sigma = np.concatenate([error["force_N"], error["torque_Nm"]])
         self.C = np.array(about["noise"]["wrench_covariance"]) + np.diag(sigma**2)
         self.arm = about["touch"]["torsion_arm_m"]
-        self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST)
+        self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST) - TIE
         self.rival, self.behind, self.follow = (
             2 * float(np.log(self.gates[f"{name}_odds"])) for name in ("rival", "first", "follow")
         )
@@ -708,7 +724,7 @@ class Reference:
             out.point, out.normal, out.k, out.region = c.point, c.normal, c.k, c.region
             about = Wrench(self.mesh, self.wrench[:3], self.wrench[3:], C, self.arm)
             if found.second is None:
-                out.covariance = about.covariance(c.face, c.point)
+                out.covariance = about.covariance(c.face, c.point) + c.depth**2 * np.outer(about.f, about.f)
             out.runner_up = UNKNOWN if found.runner_up is None else found.runner_up.point
             out.second = UNKNOWN if found.second is None else found.second.point
         if out.accepted:
@@ -744,51 +760,77 @@ class Reference:
         if not usable.any():
             return self._no_touch(wrench, fits, facing, arm)
         key = np.where(usable, d2 - prior - near, np.inf)
-        best = int(key.argmin())  # the first, and so the lowest number, of equals
-        limit = key[best] + self.rival
+        best = wrench.least(key, points)
+        limit, odds = key[best] + self.rival, (float(prior[best]), float(near[best]))
         key = np.where(usable, d2 - np.maximum(prior, prior[best]) - near, np.inf)
-        free, candidates, hidden = usable.copy(), [], False
+        c = self._touch(wrench, fits, best, *odds)
+        if not gates["region_only"]:
+            inside = np.where(usable & ~c.elsewhere(points), d2 - self.mesh.prior.max(), np.inf)
+            c = self._touch(wrench, fits, wrench.least(inside, points), *odds)
+        free, candidates, hidden = usable.copy(), [c], False
+        free &= c.elsewhere(points)
+        layers = usable & ~free & (key <= limit)
+        if (free & (key <= limit) & (d2 - prior - near <= c.unhidden + self.rival - self.behind)).any():
+            layers[:] = False
         while True:
-            c = self._touch(wrench, fits, best, float(near[best]))
+            left = np.where(free & (key <= limit), key, np.inf)
+            best = wrench.least(left, points)
+            if len(candidates) == MOST_CANDIDATES or np.isinf(left[best]):
+                break
+            c = self._touch(wrench, fits, best, float(prior[best]), float(near[best]))
             candidates.append(c)
             if not hidden and self._hides(c, candidates[0], wrench.f):
                 hidden, limit = True, limit + self.behind
-            d = points - c.point
-            away = np.sqrt(np.maximum(0, (d**2).sum(axis=1) - (d @ c.slope) ** 2))
-            free &= away > c.radius
-            left = np.where(free & (key <= limit), key, np.inf)
-            best = int(left.argmin())
-            if len(candidates) == MOST_CANDIDATES or np.isinf(left[best]):
-                break
+            free &= c.elsewhere(points)
+        candidates[0] = self._first_layer(wrench, fits, candidates[0], layers)
         return self._ranked(wrench, candidates, arm)
 
-    def _touch(self, wrench: Wrench, fits: dict[str, Any], face: int, near: float) -> Touch:
+    def _first_layer(self, wrench: Wrench, fits: dict[str, Any], c: Touch, layers: Array) -> Touch:
+        d2, points = fits["d2"], fits["point"]
+        height, along = c.off_plane(points)
+        bent = np.abs(height) > LAYER_DEPTH + LAYER_SLOPE * along + NO_FURTHER
+        rows = np.flatnonzero(layers & (d2 <= c.d2 + LAYER_COST) & bent)
+        seen = height[rows] ** 2 * np.exp(-0.5 * np.maximum(0, d2[rows] - c.d2))
+        up = np.where(d2[rows] <= c.d2 + SAME_MISFIT, np.rint(height[rows] / TIE), -np.inf)
+        first = 0.0
+        if len(rows) and up.max() >= 0:
+            row = rows[up.argmax()]
+            first = float(up.max()) * TIE
+            c = self._touch(wrench, fits, int(row), c.prior, c.near)
+        c.depth = max(float(np.sqrt(seen.max(initial=0.0))), first)
+        return c
+
+    def _touch(self, wrench: Wrench, fits: dict[str, Any], face: int, prior: float, near: float) -> Touch:
         m, point = self.mesh, fits["point"][face]
         V = wrench.at_touch(face, point)
         larger = 0.5 * (V["aa"] + V["bb"]) + np.sqrt((0.5 * (V["aa"] - V["bb"])) ** 2 + V["ab"] ** 2)
         n = m.normals[face]
-        whole = np.flatnonzero(fits["weights"][face] == 1)
+        whole = np.flatnonzero(fits["weights"][face] >= 1 - TIE)
         return Touch(
             face,
             point,
             n,
             float(fits["k"][face]),
             float(fits["d2"][face]),
-            float(m.prior[face]),
+            prior,
             near,
             int(m.faces[face][whole[-1]]) if len(whole) else -1,
             int(m.region[face]),
-            max(self.gates["ambiguity_distance_m"], SAME_TOUCH * m.scale * float(np.sqrt(larger))),
+            max(self.gates["ambiguity_distance_m"], SAME_TOUCH * m.scale * float(np.sqrt(larger)))
+            + NO_FURTHER,
             wrench.f - (n @ wrench.f) * n,
         )
 
     def _hides(self, x: Touch, y: Touch, f: Array) -> bool:
-        return float((y.point - x.point) @ f) > BEHIND_DISTANCE and x.unhidden <= y.unhidden + self.behind
+        return (
+            float((y.point - x.point) @ f) > BEHIND_DISTANCE + NO_FURTHER
+            and x.unhidden <= y.unhidden + self.behind
+        )
 
     def _ranked(self, wrench: Wrench, candidates: list[Touch], arm: float) -> Found:
         for y in candidates:
             y.hidden = self.behind if any(self._hides(x, y, wrench.f) for x in candidates) else 0.0
-        chosen = min(candidates, key=lambda c: c.cost)
+        chosen = min(candidates, key=lambda c: np.rint(c.cost / TIE))  # the first of equals
         others = [c for c in candidates if c is not chosen]
         delta = [c.cost - chosen.cost for c in others]
         reason = "ok" if chosen.vertex < 0 else "vertex"
@@ -797,7 +839,11 @@ class Reference:
         elif any(c.free - chosen.free <= self.rival for c in others):
             reason = "by_region"
         found = Found(
-            reason, chosen, min(others, key=lambda c: c.cost) if others else None, len(candidates), chosen.d2
+            reason,
+            chosen,
+            min(others, key=lambda c: np.rint(c.cost / TIE)) if others else None,
+            len(candidates),
+            chosen.d2,
         )
         found.arm, found.left_over = arm, self._left_over(wrench, chosen.point, chosen.normal, chosen.k)
         found.confidence = 1 / (1 + sum(float(np.exp(-each / 2)) for each in delta))
@@ -818,7 +864,8 @@ class Reference:
         found, d2 = Found("off_surface", arm=arm), fits["d2"]
         if (facing >= self.c_min).any():
             found.reason = "implausible"
-            best = int(np.where(facing >= self.c_min, d2 - self.mesh.prior.max(), np.inf).argmin())
+            key = np.where(facing >= self.c_min, d2 - self.mesh.prior.max(), np.inf)
+            best = wrench.least(key, fits["point"])
             found.misfit = float(d2[best])
             found.left_over = self._left_over(
                 wrench, fits["point"][best], self.mesh.normals[best], float(fits["k"][best])

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import asdict, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from contactbench.pipeline.study.confidence import cases, study
 from contactbench.pipeline.study.harness import Case
 from contactbench.pipeline.study.pages import make_page, publish
 
-TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
+TINY = study.ConfidenceSizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,))
 
 
 @pytest.fixture(scope="module")
@@ -48,16 +49,37 @@ def test_the_same_seed_gives_the_same(report, monkeypatch):
     assert study.run(("linear",), TINY, seed=2).rows != before
 
 
-def test_bins_compare_what_is_stated_with_what_is_right(rng):
-    stated = rng.uniform(0, 1, 20_000)
-    honest = list(study.bins("probe", "case", stated, rng.random(20_000) < stated))
-    assert all(row.verdict != "missed" for row in honest if row.stated < 99)
-    boastful = list(study.bins("probe", "case", stated, rng.random(20_000) < stated - 0.1))
-    assert all(row.verdict == "missed" for row in boastful if 20 < row.stated < 99)
-    assert next(row for row in boastful if row.stated > 99).verdict == "missed"
-    # Few answers prove nothing.
-    few = list(study.bins("probe", "case", stated[:30], np.zeros(30, dtype=bool)))
-    assert all(row.verdict != "missed" for row in few if row.stated < 99)
+def test_bins_compare_what_is_told_with_what_is_right(rng):
+    told = rng.uniform(0, 1, 20_000)
+    found = list(study.bins("probe", "case", told, rng.random(20_000) < told - 0.1))
+    assert [row.figure for row in found][:2] == ["0 to 0.5", "0.5 to 0.6"]
+    assert [row.tries for row in found] == np.histogram(told, study._BINS)[0].tolist()
+    for row in found[1:]:
+        assert row.stated - 15 < row.low < row.stated - 10 < row.high < row.stated - 5 or row.tries < 500
+    assert found[-1].stated > 99
+
+
+def test_it_is_right_at_its_own_place_alone():
+    def asked(*off):
+        touch, wrench = [[0.0, 0.0, 0.1]], [[0.0, 0.0, -5.0, 0.0, 0.0, 0.0]]
+        batch = SimpleNamespace(
+            points=np.array(touch) - off, normals=np.array([[0.0, 0.6, 0.8]]), sigma_max=np.array([0.002])
+        )
+        return SimpleNamespace(
+            touches=SimpleNamespace(points=np.array(touch)), wrenches=np.array(wrench), batch=batch
+        )
+
+    same = [(0, 0.008, -0.006), (0, 0, 0.0019), (0, 0, -0.0019), (0.004, 0, 0.0039)]
+    other = [(0, 0.0092, -0.0069), (0, 0, 0.0021), (0, 0, -0.0021), (0.004, 0, 0.0041), (0, 0.008, 0.006)]
+    assert [bool(cases._same_place(asked(*off))[0]) for off in (*same, *other)] == 4 * [True] + 5 * [False]
+
+
+def test_the_terminal_shows_the_reliability(report):
+    built = report.tables()[-1]
+    rows = [row for row in report.rows if row.part == "reliability"]
+    assert {row.case for row in rows} == set(cases.TOUCHED)
+    assert built.row_count == len(rows)
+    assert list(built.columns[-1].cells) == [row.words for row in rows]
 
 
 def test_a_bound_is_missed_where_the_whole_interval_is_beyond():

@@ -42,6 +42,17 @@ inline bool accepted(Reason r, const Gates& g) {
 inline bool followed(Reason r, const Gates& g) { return accepted(r, g) || r == Reason::uncertain; }
 
 inline constexpr double same_touch_sigmas = 4.5;
+// Off a touch's plane, along the force: m, and per metre along it. A surface that bends away faster is another place.
+inline constexpr double same_touch_depth = 0.002, same_touch_slope = 0.5;
+// A surface that lies further off than this is not the touch's own; and within this much d2 two touches are as likely.
+inline constexpr double layer_depth = 0.0006, layer_slope = 0.4, layer_cost = 4.0, same_misfit = 0.25;
+
+// Numbers that differ by less than this are equal: what is symmetric ties, and rounding shall not decide. They are
+// rounded to it rather than compared with a tolerance, so that an order stays an order.
+inline constexpr double tie = 1.0 / (1 << 24);
+inline double to_tie(double x) { return std::nearbyint(x / tie); }
+// m: what is exactly as far as is asked, as steps are made to be, is no further.
+inline constexpr double no_further = 1e-9;
 
 enum class Why : std::uint8_t { chosen, misfit, region, previous, downstream };
 
@@ -55,6 +66,7 @@ struct Candidate {
     double follow = 0.0;   // of the last contact
     double behind = 0.0;   // cost of lying behind another candidate
     double across = 0.0;   // largest standard deviation of the point, seen along the force, m
+    double depth = 0.0;    // standard deviation along the force, for another surface may be the one that is touched, m
     Vec3 slope;            // f + cosine * normal: the force along the facet, over |F|
     std::int32_t face = -1, vertex = -1, region = 0;
     std::int32_t slot = -1;
@@ -74,7 +86,7 @@ struct Answer {
     double misfit = std::numeric_limits<double>::quiet_NaN();  // of the best touch, chosen or not
     double arm = std::numeric_limits<double>::quiet_NaN();     // m: pitch, M . F / |F|^2
     double left_over = std::numeric_limits<double>::quiet_NaN();  // N*m that the best touch does not explain
-    double confidence = 0.0;
+    double confidence = 0.0;  // 1 / (1 + the odds of every other place): no probability, see decide()
     bool has_second = false;
     Candidate second;  // a touch that joined the one that is followed
 
@@ -91,7 +103,7 @@ struct Answer {
 inline const Candidate* runner_up(const Answer& a) {
     const Candidate* best = nullptr;
     for (int i = 0; i < a.count; ++i)
-        if (i != a.chosen && (!best || a.candidates[i].cost() < best->cost())) best = &a.candidates[i];
+        if (i != a.chosen && (!best || to_tie(a.candidates[i].cost()) < to_tie(best->cost()))) best = &a.candidates[i];
     return best;
 }
 
@@ -119,12 +131,32 @@ inline double apart(const Candidate& touch, Vec3 p) {
 
 // Within this it is the same touch.
 inline double own_radius(const Candidate& c, const Gates& g) {
-    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across);
+    return std::max(g.ambiguity_distance, same_touch_sigmas * c.across) + no_further;
+}
+
+// Where p lies off a touch's plane, against the force, and how far it is along the plane; m. On a steep plane noise leads
+// further, and a curved surface bends away further: both are over the cosine.
+struct Off {
+    double height, along;
+};
+
+inline Off off_plane(const Candidate& touch, Vec3 p) {
+    const Vec3 d = p - touch.point;
+    const double off = dot(d, touch.normal), steep = 1.0 / touch.cosine;
+    return {steep * off, steep * std::sqrt(std::max(0.0, norm2(d) - off * off))};
+}
+
+// Is p another place than a touch? Noise moves the point across the force, and along it only as far as the touch's own
+// surface leads: what lies deeper or higher than that is another surface, however near it is across.
+inline bool elsewhere(const Candidate& touch, double radius, Vec3 p) {
+    if (apart(touch, p) > radius) return true;
+    const Off off = off_plane(touch, p);
+    return std::fabs(off.height) > same_touch_depth + same_touch_slope * off.along + no_further;
 }
 
 // Does the line of force, along f, meet `front` first? Only a touch that is about as likely may stand in the way.
 inline bool hides(const Candidate& front, const Candidate& back, const Gates& g, Vec3 f) {
-    return dot(back.point - front.point, f) > g.behind_distance &&
+    return dot(back.point - front.point, f) > g.behind_distance + no_further &&
            front.cost_unhidden() <= back.cost_unhidden() + g.behind_cost;
 }
 
@@ -145,7 +177,7 @@ inline int decide(Answer& a, const Gates& g, Vec3 f) {
             if (detail::hides(a.candidates[j], a.candidates[i], g, f)) a.candidates[i].behind = g.behind_cost;
     int best = 0;
     for (int i = 1; i < a.count; ++i)
-        if (a.candidates[i].cost() < a.candidates[best].cost()) best = i;
+        if (to_tie(a.candidates[i].cost()) < to_tie(a.candidates[best].cost())) best = i;
     a.chosen = best;
     Candidate& winner = a.candidates[best];
     a.misfit = winner.misfit;

@@ -86,7 +86,7 @@ struct RuntimeContact {
     double misfit = detail::unknown;     // d2 of the best touch, in standard deviations squared
     double left_over = detail::unknown;  // N*m that it does not explain
     double arm = detail::unknown;        // m: M . F / |F|^2
-    double confidence = 0.0;             // 0 to 1
+    double confidence = 0.0;             // see Answer
     double runner_up[3] = {detail::unknown, detail::unknown, detail::unknown};  // the likeliest other place
     double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
     double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
@@ -363,7 +363,7 @@ private:
         out.torque_about_normal = c->torque;
         out.face = c->face, out.vertex = c->vertex, out.region = c->region;
         if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
-            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
+            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face, c->depth);
             std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
             out.within = sigmas_of_95 * largest_sigma(s, c->normal);
         }

@@ -4,7 +4,7 @@
 // descent keeps the bounds of what it opened (`Opened`), and later hunts go on from there.
 //
 // Contract: exhaust is O(n); search is O(log n) where the wrench is precise against the size of the probe. Nothing
-// allocates. Of equal touches the one on the facet of the lowest number is taken.
+// allocates. Of equal touches the one that is met first is taken, and of those the one on the facet of the lowest number.
 #pragma once
 
 #include "answer.hpp"
@@ -15,19 +15,53 @@ struct Hunt {
     double cos_friction = 0.0;
     double most_misfit = HUGE_VAL;  // d2 of a touch
     double limit = HUGE_VAL;        // of misfit - follow - max(prior, least_prior)
+    double more = 0.0;              // by which later hunts may raise it
     double least_prior = -HUGE_VAL;
     double follow_cost = 0.0, follow_distance = 0.0;
     const Vec3* previous = nullptr;  // S, m
-    const Candidate* away = nullptr;  // not within its own radius of one of these
+    const Candidate* away = nullptr;  // at another place than each of these, see elsewhere()
     double radius[Answer::capacity];  // m
     int away_count = 0;
+    const Candidate* inside = nullptr;  // at the place of this one, whose own radius is radius[0]
+    bool layers = false;                // away from one touch: look also for what else lies at its place, see Layers,
+    double rival = -HUGE_VAL;           // unless another place costs less than this: then nobody asks
 };
 
 namespace detail {
 
+// Of touches of one key the surface met first counts, then the facet of the lowest number.
+struct Rank {
+    double key = HUGE_VAL, depth = HUGE_VAL;  // to_tie()
+    std::int32_t face = -1;
+
+    auto operator<=>(const Rank&) const = default;
+};
+
+// Surfaces at a touch's place that are not its own: steps, and layers too near behind each other to be two places.
+struct Layers {
+    double variance = 0.0;  // how far off the touch's plane they lie along the force, as likely as they are, m^2
+    double height = 0.0;    // of `first` against the force, m
+    Candidate first;        // met before the touch, and as likely; slot < 0: none
+
+    // What explains the wrench with d2 at the place of `touch`. True: it is the one to be met first.
+    bool add(const Candidate& touch, Vec3 point, double d2, std::int32_t face) {
+        const Off off = off_plane(touch, point);
+        if (d2 > touch.misfit + layer_cost || std::fabs(off.height) <= layer_depth + layer_slope * off.along + no_further)
+            return false;
+        variance = std::max(variance, off.height * off.height * std::exp(-0.5 * std::max(0.0, d2 - touch.misfit)));
+        const double up = to_tie(off.height);
+        if (!(d2 <= touch.misfit + same_misfit) || up < height || (up == height && face > first.face)) return false;
+        height = up;
+        return true;
+    }
+};
+
 struct Found {
     double key = HUGE_VAL;
+    Rank rank;
     Candidate touch;  // slot < 0: none
+    bool layered = false;  // `layers` holds all there are
+    Layers layers;
 };
 
 inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const Hunt& hunt, Found& best) {
@@ -45,11 +79,22 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     double follow = 0.0;
     if (hunt.previous && norm(point - *hunt.previous) <= hunt.follow_distance) follow = hunt.follow_cost;
     key -= follow;
-    if (!(key <= hunt.limit) || key > best.key || (key == best.key && face > best.touch.face)) return;
-    for (int i = 0; i < hunt.away_count; ++i)
-        if (apart(hunt.away[i], point) <= hunt.radius[i]) return;
-    best.key = key;
-    Candidate& c = best.touch;
+    if (!(key <= hunt.limit)) return;
+    const Rank rank{to_tie(key), to_tie(dot((1.0 / m.frame.scale) * (point - m.frame.centre), q.f)), face};
+    if (!best.layered && !(rank < best.rank)) return;
+    if (hunt.inside && elsewhere(*hunt.inside, hunt.radius[0], point)) return;
+    Candidate* to = &best.touch;
+    for (int i = 0; i < hunt.away_count; ++i) {
+        if (elsewhere(hunt.away[i], hunt.radius[i], point)) continue;
+        if (!best.layered || !best.layers.add(hunt.away[0], point, fit.d2, face)) return;
+        to = &best.layers.first;
+    }
+    if (to == &best.touch) {
+        best.layered = best.layered && fit.d2 - bonus - follow > hunt.rival;
+        if (!(rank < best.rank)) return;
+        best.key = key, best.rank = rank;
+    }
+    Candidate& c = *to;
     c = Candidate{};
     c.point = point;
     c.normal = facet.normal;
@@ -62,37 +107,63 @@ inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const 
     c.slot = std::int32_t(slot);
     c.region = m.region(face);
     for (std::size_t i = 0; i < 3; ++i)
-        if (fit.weight[i] == 1.0) c.vertex = t[i];
+        if (fit.weight[i] >= 1.0 - tie) c.vertex = t[i];
 }
 
-// What is near a touch, in the search's own numbers: see apart().
+// What is near a touch, in the search's own numbers: see elsewhere().
 struct Near {
     float x, y, z, sx, sy, sz;  // centre and slope, normalised
+    float nx, ny, nz;           // normal
     float inner, outer;         // radii less and more what rounding may do
+    float flat, tilt;           // off the touch's plane no further than flat + tilt * in it: not another place
+    float own, lean;            // no further than own + lean * in it: no other layer
 };
 
-inline Near near_touch(const Model& m, Vec3 centre, Vec3 slope, double radius) {
+inline Near near_point(const Model& m, Vec3 centre, double radius) {
     const Vec3 c = (1.0 / m.frame.scale) * (centre - m.frame.centre);
     const float r = float(radius / m.frame.scale);
-    return {float(c.x), float(c.y), float(c.z), float(slope.x), float(slope.y), float(slope.z),
-            std::max(r * (1.0f - 1e-5f) - 2.0f * slack, 0.0f), r * (1.0f + 1e-5f) + 2.0f * slack};
+    Near near{};
+    near.x = float(c.x), near.y = float(c.y), near.z = float(c.z);
+    near.inner = std::max(r * (1.0f - 1e-5f) - 2.0f * slack, 0.0f), near.outer = r * (1.0f + 1e-5f) + 2.0f * slack;
+    return near;
+}
+
+inline Near near_touch(const Model& m, const Candidate& c, double radius) {
+    Near near = near_point(m, c.point, radius);
+    near.sx = float(c.slope.x), near.sy = float(c.slope.y), near.sz = float(c.slope.z);
+    near.nx = float(c.normal.x), near.ny = float(c.normal.y), near.nz = float(c.normal.z);
+    const auto least = [&](double depth) {
+        return std::max(float(depth * c.cosine / m.frame.scale) * (1.0f - 1e-5f) - 2.0f * slack, 0.0f);
+    };
+    near.flat = least(same_touch_depth), near.tilt = float(same_touch_slope) * (1.0f - 1e-4f);
+    near.own = least(layer_depth), near.lean = float(layer_slope) * (1.0f - 1e-4f);
+    return near;
 }
 
 inline float beyond_rounding(double x) { return x < 1e30 ? float(x + 1e-6 * std::fabs(x) + 1e-6) : 1e30f; }
 
 // What a descent looked at, and what of it is left to look at: nodes that were opened, with the children that were not,
-// and leaves, with the bounds of their facets.
+// and leaves, with the bounds of their facets. What later hunts cannot find any more is dropped.
 struct Opened {
     struct Place {
-        Bounds bounds;
+        Bounds bounds;       // away from the first `away` touches
         std::int32_t index;  // of the node or leaf
         unsigned lanes;      // children that are left
+        int away;
     };
-    static constexpr int most_nodes = 128, most_leaves = 64;
+    static constexpr int most_nodes = 256, most_leaves = 192;
     static_assert(most_nodes % lanes == 0);
     Place nodes[most_nodes], leaves[most_leaves];
     int node_count = 0, leaf_count = 0;
     bool all = true;  // nothing was forgotten
+};
+
+// How eight boxes or facets lie about a touch.
+struct Span {
+    Float8 farthest;  // down its slope less counts
+    Float8 within;    // along its plane, at least
+    Float8 off;       // its plane, at most
+    Float8 along;     // the force, at most
 };
 
 class Descent {
@@ -102,12 +173,13 @@ public:
         : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), opened_(opened),
           most_misfit_(beyond_rounding(hunt.most_misfit)), least_prior_(float(std::max(hunt.least_prior, -1e30))),
           follow_cost_(hunt.previous ? beyond_rounding(hunt.follow_cost) : 0.0f) {
-        for (int i = 0; i < hunt.away_count; ++i) away_[i] = near_touch(m, hunt.away[i].point, hunt.away[i].slope, hunt.radius[i]);
-        if (hunt.previous) follow_ = near_touch(m, *hunt.previous, {}, hunt.follow_distance);
+        for (int i = 0; i < hunt.away_count; ++i)
+            away_[i] = near_touch(m, hunt.away[i], hunt.radius[i]);
+        if (hunt.layers) layer_limit_ = beyond_rounding(hunt.away[0].misfit + layer_cost);
+        if (hunt.previous) follow_ = near_point(m, *hunt.previous, hunt.follow_distance);
         if (hunt.away_count == 0) return;
         const Vec3 c = (1.0 / m.frame.scale) * (hunt.away[0].point - m.frame.centre);
         wa_ = float(q.form.ma - dot(c, q.b)), wb_ = float(q.form.mb + dot(c, q.a));
-        depth_ = float(dot(c, q.f));
     }
 
     // From the root.
@@ -116,19 +188,34 @@ public:
         run();
     }
 
-    // On from what was looked at before.
+    // On from what was looked at before. What no later hunt can find is forgotten; inside a place, nothing is.
     void go_on() {
+        const float most = hunt_.inside ? never : beyond_rounding(hunt_.limit + hunt_.more);
+        int left = 0;
         for (int i = 0; i < opened_.leaf_count; ++i) {
-            const Opened::Place& p = opened_.leaves[i];
-            judge_facets(std::size_t(p.index), p.bounds);
+            Opened::Place& p = opened_.leaves[i];
+            const Float8 better = prior(m_.tree.leaves[std::size_t(p.index)].bonus) + follow_cost_;
+            judge_facets(p);
+            if (mask_of(p.bounds.d2 - better <= most) == 0) continue;
+            if (left < i) opened_.leaves[left] = p;
+            ++left;
         }
+        opened_.leaf_count = left;
+        left = 0;
         for (int i = 0; i < opened_.node_count; ++i) {
-            const Opened::Place& p = opened_.nodes[i];
+            Opened::Place& p = opened_.nodes[i];
             const Node& node = m_.tree.nodes[std::size_t(p.index)];
-            if (i % lanes == 0) least_[i / lanes] = Float8{} + never;
-            if ((mask_of(p.bounds.d2 - prior(node.bonus) - follow_cost_ <= cut()) & p.lanes) == 0) continue;
-            queue(i, select(lanes_of(p.lanes), node_keys(node, boxes_of(node), p.bounds), Float8{} + never));
+            const Float8 better = prior(node.bonus) + follow_cost_;
+            p.lanes &= mask_of(p.bounds.d2 - better <= most);
+            if (p.lanes == 0) continue;
+            Float8 keys = Float8{} + never;
+            if ((mask_of(p.bounds.d2 - better <= cut()) & p.lanes) != 0)
+                keys = select(lanes_of(p.lanes), node_keys(node, boxes_of(node), p.bounds, p.away), keys);
+            if (left < i) opened_.nodes[left] = p;
+            if (left % lanes == 0) least_[left / lanes] = Float8{} + never;
+            queue(left++, keys);
         }
+        opened_.node_count = left;
         run();
     }
 
@@ -136,7 +223,7 @@ private:
     static constexpr float never = 1e38f;
 
     // Keys beyond this are of no use: single precision, rounded up.
-    float cut() const { return beyond_rounding(std::min(best_.key, hunt_.limit)); }
+    float cut() const { return beyond_rounding(best_.layered ? hunt_.limit : std::min(best_.key, hunt_.limit)); }
 
     // The least key first, wherever it is in the tree: going down the first good branch to its end would look at all
     // that is better than the best so far, which is bad at first. The least is found by looking at all: they are few, and
@@ -178,13 +265,14 @@ private:
     void open(std::int32_t index) {
         const Node& node = m_.tree.nodes[std::size_t(index)];
         const Boxes boxes = boxes_of(node);
-        const Bounds bounds = node_bound(node, boxes, node_);
+        Bounds bounds = node_bound(node, boxes, node_);
+        int away = 0;
         const unsigned children = m_.tree.children(index);
-        const Float8 keys = select(lanes_of(children), node_keys(node, boxes, bounds), Float8{} + never);
+        const Float8 keys = select(lanes_of(children), node_keys(node, boxes, bounds, away), Float8{} + never);
         fetch_children(index, mask_of(keys <= cut()));
         if (opened_.node_count < Opened::most_nodes) {
             const int i = opened_.node_count++;
-            opened_.nodes[i] = {bounds, index, children};
+            opened_.nodes[i] = {bounds, index, children, away};
             if (i % lanes == 0) least_[i / lanes] = Float8{} + never;
             return queue(i, keys);
         }
@@ -224,33 +312,48 @@ private:
         for (std::size_t at = 0; at < sizeof of; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(&of) + at);
     }
 
-    // Lower bounds of the key in each child; 1e38 where there can be nothing.
-    CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Boxes& box, const Bounds& bounds) const {
+    // Lower bounds of the key in each child; 1e38 where there can be nothing. Moves the bounds away from all touches.
+    CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Boxes& box, Bounds& bounds, int& away) const {
         const auto& [cx, cy, cz, ex, ey, ez] = box;
-        const Float8 zero{}, nothing = zero + never;
-        Float8 d2 = bounds.d2;
-        for (int i = 0; i < hunt_.away_count; ++i) {
-            const Near& b = away_[i];
-            const Float8 x = cx - b.x, y = cy - b.y, z = cz - b.z, down = x * b.sx + y * b.sy + z * b.sz;
-            const Float8 from_centre = root(larger(x * x + y * y + z * z - down * down, zero));
-            d2 = select(from_centre + root(ex * ex + ey * ey + ez * ez) < b.inner, nothing, d2);
-        }
-        if (hunt_.away_count > 0) {
-            const NodeQuery& q = node_;
-            d2 = larger(d2, beyond(magnitude(cx * q.fx + cy * q.fy + cz * q.fz - depth_) +
-                                       (ex * q.gx + ey * q.gy + ez * q.gz), bounds));
-        }
-        Float8 key = d2 - prior(n.bonus);
+        const Float8 zero{}, nothing = zero + never, size = root(ex * ex + ey * ey + ez * ez);
+        const auto span = [&](const Near& b) {
+            const Float8 x = cx - b.x, y = cy - b.y, z = cz - b.z, square = x * x + y * y + z * z;
+            const Float8 down = x * b.sx + y * b.sy + z * b.sz, along = x * node_.fx + y * node_.fy + z * node_.fz;
+            const Float8 off = magnitude(x * b.nx + y * b.ny + z * b.nz);
+            return Span{root(larger(square - down * down, zero)) + size, root(larger(square - off * off, zero)) - size,
+                        off + (ex * std::fabs(b.nx) + ey * std::fabs(b.ny) + ez * std::fabs(b.nz)),
+                        magnitude(along) + (ex * node_.gx + ey * node_.gy + ez * node_.gz)};
+        };
+        leave(bounds, away, span);
+        Float8 key = bounds.d2 - prior(n.bonus);
         if (follow_cost_ > 0.0f) {
             const Float8 x = larger(magnitude(cx - follow_.x) - ex, zero), y = larger(magnitude(cy - follow_.y) - ey, zero),
                          z = larger(magnitude(cz - follow_.z) - ez, zero);
             key = select(x * x + y * y + z * z <= follow_.outer * follow_.outer, key - follow_cost_, key);
         }
-        return select(bounds.faces_force & (d2 <= most_misfit_), key, nothing);
+        return select(bounds.faces_force & (bounds.d2 <= most_misfit_), key, nothing);
     }
 
-    // A lower bound of d2 away from the likeliest touch, for what reaches no further than `along` from it along
-    // the force: what is away from it is away across the force or along it, and across is off w*.
+    // Moves bounds of d2 away from what was found: what is all near it has its best touch there.
+    template <class Spanned>
+    CONTACTBENCH_INLINE void leave(Bounds& bounds, int& away, const Spanned& span) const {
+        for (int i = away; i < hunt_.away_count; ++i) {
+            const Near& b = away_[i];
+            const Span s = span(b);
+            const Float8 within = larger(s.within, Float8{});
+            const Int8 flat = s.off <= b.flat + b.tilt * within;
+            Float8 d2 = bounds.d2;
+            if (i == 0) d2 = select(flat, larger(d2, beyond(s.along, bounds)), d2);
+            d2 = select(flat & (s.farthest < b.inner), Float8{} + never, d2);
+            // Where a layer may be, its own bound counts.
+            if (hunt_.layers) d2 = select((bounds.d2 <= layer_limit_) & (s.off > b.own + b.lean * within), bounds.d2, d2);
+            bounds.d2 = d2;
+        }
+        if (!hunt_.layers) away = hunt_.away_count;  // then later hunts have more that they need not look at
+    }
+
+    // A lower bound of d2 away from the likeliest touch, for what lies on its plane and reaches no further than `along`
+    // from it along the force: what is away from it is away across the force or along it, and across is off w*.
     CONTACTBENCH_INLINE Float8 beyond(Float8 along, const Bounds& bounds) const {
         const Float8 far = along + node_.margin, across = root(larger(away_[0].inner * away_[0].inner - far * far, Float8{}));
         const Float8 a = bounds.wa - wa_, b = bounds.wb - wb_;
@@ -262,19 +365,30 @@ private:
         const Leaf& leaf = m_.tree.leaves[index];
         Float8 p[3][3];
         corners_of(leaf, p);
-        const Bounds bounds = leaf_bound(leaf, p, form_, node_);
-        if (opened_.leaf_count < Opened::most_leaves) opened_.leaves[opened_.leaf_count++] = {bounds, std::int32_t(index), 0};
-        else opened_.all = false;
-        judge_facets(index, bounds);
+        Opened::Place one, &place = opened_.leaf_count < Opened::most_leaves ? opened_.leaves[opened_.leaf_count++] : one;
+        opened_.all &= &place != &one;
+        place = {leaf_bound(leaf, p, form_, node_), std::int32_t(index), 0, 0};
+        judge_facets(place);
     }
 
-    void judge_facets(std::size_t index, const Bounds& bounds) {
+    void judge_facets(Opened::Place& place) {
+        const std::size_t index = std::size_t(place.index);
         const Leaf& leaf = m_.tree.leaves[index];
-        Float8 d2 = bounds.d2;
+        const Bounds& bounds = place.bounds;
+        const Float8& d2 = bounds.d2;
         const Float8 better = prior(leaf.bonus) + follow_cost_;
         if (mask_of(bounds.faces_force & (d2 - better <= cut()) & (d2 <= most_misfit_)) == 0) return;
-        if (hunt_.away_count > 0) d2 = away(leaf, bounds);
-        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, Float8{} + never);
+        if (place.away < hunt_.away_count) {
+            Float8 p[3][3], longest{};
+            corners_of(leaf, p);
+            for (int c = 0; c < 3; ++c) {
+                const Float8 *v = p[c], *w = p[(c + 1) % 3], x = v[0] - w[0], y = v[1] - w[1], z = v[2] - w[2];
+                longest = larger(longest, x * x + y * y + z * z);
+            }
+            const Float8 size = 0.58f * root(longest);  // no point of a facet is further from its nearest corner
+            leave(place.bounds, place.away, [&](const Near& b) { return leaf_span(p, size, leaf.step, b); });
+        }
+        const Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - better, Float8{} + never);
         fetch_facets(index, mask_of(key <= cut()));
         for (unsigned left = mask_of(key <= cut()); left != 0;) {
             int l = std::countr_zero(left);
@@ -287,26 +401,18 @@ private:
         }
     }
 
-    // The bounds of d2 once more, away from what was found: a facet that is all near it has its best touch there.
-    CONTACTBENCH_INLINE Float8 away(const Leaf& leaf, const Bounds& bounds) const {
-        Float8 p[3][3], d2 = bounds.d2, along{};
-        corners_of(leaf, p);
+    CONTACTBENCH_INLINE Span leaf_span(const Float8 (&p)[3][3], const Float8& size, float step, const Near& b) const {
+        Float8 farthest{}, off{}, reach{}, nearest = Float8{} + never;
         for (int c = 0; c < 3; ++c) {
-            along = larger(along, magnitude(p[c][0] * node_.fx + p[c][1] * node_.fy + p[c][2] * node_.fz - depth_));
+            const Float8 x = p[c][0] - b.x, y = p[c][1] - b.y, z = p[c][2] - b.z, square = x * x + y * y + z * z;
+            const Float8 down = x * b.sx + y * b.sy + z * b.sz, along = x * node_.fx + y * node_.fy + z * node_.fz;
+            farthest = larger(farthest, square - down * down);
+            const Float8 height = magnitude(x * b.nx + y * b.ny + z * b.nz);
+            nearest = smaller(nearest, square - height * height);
+            reach = larger(reach, magnitude(along));
+            off = larger(off, height);
         }
-        d2 = larger(d2, beyond(along + leaf.step, bounds));
-        for (int i = 0; i < hunt_.away_count; ++i) {
-            const Near& b = away_[i];
-            Float8 farthest{};
-            for (int c = 0; c < 3; ++c) {
-                const Float8 x = p[c][0] - b.x, y = p[c][1] - b.y, z = p[c][2] - b.z;
-                const Float8 down = x * b.sx + y * b.sy + z * b.sz;
-                farthest = larger(farthest, x * x + y * y + z * z - down * down);
-            }
-            const float inner = std::max(b.inner - leaf.step, 0.0f);
-            d2 = select(farthest < inner * inner, Float8{} + 1e38f, d2);
-        }
-        return d2;
+        return {root(farthest) + step, root(larger(nearest, Float8{})) - size - step, off + step, reach + step};
     }
 
     const Model& m_;
@@ -317,7 +423,8 @@ private:
     Found& best_;
     Opened& opened_;
     float most_misfit_, least_prior_, follow_cost_;
-    float wa_ = 0.0f, wb_ = 0.0f, depth_ = 0.0f;  // of the likeliest touch: w, and how far along the force
+    float wa_ = 0.0f, wb_ = 0.0f;  // w of the likeliest touch
+    float layer_limit_ = -never;   // of the d2 of a layer
     Near away_[Answer::capacity], follow_{};
     Float8 keys_[Opened::most_nodes];           // of the children that are left
     Float8 least_[Opened::most_nodes / lanes];  // of those, by node
@@ -333,6 +440,7 @@ public:
     detail::Found first(const Hunt& hunt, std::int32_t) { return next(hunt); }
     detail::Found next(const Hunt& hunt) const {
         detail::Found best;
+        best.layered = hunt.layers;
         for (std::size_t s = 0; s < m_.tree.face.size(); ++s)
             if (m_.tree.face[s] >= 0) detail::judge_facet(m_, s, q_, hunt, best);
         return best;
@@ -359,6 +467,7 @@ public:
 
     detail::Found next(const Hunt& hunt) {
         detail::Found best;
+        best.layered = hunt.layers;
         detail::Descent descent(m_, q_, form_, node_, hunt, best, opened_);
         if (opened_.all) return descent.go_on(), best;
         opened_.node_count = opened_.leaf_count = 0;

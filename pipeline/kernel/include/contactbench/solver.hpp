@@ -15,6 +15,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "second_touch.hpp"
 
@@ -96,10 +97,10 @@ public:
         pair_.reset();
     }
 
-    // Of a point on a plane, whoever found it there; S, m^2.
-    Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face) const {
+    // Of a point on a plane, whoever found it there, and off it along the force by `depth`; S, m^2.
+    Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face, double depth) const {
         const Query q = make_query(model_->frame, w, uncertainty_);
-        return covariance(q, point, normal, face);
+        return covariance(q, point, normal, face, depth);
     }
 
     // The reason of an answer, or uncertain where it would be accepted, but is not as near as gates().sigma_max asks.
@@ -110,12 +111,21 @@ public:
 private:
     Reason asked_near(const Query& q, const Candidate& c, Reason reason) const {
         if (!(gates_.sigma_max > 0.0) || !accepted(reason, gates_)) return reason;
-        const Mat3 s = covariance(q, c.point, c.normal, c.face);
+        const Mat3 s = covariance(q, c.point, c.normal, c.face, c.depth);
         return largest_sigma(s, c.normal) <= gates_.sigma_max ? reason : Reason::uncertain;
     }
 
-    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face) const {
-        return plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
+    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face, double depth) const {
+        Mat3 s = plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
+        widen(s, depth * q.f);
+        return s;
+    }
+
+    // By a standard deviation along a direction.
+    static void widen(Mat3& s, Vec3 along) {
+        const double v[3] = {along.x, along.y, along.z};
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) s.m[i][j] += v[i] * v[j];
     }
 
     double depth_of(const Query& q, Vec3 point) const {
@@ -149,7 +159,7 @@ private:
             return;
         }
         Hunt hunt;
-        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine);
+        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine) - tie;
         hunt.most_misfit = gates_.implausible_misfit;
         hunt.previous = previous;
         hunt.follow_cost = previous ? gates_.follow_cost : 0.0;
@@ -157,25 +167,58 @@ private:
         Finder finder(*model_, q, hunt.cos_friction);
         detail::Found found = finder.first(hunt, hint);
         if (found.touch.slot < 0) return miss<Finder>(w, q, hunt, a);
+        hunt.least_prior = found.touch.prior;
+        settle(finder, q, hunt, found.touch);
         // Without the prior, or with it: whatever is a rival either way.
         hunt.limit = found.key + gates_.rival_cost;
-        hunt.least_prior = found.touch.prior;
-        bool hidden = false;
+        hunt.more = gates_.behind_cost;
+        hunt.rival = found.touch.misfit - found.touch.follow - found.touch.prior + gates_.rival_cost - gates_.behind_cost;
+        detail::Layers layers;
         while (a.count < Answer::capacity) {
             Candidate& c = a.candidates[a.count++] = found.touch;
-            c.slope = q.f + c.cosine * c.normal;
-            c.across = sigma_across(model_->frame, q, c.normal, depth_of(q, c.point), mesh_error(c.face));
+            if (a.count > 1) place(q, c);
             hunt.away = a.candidates;
             hunt.radius[hunt.away_count++] = detail::own_radius(c, gates_);
             // What the line of force meets before the likeliest touch makes that less likely, and rivals more.
-            if (!hidden && detail::hides(c, a.candidates[0], gates_, q.f))
-                hidden = true, hunt.limit += gates_.behind_cost;
+            if (detail::hides(c, a.candidates[0], gates_, q.f)) hunt.limit += std::exchange(hunt.more, 0.0);
+            hunt.layers = a.count == 1;
             found = finder.next(hunt);
+            if (found.layered) layers = found.layers;
             if (found.touch.slot < 0) break;
         }
+        layer(q, a.candidates[0], layers);
         const Candidate& best = a.candidates[decide(a, gates_, q.f)];
         a.left_over = left_over(w, best);
         a.reason = asked_near(q, best, a.reason);
+    }
+
+    void place(const Query& q, Candidate& c) const {
+        c.slope = q.f + c.cosine * c.normal;
+        c.across = sigma_across(model_->frame, q, c.normal, depth_of(q, c.point), mesh_error(c.face));
+    }
+
+    // Odds chose the place: in it, the wrench chooses the point.
+    template <class Finder>
+    void settle(Finder& finder, const Query& q, Hunt hunt, Candidate& c) const {
+        place(q, c);
+        if (gates_.region_only || (model_->kinds.size() == 1 && c.follow == 0.0)) return;
+        hunt.inside = &c, hunt.radius[0] = detail::own_radius(c, gates_);
+        hunt.previous = nullptr, hunt.follow_cost = 0.0;
+        hunt.least_prior = model_->most_bonus, hunt.limit = c.misfit - hunt.least_prior;
+        move(q, c, finder.next(hunt).touch);
+    }
+
+    // To another touch of its place.
+    void move(const Query& q, Candidate& c, Candidate to) const {
+        to.prior = c.prior, to.follow = c.follow, to.behind = c.behind, to.why = c.why;
+        c = to;
+        place(q, c);
+    }
+
+    // Of surfaces at the place of `c` that are as likely the one that is met first; what they leave open is told.
+    void layer(const Query& q, Candidate& c, const detail::Layers& layers) const {
+        if (layers.first.slot >= 0) move(q, c, layers.first);
+        c.depth = std::sqrt(std::max(layers.variance, layers.height * layers.height));
     }
 
     // Without the torsion that a touch may have: a larger one is left over, too.

@@ -133,7 +133,7 @@ typedef struct {
     double misfit;       /* of the best touch, in standard deviations squared: about 1 where the model is right */
     double left_over;    /* torque that the best touch does not explain, N*m */
     double arm;          /* torque along the force over the force, m: for one touch, a few mm at most */
-    double confidence;   /* 0 to 1: that this place is touched and no other */
+    double confidence;   /* 1 / (1 + the odds of every other place): 0 to 1, no probability */
     double runner_up[3]; /* the likeliest other place */
     double second[3];    /* of CB_TWO_TOUCHES, the touch that joined */
     double pose_age;     /* s: how much older than the sample the last pose before it is */

@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox
 
 from contactbench.app.bench import Weight
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from contactbench.app.bench import Weight
 from contactbench.app.errors import LOG, in_words
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

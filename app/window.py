@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
+import math
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QStackedWidget
@@ -20,14 +22,19 @@ from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
 from contactbench.app.turns import Turns
-from contactbench.app.window_camera import SceneMemory
-from contactbench.app.window_docks import SMALLEST, Docks, first_size, geometry_text, restore_geometry
-from contactbench.app.window_header import HeaderBar
+from contactbench.app.window_docks import (
+    SMALLEST,
+    Docks,
+    HeaderBar,
+    first_size,
+    geometry_text,
+    restore_geometry,
+)
 from contactbench.app.window_live import LiveView
 from contactbench.app.window_menus import Menus
 from contactbench.app.window_pages import Pages
-from contactbench.app.window_probe import SessionProbe
 from contactbench.app.window_sessions import Sessions
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.message_list import NewestMessage
@@ -35,12 +42,16 @@ from contactbench.widgets.progress_strip import ProgressStrip
 from contactbench.widgets.theme import dress, is_dark, use_theme
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
     from contactbench.app.errors import Faults, LogFile
     from contactbench.app.jobs import Job
     from contactbench.app.opening import OpenedSession
     from contactbench.app.trouble_watch import TroubleWatch
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
     from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
@@ -434,3 +445,104 @@ class MainWindow(QMainWindow):
         """Lay the docks out as they are at first."""
         if self.bench is not None:
             self.docks.arrange()
+
+
+# ---- how the scene is looked at: remembered while a session is open, and the same when it is opened again ----
+
+
+_REST_MS = 700
+_FARTHEST_M = 1e3
+
+
+class SceneMemory(QObject):
+    """
+    Remembers the camera of the scene.
+
+    Parameters
+    ----------
+    parent : QObject
+    remember : callable
+        Called when the camera rests after it was moved.
+    """
+
+    def __init__(self, parent: QObject, remember: Callable[[], None]) -> None:
+        super().__init__(parent)
+        self._scene: Scene | None = None
+        self._restored = False
+        self._timer = QTimer(self, interval=_REST_MS, singleShot=True)
+        self._timer.timeout.connect(remember)
+
+    def watch(self, scene: Scene) -> None:
+        """Begin with a scene."""
+        self._scene = scene
+        scene.camera_moved.connect(self._timer.start)
+
+    def text(self) -> str:
+        """Return how the scene is looked at now."""
+        return "" if self._scene is None else json.dumps(self._scene.camera())
+
+    def restore(self, text: str) -> None:
+        """Look as `text` says, also while the page and the probe are being loaded."""
+        camera = _camera(text)
+        self._restored = self._scene is not None and bool(camera)
+        if self._scene is not None and camera:
+            self._scene.hold(camera)
+            self._timer.start()  # it is what a crash would come back to
+
+    def release(self) -> None:
+        """Let pages choose the view again: all is loaded, or another page is shown."""
+        if self._restored and self._scene is not None:
+            self._restored = False
+            self._scene.release()
+
+    def stop(self) -> None:
+        """Remember nothing more: the session is being closed."""
+        self._timer.stop()
+
+
+def _camera(text: str) -> tuple[tuple[float, float, float], ...]:
+    """Return a camera of a text; empty: it is none."""
+    try:
+        rows = tuple((float(x), float(y), float(z)) for x, y, z in json.loads(text))
+    except (ValueError, TypeError):
+        return ()
+    numbers = [each for row in rows for each in row]
+    well = all(math.isfinite(each) and abs(each) < _FARTHEST_M for each in numbers)
+    apart = len(rows) == 4 and rows[0] != rows[1] and any(rows[2]) and rows[3][0] > 0
+    return rows if well and apart else ()
+
+
+# ---- the session's probe in the scene, also on pages that have no other mesh to show -------------
+
+
+class SessionProbe(QObject):
+    """Shows the newest probe of a session from its opening on, until a page shows one itself."""
+
+    def open(self, bench: Bench) -> None:
+        """Begin with a session: the scene is emptied, and shows its probe when it is read."""
+        scene, folder, state = bench.scene, bench.desk.folder, bench.desk.state
+        scene.show_field(None)
+        scene.show_probe(None)
+        found = state.newest("probe")
+        if found is None:
+            return
+
+        def read(_progress: object, _cancelled: object) -> tuple[Probe, Sequence[Region]] | None:
+            from contactbench.pipeline.mesh.sidecar import load_probe_file
+            from contactbench.pipeline.session.recompute import inputs_of
+            from contactbench.pipeline.verification.result import load_surface
+
+            try:
+                files = inputs_of(folder, state, {"probe": found.content})
+                probe = load_surface(files["probe"])
+                named = probe.region.any()
+                return probe, load_probe_file(files["probe"]).regions.regions if named else ()
+            except (InputError, OSError, LookupError):
+                return None  # the page that needs it says why
+
+        def came(found: tuple[Probe, Sequence[Region]] | None) -> None:
+            if found is not None and scene.probe_layer.probe is None:
+                scene.show_probe(found[0], regions=found[1])
+                scene.look("fit")
+
+        bench.jobs.start(self.tr("Loading probe"), read, came)

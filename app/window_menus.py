@@ -11,9 +11,9 @@ from PySide6.QtGui import QAction, QActionGroup, QDesktopServices, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
+import contactbench
 from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog
-from contactbench.app.documentation import start_page
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
@@ -303,3 +303,12 @@ class Menus(QObject):
 
     def _full_screen(self) -> None:
         self._window.setWindowState(self._window.windowState() ^ Qt.WindowState.WindowFullScreen)
+
+
+# ---- where the built documentation is, if it came with this installation -------------------------
+
+
+def start_page() -> Path | None:
+    """Return the first page of the documentation; None where `packaging/run docs` never built it."""
+    page = Path(contactbench.__file__).parent / "documentation" / "index.html"
+    return page if page.is_file() else None

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.numbers import filled, translated
 
 if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live_trial import ConnectionTrial

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -32,8 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.widgets.icons import icon
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import time_of_day
+from contactbench.widgets.numbers import time_of_day, translated
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.knobs import Row, with_unit
 from contactbench.widgets.controls import named, show_quietly
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.numbers import NumberBox, translated
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxL
 
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.icons import state_colour, state_icon
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:

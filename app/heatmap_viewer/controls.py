@@ -31,8 +31,7 @@ from contactbench.widgets.controls import (
     set_role,
     show_value,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.numbers import NumberBox, filled, translated
 from contactbench.widgets.range_slider import RangeSlider
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from contactbench.pipeline.workbench.live_devices import Devices, due_problem, g
 from contactbench.pipeline.workbench.live_trial import trial_of
 from contactbench.widgets.controls import PanelScroll, column, form, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

@@ -21,8 +21,7 @@ from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
 from contactbench.pipeline.workbench import live_devices as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox
+from contactbench.widgets.numbers import NumberBox, translated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

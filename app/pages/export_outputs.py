@@ -17,8 +17,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import filled
+from contactbench.widgets.numbers import filled, translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -23,8 +23,7 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import NumberBox, filled
+from contactbench.widgets.numbers import NumberBox, filled, translated
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

@@ -18,7 +18,7 @@ from contactbench.pipeline.workbench.known_checks import (
     known_outcome,
 )
 from contactbench.widgets.controls import column, push_button, sentence_label
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
 if TYPE_CHECKING:

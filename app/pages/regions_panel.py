@@ -22,7 +22,7 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.icons import Sign, state_icon
-from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import translated
 from contactbench.widgets.region_list import RegionListWidget
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from contactbench.pipeline.errors import capitalised, join
 from contactbench.pipeline.verification.model_error import model_error_words
 from contactbench.widgets.controls import column, plain_label, push_button, row, sentence_label
 from contactbench.widgets.icons import Sign, icon
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import number
+from contactbench.widgets.numbers import number, translated
 
 if TYPE_CHECKING:
     from pathlib import Path

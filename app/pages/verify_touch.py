@@ -17,8 +17,7 @@ from contactbench.pipeline.verification.protocol import ProtocolState
 from contactbench.widgets.controls import HIGH, check_box, column, push_button, row, sentence_label
 from contactbench.widgets.error_view import ErrorView
 from contactbench.widgets.icons import icon
-from contactbench.widgets.messages import translated
-from contactbench.widgets.numbers import number
+from contactbench.widgets.numbers import number, translated
 from contactbench.widgets.sounds import Sounds
 from contactbench.widgets.touch_state import TouchState
 

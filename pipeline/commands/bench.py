@@ -102,8 +102,8 @@ def run(
     truth
         CSV to write: the truth beside every wrench; never overwrites a file.
     """
+    from contactbench.pipeline.simulation.virtual.bench import SLIPPED_S
     from contactbench.pipeline.simulation.virtual.run import run_script
-    from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
     where = chosen.address(script)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))

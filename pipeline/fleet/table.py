@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.fleet.row import FleetRow, column_types
+from contactbench.pipeline.fleet.row import FleetRow, column_types, hash_of, summarize, unchanged
 from contactbench.pipeline.fleet.source import NoSessionError, opened
-from contactbench.pipeline.fleet.summary import hash_of, summarize, unchanged
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

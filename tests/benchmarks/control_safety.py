@@ -17,7 +17,7 @@ from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue, TissueCourse
-from contactbench.pipeline.study.control_rig import foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import foundation_of, make_rig
 from contactbench.pipeline.study.report import Figure, StudyReport
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from benchmarks.trials import in_processes
 
 from contactbench import assets
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.demo.real_causes import EFFECTS, floor_ratio, told_floor, true_causes, true_floor
+from contactbench.pipeline.demo.day import EFFECTS, floor_ratio, told_floor, true_causes, true_floor
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.real_causes import TrueCauses
+    from contactbench.pipeline.demo.day import TrueCauses
 
     Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from contactbench.pipeline.devices.emulate import Emulator, Sent
-    from contactbench.pipeline.devices.protocols.elfin_pose import ElfinPoses
+    from contactbench.pipeline.devices.protocols.elfin import ElfinPoses
     from contactbench.pipeline.devices.protocols.ur_pose import UrPoses
 
 HEALTHY_S, FAULT_S = 1.3, 0.6

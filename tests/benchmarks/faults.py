@@ -12,7 +12,7 @@ import numpy as np
 from benchmarks.fault_lines import LINES, FaultLine, Outcome, cases, run_case
 
 from contactbench.pipeline.devices.faults import Fault
-from contactbench.pipeline.devices.rezero import RezeroDetector
+from contactbench.pipeline.devices.readings import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.report import Figure, StudyReport

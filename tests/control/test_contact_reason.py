@@ -1,4 +1,4 @@
-"""Every reason has its line in the table of `contactbench.pipeline.control.contact_reason`."""
+"""Every reason has its line in the table of `contactbench.pipeline.control.intake`."""
 
 from dataclasses import dataclass, field
 
@@ -7,9 +7,17 @@ import pytest
 from control.closed_loop import gravity
 
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control import contact_reason as table
-from contactbench.pipeline.control.contact_reason import HEED, NEAR_M, NEAR_S, Heed, SurePlace, heed
-from contactbench.pipeline.control.intake import SampleIntake, SensingFault
+from contactbench.pipeline.control import intake as table
+from contactbench.pipeline.control.intake import (
+    HEED,
+    NEAR_M,
+    NEAR_S,
+    Heed,
+    SampleIntake,
+    SensingFault,
+    SurePlace,
+    heed,
+)
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.simulation.marker_touches import model_of

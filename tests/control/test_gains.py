@@ -14,8 +14,7 @@ from contactbench.pipeline.control.gains import WantedMargins, rows_of, settings
 from contactbench.pipeline.control.margins import AXES, loop_of, margins
 from contactbench.pipeline.control.settings import Variant
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.control_rig import foundation_of
-from contactbench.pipeline.study.gain_trials import run
+from contactbench.pipeline.study.gain_trials import foundation_of, run
 
 
 @pytest.mark.parametrize("variant", list(Variant))

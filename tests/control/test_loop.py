@@ -11,7 +11,7 @@ from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PlatformMotion
-from contactbench.pipeline.study.control_rig import foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import foundation_of, make_rig
 
 MOTION = PlatformMotion.along("ry", np.radians(5), 4.0, 3.0)
 

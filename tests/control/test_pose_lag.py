@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.pose_lag import PoseLag
+from contactbench.pipeline.control.controller import PoseLag
 
 DT = 0.02
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.stiffness_probe import StiffnessProbe
+from contactbench.pipeline.control.stiffness import StiffnessProbe
 
 
 def pressed(stiffness, *, noise=0.02, drift=0.0, seed=0):

@@ -13,7 +13,7 @@ from devices.test_sensor import Heard
 from waiting import until
 
 from contactbench.pipeline.devices import reconnecting_stream
-from contactbench.pipeline.devices.protocols.elfin_pose import ElfinPoses
+from contactbench.pipeline.devices.protocols.elfin import ElfinPoses
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport import LineLost, LineUnavailable

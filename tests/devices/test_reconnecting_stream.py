@@ -10,7 +10,7 @@ from benchmarks.fault_lines import resting
 from devices.test_sensor import Heard
 from waiting import be_slow, until
 
-from contactbench.pipeline.devices.protocols.elfin_pose import ElfinPoses
+from contactbench.pipeline.devices.protocols.elfin import ElfinPoses
 from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import StreamState

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.devices.emulate import swinging
-from contactbench.pipeline.devices.rezero import RezeroDetector
+from contactbench.pipeline.devices.readings import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 
 WEIGHT = np.array([1.0, -2.0, 4.5, 0.12, -0.2, 0.05])

@@ -15,8 +15,7 @@ from contactbench.pipeline.devices.emulate import emulator, swinging
 from contactbench.pipeline.devices.faults import Fault, FrameMoment, SensorReading, constant
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, Quirk
-from contactbench.pipeline.devices.protocols.elfin import ElfinModel
-from contactbench.pipeline.devices.protocols.elfin_pose import ElfinPoses
+from contactbench.pipeline.devices.protocols.elfin import ElfinModel, ElfinPoses
 from contactbench.pipeline.devices.protocols.ur_pose import UrPoses
 from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.stream import StreamState
@@ -155,7 +154,7 @@ def test_answers_that_took_long_are_dropped_and_told():
 
 
 def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.devices.protocols.elfin_pose._UNANSWERED_S", 0.3)
+    monkeypatch.setattr("contactbench.pipeline.devices.protocols.elfin._UNANSWERED_S", 0.3)
     heard = Heard()
     line = Controller(9.0)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):

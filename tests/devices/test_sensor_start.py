@@ -11,10 +11,9 @@ from devices.test_sensor import Heard, listen, moving
 from waiting import until
 
 from contactbench.pipeline.devices.emulate import emulator
-from contactbench.pipeline.devices.protocols import ati_scale, rdt
-from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
+from contactbench.pipeline.devices.protocols import rdt
 from contactbench.pipeline.devices.protocols.device_model import Quirk
-from contactbench.pipeline.devices.protocols.rdt import rdt_record
+from contactbench.pipeline.devices.protocols.rdt import ScaleError, rdt_record
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.readings import Readings
 from contactbench.pipeline.devices.sample import Status
@@ -84,7 +83,7 @@ def test_onrobot_is_told_a_rate_only_when_one_is_asked_for():
 
 
 def test_an_ati_sensor_is_asked_for_its_counts_where_the_address_has_none(monkeypatch):
-    monkeypatch.setattr(ati_scale, "scale_for", lambda _: rdt.CountScale(4.0, 8.0))
+    monkeypatch.setattr(rdt, "scale_for", lambda _: rdt.CountScale(4.0, 8.0))
     record = rdt_record((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), rdt.CountScale(4.0, 8.0))
     heard = Heard()
     made = driver_for(DeviceAddress.parse("rdt+udp://h"))
@@ -101,7 +100,7 @@ def test_counts_that_are_assumed_are_told_as_long_as_they_are(monkeypatch):
     def fail(_):
         raise ScaleError("no page.")
 
-    monkeypatch.setattr(ati_scale, "scale_for", fail)
+    monkeypatch.setattr(rdt, "scale_for", fail)
     heard = Heard()
     numbers = iter(range(1, 10**6))
 

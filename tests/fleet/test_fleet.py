@@ -270,7 +270,7 @@ def test_a_year_that_cannot_be_is_unreadable(
     def aged(data: bytes, name: str) -> Any:
         return replace(decode_record(data, name), created=datetime.fromisoformat(at))
 
-    monkeypatch.setattr("contactbench.pipeline.fleet.summary.decode_record", aged)
+    monkeypatch.setattr("contactbench.pipeline.fleet.row.decode_record", aged)
     found = fleet(sessions, code=1)
     assert (found["sessions"], [each["damaged"] for each in found["skipped"]]) == (1, [True, True])
     assert f"created in {int(at[:4])}, which cannot be" in found["skipped"][0]["reason"]

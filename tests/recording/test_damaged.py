@@ -17,7 +17,7 @@ from recording.recording_cases import record
 
 from contactbench.pipeline.recording import RecordingError, RecordingReader, read_recording
 from contactbench.pipeline.recording.convert import write_npz
-from contactbench.pipeline.recording.ros2_survey import survey
+from contactbench.pipeline.recording.ros2 import survey
 from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
 from contactbench.pipeline.recording.wire import record as wire_record
 

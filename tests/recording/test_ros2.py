@@ -13,8 +13,7 @@ from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.recording import RecordingError, read_recording
-from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2
-from contactbench.pipeline.recording.ros2_survey import survey
+from contactbench.pipeline.recording.ros2 import ImportChoice, import_ros2, survey
 from contactbench.pipeline.recording.ros2_types import (
     DEFINITIONS,
     JOINT_STATE,

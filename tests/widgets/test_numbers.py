@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QLocale, Qt
 
-from contactbench.widgets.messages import translated
 from contactbench.widgets.numbers import (
     NumberBox,
     date_and_time,
@@ -17,6 +16,7 @@ from contactbench.widgets.numbers import (
     local_numbers,
     number,
     time_of_day,
+    translated,
 )
 from contactbench.widgets.plot_frame import LocalAxis
 

@@ -12,16 +12,14 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from contactbench.widgets.numbers import number
 from contactbench.widgets.scene.ahead import Ahead
-from contactbench.widgets.scene.brush_layer import BrushLayer
-from contactbench.widgets.scene.contact_layer import ContactLayer
+from contactbench.widgets.scene.contact_layer import ContactLayer, ForceLayer
 from contactbench.widgets.scene.error_layer import ErrorLayer, TouchErrors
 from contactbench.widgets.scene.eye import Eye
 from contactbench.widgets.scene.fields import limits_of
-from contactbench.widgets.scene.force_layer import ForceLayer
 from contactbench.widgets.scene.frame_pacer import FramePacer
 from contactbench.widgets.scene.label_board import LabelBoard
 from contactbench.widgets.scene.legend import ColourBar, KeySign, SceneKey
-from contactbench.widgets.scene.marker_layer import MarkerLayer
+from contactbench.widgets.scene.marker_layer import BrushLayer, MarkerLayer
 from contactbench.widgets.scene.mouse import Mouse
 from contactbench.widgets.scene.overlays import ScaleBar, ViewButtons
 from contactbench.widgets.scene.picker import Pick

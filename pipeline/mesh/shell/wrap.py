@@ -17,7 +17,6 @@ from scipy.sparse import csr_array
 from contactbench.pipeline.errors import message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
-from contactbench.pipeline.mesh.shell.settle import settle
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, join, vertex_normals
 
@@ -176,3 +175,48 @@ def _neighbours(faces: NDArray[np.int32], count: int) -> csr_array:
     """Which vertices of a closed surface share an edge, (count, count) of ones."""
     ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     return csr_array((np.ones(faces.size), ends), shape=(count, count))
+
+
+# ---- take a wrap's offset off again: lay its vertices on the surface that it was wrapped round ----
+
+
+# A facet that turns further than this, or shrinks more, has folded: its corners stop short.
+_LEAST_COSINE = 0.5
+_LEAST_AREA = 0.02
+_ROUNDS = 8
+
+
+def settle(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], targets: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """
+    Move vertices to their targets, as far as no facet folds or loses its area.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+    targets : (n, 3) float64
+        Where each vertex should go: nearest points of another surface.
+
+    Returns
+    -------
+    vertices : (n, 3) float64
+    share : (n,) float64
+        Of the way that each vertex went: 1 nearly everywhere.
+    """
+    before = cross_products(vertices, faces)
+    area = np.linalg.norm(before, axis=1)
+    share = np.ones(len(vertices))
+    for attempt in range(_ROUNDS + 1):
+        moved = vertices + share[:, None] * (targets - vertices)
+        if attempt == _ROUNDS:  # what folded last time stands where it was, and cannot fold
+            break
+        after = cross_products(moved, faces)
+        size = np.linalg.norm(after, axis=1)
+        upright = np.einsum("ij,ij->i", before, after) > _LEAST_COSINE * area * size
+        bad = np.unique(faces[~(upright & (size > _LEAST_AREA * area))])
+        if len(bad) == 0:
+            break
+        share[bad] = 0.0 if attempt == _ROUNDS - 1 else share[bad] / 2
+    return moved, share

@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 from contactbench import __version__, assets
 from contactbench.pipeline.contact.methods import METHODS
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.sweep.noise import FILTERS, NOISES
+from contactbench.pipeline.study.sweep.bodies import FILTERS, NOISES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -35,14 +35,14 @@ from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.study.control_rig import SCENES, foundation_of
+from contactbench.pipeline.study.gain_trials import SCENES, foundation_of
 from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.control.trace import Trace
-    from contactbench.pipeline.study.control_rig import SceneName
+    from contactbench.pipeline.study.gain_trials import SceneName
 
 OURS = "contactbench"
 MOST_DEGREES = {10.0: 0.8, 5.0: 1.8, 2.0: 4.0}

@@ -15,7 +15,7 @@ from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.simulation.scenes.platform_motion import AXES
 from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
-from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
+from contactbench.pipeline.study.gain_trials import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,7 +11,7 @@ from benchmarks.reproduce.dynamic_cells import FORCE_N, IN_PLANE, MOTIONS, OUT_O
 from benchmarks.trials import canvas, png
 
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
-from contactbench.pipeline.study.control_rig import foundation_of
+from contactbench.pipeline.study.gain_trials import foundation_of
 from contactbench.pipeline.study.report import Cell as Value
 from contactbench.pipeline.study.report import Sheet, short
 

@@ -19,7 +19,7 @@ from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S, draw_sensor
+from contactbench.pipeline.study.gain_trials import RATE_HZ, WARM_S, draw_sensor
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:

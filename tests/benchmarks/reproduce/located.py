@@ -28,7 +28,7 @@ from contactbench.pipeline.simulation.marker_touches import (
 )
 from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.touch import STEP_S
-from contactbench.pipeline.study.control_rig import draw_sensor
+from contactbench.pipeline.study.gain_trials import draw_sensor
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact.methods import ContactMethod
     from contactbench.pipeline.simulation.marker_touches import Touched
     from contactbench.pipeline.simulation.scenes import SceneMoment
-    from contactbench.pipeline.study.control_rig import CalibratedSensor
+    from contactbench.pipeline.study.gain_trials import CalibratedSensor
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from benchmarks.reproduce.dynamic_tables import order_notes
 
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.control_rig import make_rig
+from contactbench.pipeline.study.gain_trials import make_rig
 
 
 @pytest.fixture(scope="module")

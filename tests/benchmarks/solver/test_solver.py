@@ -16,7 +16,7 @@ from benchmarks.solver.bits import Build, Row, Workshop
 
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.solid import press
+from contactbench.pipeline.study.stability import press
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe

@@ -10,9 +10,8 @@ from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.health import edge_table, measure_health
 from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
-from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up
+from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up, unite
 from contactbench.pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
-from contactbench.pipeline.mesh.shell.union import unite
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
 

@@ -11,10 +11,9 @@ from waiting import JumpingClock, until
 from contactbench.pipeline.calibration.calibrate import calibrate
 from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
-from contactbench.pipeline.simulation.virtual.arm import WristArm
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 from contactbench.pipeline.simulation.virtual.pace import CATCH_UP_S, Pacer
-from contactbench.pipeline.simulation.virtual.serve import ServedBench
+from contactbench.pipeline.simulation.virtual.serve import ServedBench, WristArm
 from contactbench.pipeline.streams import open_pair
 
 REST_S, TURN_S = 0.35, 0.25

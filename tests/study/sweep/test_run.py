@@ -20,8 +20,7 @@ from contactbench.pipeline.study.pages import origin
 from contactbench.pipeline.study.results import RESULTS, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
 from contactbench.pipeline.study.sweep.plan import SweepPlan
-from contactbench.pipeline.study.sweep.run import run, tasks_of
-from contactbench.pipeline.study.sweep.store import DONE, Store
+from contactbench.pipeline.study.sweep.run import DONE, Store, run, tasks_of
 
 _TINY = SweepPlan(
     name="tiny",
@@ -129,7 +128,7 @@ def test_a_plan_that_grows_computes_only_what_is_new(tmp_path):
 
 def test_two_processes_that_write_at_the_same_time_lose_nothing(tmp_path):
     code = (
-        "import sys; from pathlib import Path; from contactbench.pipeline.study.sweep.store import Store\n"
+        "import sys; from pathlib import Path; from contactbench.pipeline.study.sweep.run import Store\n"
         "with Store(Path(sys.argv[1]), {'plan': {}, 'environment': {}}) as store:\n"
         "    print(flush=True); sys.stdin.readline()\n"
         "    for i in range(200): store.keep({'key': f'{sys.argv[2]}-{i}', 'failed': '', 'text': 'x' * 5000})\n"

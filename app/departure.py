@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox
 
-from contactbench.app.bench import Weight
+from contactbench.app.undo import Weight
 from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from contactbench.widgets.action_bar import ActionBar
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.steps import Step, StepStatus
 
 

@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject
-from PySide6.QtGui import QUndoCommand
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoCommand, QUndoStack
 
+from contactbench.app.jobs import Jobs
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, write_history
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from contactbench.app.bench import Bench
     from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.why import SessionTrouble
+    from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.undo_history import UndoHistory
+    from contactbench.widgets.scene import Scene
 
 
 class Exchange(QUndoCommand):
@@ -266,3 +272,156 @@ def _set_all(session: Session, values: Mapping[str, Any]) -> None:
     for key, value in values.items():
         if key not in settings or settings[key].value != value:
             session.set_parameter(key, value)
+
+
+# ---- what every page works with: a session, its devices, the scene, long work, and what can be undone ----
+
+
+_PATIENCE_S = 30.0
+
+
+class Weight(StrEnum):
+    """How much a message matters."""
+
+    INFO = "info"
+    GOOD = "good"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something to tell."""
+
+    weight: Weight
+    text: str  # What happened, why it matters, what to do
+    details: str = ""  # For who asks, such as a stack trace
+    over: bool = False  # Whether what was told before is over: it is seen in the place of that
+
+
+class Bench(QObject):
+    """
+    One session in a window.
+
+    Attributes
+    ----------
+    desk : Desk
+    live : Live
+    scene : Scene
+    jobs : Jobs
+    undo : QUndoStack
+        Everything that can be undone goes through it.
+    running : set of Step
+        Steps in which something goes on.
+    failed : dict of Step to str
+        Steps whose last work failed, and why; see `set_failed`.
+    trouble : SessionTrouble
+        What is wrong with the session just now.
+    """
+
+    changed = Signal()  # the session's state; in the GUI thread
+    told = Signal(object)  # Message
+    go_to = Signal(object)  # Step that a page wants to be shown
+    paint_asked = Signal(object)  # PaintRequest, for the page with the regions
+    mended = Signal()  # the disk takes writes again: what is not kept yet can be
+    _stirred = Signal()
+
+    def __init__(self, desk: Desk, scene: Scene, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.desk, self.scene = desk, scene
+        self.live = self._new_live()
+        self.jobs = Jobs(self)
+        self.undo = QUndoStack(self)
+        self.running: set[Step] = set()
+        self.failed: dict[Step, str] = {}
+        self.trouble = self._no_trouble()
+        self._stirred.connect(self.changed)  # from the desk's thread into this one
+        self._end = desk.subscribe(self._stirred.emit)
+        self._let_go = False
+
+    @staticmethod
+    def _new_live() -> Live:
+        # Here, not above: it brings half of scipy, for which a window without a session need not wait.
+        from contactbench.pipeline.workbench.live import Live
+
+        return Live()
+
+    @staticmethod
+    def _no_trouble() -> SessionTrouble:
+        from contactbench.pipeline.session.why import NO_TROUBLE  # not before there is a session
+
+        return NO_TROUBLE
+
+    def tell(self, weight: Weight, text: str, details: str = "") -> None:
+        """Put a message into the list."""
+        self.told.emit(Notice(weight, text, details))
+
+    def tell_over(self, text: str) -> None:
+        """Put into the list that what was wrong is well again."""
+        self.told.emit(Notice(Weight.GOOD, text, over=True))
+
+    def tell_error(self, error: BaseException, weight: Weight = Weight.ERROR) -> None:
+        """Put into the list why something was refused; what nobody expected is raised, for the hook."""
+        if not isinstance(error, InputError):
+            raise error
+        self.tell(weight, str(error))
+
+    def do(
+        self,
+        title: str,
+        action: Callable[[Session], Any],
+        done: Callable[[Any], None] | None = None,
+        failed: Callable[[BaseException], None] | None = None,
+    ) -> None:
+        """Have something done with the session; as `Jobs.start`, but in the desk's order."""
+        self.jobs.follow(title, self.desk.do(action), done, failed)
+
+    def set_running(self, step: Step, going_on: bool) -> None:
+        """Say whether something goes on in a step."""
+        before = set(self.running)
+        if going_on and step not in before:
+            self.failed.pop(step, None)
+        (self.running.add if going_on else self.running.discard)(step)
+        if self.running != before:
+            self.changed.emit()
+
+    def set_failed(self, step: Step, sentence: str) -> None:
+        """Say that the last work of a step failed, and why; an empty sentence: it did not."""
+        before = dict(self.failed)
+        if sentence:
+            self.failed[step] = sentence
+        else:
+            self.failed.pop(step, None)
+        if self.failed != before:
+            self.changed.emit()
+
+    @property
+    def connected(self) -> bool:
+        """Whether samples come."""
+        from contactbench.pipeline.devices.stream import StreamState
+
+        health = self.live.health
+        return health is not None and health[0].state is StreamState.STREAMING
+
+    @property
+    def ending(self) -> bool:
+        """Whether it is being closed: nothing may be begun any more."""
+        return self._let_go
+
+    def let_go(self) -> None:
+        """Begin to end it all: nothing is told any more, and what can be stopped is asked to."""
+        if not self._let_go:
+            self._end()
+        self._let_go = True
+        self.jobs.let_go()
+
+    def end(self) -> None:
+        """End it all; waits for devices, workers and the disk, so call it in a worker, after `let_go`."""
+        self.live.close()
+        self.jobs.wait(_PATIENCE_S)
+        self.desk.close()
+
+    def close(self) -> None:
+        """End it all, and wait for it."""
+        self.let_go()
+        self.end()

@@ -12,16 +12,13 @@ from PySide6.QtGui import QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QMainWindow, QStackedWidget
 
-from contactbench.app.bench import Bench, Weight
 from contactbench.app.departure import Departure
-from contactbench.app.errors import in_words
-from contactbench.app.garbage import Garbage
-from contactbench.app.heartbeat import Heartbeat
+from contactbench.app.errors import MessageRouter, in_words
+from contactbench.app.heartbeat import Garbage, Heartbeat, Turns
 from contactbench.app.jobs import Jobs
-from contactbench.app.message_router import MessageRouter
 from contactbench.app.settings import WindowSettings
 from contactbench.app.start import StartPage, dropped_folder
-from contactbench.app.turns import Turns
+from contactbench.app.undo import Bench, Weight
 from contactbench.app.window_docks import (
     SMALLEST,
     Docks,

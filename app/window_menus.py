@@ -12,16 +12,15 @@ from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
 import contactbench
-from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
+from contactbench.app.undo import Weight
 from contactbench.app.window_docks import first_size
 from contactbench.pipeline.steps import Step
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
-from contactbench.widgets.theme import dress
+from contactbench.widgets.theme import dress, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -179,7 +178,7 @@ class Menus(QObject):
 
     def show_about(self) -> None:
         """Show the version, and the licences of the parts."""
-        from contactbench.app.about import AboutDialog
+        from contactbench.app.dialogs import AboutDialog
 
         AboutDialog(self._window).open()
 

@@ -12,15 +12,15 @@ from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel
 from contactbench.app.page import Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels, sentence_label
-from contactbench.widgets.icons import Sign, state_icon
 from contactbench.widgets.numbers import translated
+from contactbench.widgets.theme import Sign, state_icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.session.why import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile

@@ -1,4 +1,10 @@
-"""Which session the window shows: opening, making, closing, and what is asked on the way."""
+"""Which session the window shows: opening, making, closing, and what is asked on the way.
+
+Qt's classes, made in the GUI thread before any worker names them.
+
+PySide makes a class when it is first named, by code or by an event. A worker that imports a page names hundreds, and
+where the window needs a class for an event at the same moment, the process crashes.
+"""
 
 from __future__ import annotations
 
@@ -38,18 +44,18 @@ from contactbench.app.opening import (
 from contactbench.app.start import session_name
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.numbers import translated
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from PySide6.QtWidgets import QMainWindow
 
-    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
+    from contactbench.app.undo import Bench
     from contactbench.app.window import MainWindow
     from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory
@@ -60,7 +66,7 @@ _NEEDED = (
     "vtkmodules.vtkViewsContext2D",
     "contactbench.widgets.strip_chart",
     "contactbench.pipeline.workbench.live",
-    "contactbench.pipeline.workbench.live_outputs",
+    "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
     "contactbench.app.undo",

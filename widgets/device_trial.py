@@ -9,8 +9,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from contactbench.pipeline.devices.stream import StreamState
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.numbers import filled, translated
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live_trial import ConnectionTrial

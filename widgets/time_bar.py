@@ -9,9 +9,9 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QPushButton, QVBoxLayout, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldRow
-from contactbench.widgets.icons import icon
 from contactbench.widgets.numbers import filled
 from contactbench.widgets.range_slider import RangeSlider
+from contactbench.widgets.theme import icon
 
 if TYPE_CHECKING:
     import numpy as np

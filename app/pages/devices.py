@@ -8,20 +8,18 @@ from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtWidgets import QGroupBox, QLineEdit, QWidget
 
-from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
-from contactbench.app.undo import SetParameters
+from contactbench.app.undo import SetParameters, Weight
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.live_devices import Devices, due_problem, gives_poses, problem_of
-from contactbench.pipeline.workbench.live_trial import trial_of
+from contactbench.pipeline.workbench.live_trial import Devices, due_problem, gives_poses, problem_of, trial_of
 from contactbench.widgets.controls import PanelScroll, column, form, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
 from contactbench.widgets.numbers import translated
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5

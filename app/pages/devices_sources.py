@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.url import DeviceAddress, Protocol
-from contactbench.pipeline.workbench import live_devices as devices
+from contactbench.pipeline.workbench import live_trial as devices
 from contactbench.widgets.controls import HIGH, row, sentence_label
 from contactbench.widgets.numbers import NumberBox, translated
 

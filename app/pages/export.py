@@ -20,11 +20,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.export_outputs import LiveOutputsPanel
 from contactbench.app.pages.export_payload import PayloadPanel
-from contactbench.app.undo import SetParameters
+from contactbench.app.undo import SetParameters, Weight
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.export_knobs import ExportKnobs
@@ -44,12 +43,12 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.numbers import filled, translated
 from contactbench.widgets.settings_rows import rows_of
+from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.export import ExportPreview
 

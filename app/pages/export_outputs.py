@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit, QWidget
 
-from contactbench.app.bench import Weight
+from contactbench.app.undo import Weight
 from contactbench.widgets.controls import (
     check_box,
     column,
@@ -22,9 +22,9 @@ from contactbench.widgets.numbers import filled, translated
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.session import Session
-    from contactbench.pipeline.workbench.live_outputs import OutputState
+    from contactbench.pipeline.workbench.live import OutputState
 
 _LOOK_MS = 100  # ten lines a second say that no sample comes
 SETTING = "outputs.addresses"
@@ -45,7 +45,7 @@ class LiveOutputsPanel(QWidget):
     def __init__(self, bench: Bench, unverified: Callable[[], bool], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         from contactbench.pipeline.runtime.outputs import OUTPUTS
-        from contactbench.pipeline.workbench.live_outputs import LiveOutputs
+        from contactbench.pipeline.workbench.live import LiveOutputs
 
         self._bench, self._unverified = bench, unverified
         self.outputs = LiveOutputs(bench.live)

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QComboBox, QWidget
 
-from contactbench.app.bench import Weight
-from contactbench.app.undo import SetParameters
+from contactbench.app.undo import SetParameters, Weight
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.settings import PayloadSettings, RobotMaker
@@ -26,7 +25,7 @@ from contactbench.widgets.controls import (
 from contactbench.widgets.numbers import NumberBox, filled, translated
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.config.runtime import RuntimeConfig
 
 _NAMES = {

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
 
-    from contactbench.app.bench import Bench
-    from contactbench.app.pages.probe_view import Shown
+    from contactbench.app.pages.probe_stages import Shown
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.steps import StepStatus

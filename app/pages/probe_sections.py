@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.pipeline.mesh.units import NAMES
+from contactbench.pipeline.mesh.load import NAMES
 from contactbench.pipeline.settings import ProbeSettings
 from contactbench.widgets.controls import (
     check_box,

@@ -14,8 +14,8 @@ from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, M
 from contactbench.pipeline.calibration.diagnosis.explain import NONE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
-from contactbench.pipeline.calibration.fit import PoseNoise
-from contactbench.pipeline.calibration.number_text import plain
+from contactbench.pipeline.calibration.model import PoseNoise
+from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.errors import arg, join, message
 

@@ -16,14 +16,14 @@ from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.fit import jacobian, nothing_beside, predict, whitener
-from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, find_bumped, limit, refit
+from contactbench.pipeline.calibration.model import jacobian, nothing_beside, predict, whitener
 from contactbench.pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
+from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, deviates, find_bumped, limit, refit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.fit import Terms
+    from contactbench.pipeline.calibration.model import Terms
     from contactbench.pipeline.calibration.poses import Stack
     from contactbench.pipeline.calibration.reml import NoisePrior
 

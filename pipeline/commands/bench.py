@@ -244,8 +244,7 @@ def _serve(served: ServedBench, ended: Ended) -> None:
 
 
 def _obey(served: ServedBench) -> None:
-    from contactbench.pipeline.simulation.virtual.commands import read_command
-    from contactbench.pipeline.simulation.virtual.script import read_object
+    from contactbench.pipeline.simulation.virtual.commands import read_command, read_object
 
     for number, line in enumerate(sys.stdin, 1):
         if not line.strip():

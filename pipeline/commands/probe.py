@@ -119,7 +119,7 @@ def open_mesh(file: Path, given: MeshSettings, out: Path | None = None) -> Probe
         from contactbench.pipeline.mesh.sidecar import check_target
 
         check_target(out)
-    from contactbench.pipeline.preparation.steps import import_mesh
+    from contactbench.pipeline.preparation.prepare import import_mesh
 
     refuse_to_guess(file, given)
     content = import_mesh(file, given.units)
@@ -289,7 +289,7 @@ class WayToAlign:
             align_points,
             find_mounting_face,
         )
-        from contactbench.pipeline.preparation.alignment.point_csv import read_points
+        from contactbench.pipeline.preparation.alignment.points import read_points
 
         offset = (self.offset or 0.0) / 1000
         if self.points is not None:
@@ -329,7 +329,7 @@ def align(
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.alignment import Advice
-    from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
+    from contactbench.pipeline.preparation.prepare import align_step, refuse_aligned
 
     _check_files(file, out, save, (chosen.alignment, chosen.points, chosen.touches))
     way = chosen.option
@@ -432,8 +432,7 @@ def shell(
     needs no repair stays unchanged. Exit code 1: the resulting surface is not valid.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.prepare import closings_of
-    from contactbench.pipeline.preparation.steps import shell_step
+    from contactbench.pipeline.preparation.prepare import closings_of, shell_step
 
     content = open_mesh(file, given, out)
     with Bar("finding the outer shell", counted=True) as bar:
@@ -455,7 +454,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     Distances and angles are measured against the input mesh, both ways.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.steps import simplify_step
+    from contactbench.pipeline.preparation.prepare import simplify_step
     from contactbench.pipeline.preparation.targets import target_of
 
     target = target_of(given)

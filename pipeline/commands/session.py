@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.session.adoption import LiveRecording
     from contactbench.pipeline.session.state import Result
 
 
@@ -73,7 +73,7 @@ def _record(
     session: Session, source: str, extent: Extent, serial: str | None, name: str | None
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
-    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.session.adoption import LiveRecording
     from contactbench.pipeline.streams import open_pair
 
     changes = Changes()

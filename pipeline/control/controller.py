@@ -9,19 +9,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.admittance import Admittance
 from contactbench.pipeline.control.axes import cross, pressing
-from contactbench.pipeline.control.bundle import intake_of, mount_of, settings_of
-from contactbench.pipeline.control.command import ControlCommand, SensorMount
-from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.inverse import solve_step
-from contactbench.pipeline.control.oscillation import Swing
-from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
-from contactbench.pipeline.control.states import ControlState, Safety
-from contactbench.pipeline.control.stiffness import StiffnessProbe, StiffnessTrack
+from contactbench.pipeline.control.inverse import Admittance, solve_step
+from contactbench.pipeline.control.settings import (
+    ControlSettings,
+    Foundation,
+    Variant,
+    for_tool,
+    intake_of,
+    mount_of,
+    settings_of,
+)
+from contactbench.pipeline.control.states import ControlCommand, ControlState, Safety, SensorMount
+from contactbench.pipeline.control.stiffness import StiffnessProbe, StiffnessTrack, Swing
 from contactbench.pipeline.control.surface import TissueSurface
-from contactbench.pipeline.control.tilt import Tilt
-from contactbench.pipeline.control.upright import Upright
+from contactbench.pipeline.control.upright import Tilt, Upright
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
@@ -31,9 +33,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.config.runtime.config import RuntimeConfig
-    from contactbench.pipeline.control.arms import Arm
     from contactbench.pipeline.control.intake import SampleIntake, Sensed
-    from contactbench.pipeline.control.inverse import JointStep
+    from contactbench.pipeline.control.inverse import Arm, JointStep
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.mesh import Probe
 

@@ -15,13 +15,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.control.bundle import controller_of, limits_of
 from contactbench.pipeline.control.margins import AXES, Axis, Margins, loop_of, margins
-from contactbench.pipeline.control.settings import USUAL_GAIN, ControlSettings, Variant
+from contactbench.pipeline.control.settings import (
+    USUAL_GAIN,
+    ControlSettings,
+    Variant,
+    controller_of,
+    limits_of,
+)
 from contactbench.pipeline.errors import InputError, arg, message
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.control.foundation import Foundation
+    from contactbench.pipeline.control.settings import Foundation
 
 _SLOWEST, _STEPS = 0.2, 12
 _SLOWER = (1.0, 0.8, 0.65, 0.5, 0.4, 0.3)  # shares of the usual bandwidth of what leads

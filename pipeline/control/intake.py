@@ -1,4 +1,20 @@
-"""From raw samples to what a controller may believe: one compensated wrench, where it acts, or why not."""
+"""From raw samples to what a controller may believe: one compensated wrench, where it acts, or why not.
+
+What a controller does with a contact, by the reason that stands beside it.
+
+==============================================================  =====================================================
+reason                                                          what it does
+==============================================================  =====================================================
+ok, vertex, by_region                                           turns by the place: who declares regions says where
+                                                                it may be touched
+ambiguous, by_region where a bundle's gates do not accept it    turns by the likeliest place or the second, whichever
+                                                                is within 10 mm of the last sure one; else as below
+two_touches, low_force, tangential, off_surface,                keeps the force and does not turn; after 2 s it goes
+outside_region, implausible                                     back
+stale, not_finite, not_a_rotation, unhealthy                    holds: the readings are not to be believed
+saturated                                                       goes back: the force may be anything
+==============================================================  =====================================================
+"""
 
 from __future__ import annotations
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from contactbench.pipeline.control.admittance import Admittance
-from contactbench.pipeline.control.follower import Follower
+from contactbench.pipeline.control.inverse import Admittance
 from contactbench.pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
+from contactbench.pipeline.control.surface import Follower
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:
@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.foundation import Foundation
-    from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.settings import ControlSettings, Foundation
 
 Axis = Literal["force", "about x", "about y"]
 AXES: tuple[Axis, ...] = ("force", "about x", "about y")

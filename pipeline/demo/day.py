@@ -18,15 +18,13 @@ from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.calibration.files.calibration_file import creation_time
 from contactbench.pipeline.calibration.files.capture_file import capture_poses
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
-from contactbench.pipeline.calibration.fit import two_stage
+from contactbench.pipeline.calibration.model import two_stage
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.config.runtime.bench import export_from_files
-from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.demo.gravity import calibrate_folder
 from contactbench.pipeline.demo.housing import prepare_probe
-from contactbench.pipeline.demo.tape import write_tape
-from contactbench.pipeline.demo.tool import RATE_HZ, draw_tool
+from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv, write_tape
 from contactbench.pipeline.demo.verification import (
     BUNDLE,
     SAMPLES,
@@ -38,13 +36,12 @@ from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, align_touches
-from contactbench.pipeline.preparation.steps import align_step
+from contactbench.pipeline.preparation.prepare import align_step
 from contactbench.pipeline.simulation.loads import orientations_in_use
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
+from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.scenes import TipPress
-from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification import Marker, MarkerSet
@@ -59,7 +56,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.simulation.loads import LoadedSensor
     from contactbench.pipeline.simulation.reality.bench import RealTape, RealTouch

@@ -12,16 +12,23 @@ from contactbench.pipeline.calibration.files.compensate_file import compensate_f
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
-from contactbench.pipeline.demo.files import write_marked, write_recording, write_truth, write_wrenches
-from contactbench.pipeline.demo.tape import STEP_S, DemoTape
-from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S
+from contactbench.pipeline.demo.tape import (
+    RATE_HZ,
+    STEP_S,
+    WARM_S,
+    DemoTape,
+    write_marked,
+    write_recording,
+    write_truth,
+    write_wrenches,
+)
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
 from contactbench.pipeline.simulation.loads import orientations_in_use
-from contactbench.pipeline.simulation.reality.presses import TILTS
+from contactbench.pipeline.simulation.reality.bench import TILTS
 from contactbench.pipeline.simulation.scenes import TouchScene
-from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
 
@@ -32,7 +39,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.tape import DemoTool
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 

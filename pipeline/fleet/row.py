@@ -15,9 +15,8 @@ from contactbench.pipeline.calibration.files.calibration_file import decode_reco
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.report.verification_file import parse_verification
-from contactbench.pipeline.session.content import content_of
-from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.state import Result, State, fold
+from contactbench.pipeline.session.journal import SessionError
+from contactbench.pipeline.session.state import Result, State, content_of, fold
 from contactbench.pipeline.session.why import stale_results
 from contactbench.pipeline.settings import ReportSettings
 

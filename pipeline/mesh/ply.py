@@ -20,24 +20,22 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
-    NUMBER,
-    RawMesh,
-    broken,
-    decimal_points,
-    plain_text,
-    points,
-    refuse_too_many,
-)
-from contactbench.pipeline.mesh.ply_header import (
     INDICES,
     INTEGERS,
     KINDS,
     LABELS,
+    NUMBER,
     SETTLED,
     STRIPS,
     UNTOUCHABLE,
+    RawMesh,
+    broken,
+    decimal_points,
     ignored,
+    plain_text,
+    points,
     read_header,
+    refuse_too_many,
 )
 from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
 
@@ -46,7 +44,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
+    from contactbench.pipeline.mesh.parse import Element, PlyHeader, Property
 
 
 def read_ply(data: bytes) -> RawMesh:

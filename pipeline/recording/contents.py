@@ -10,9 +10,8 @@ import numpy as np
 
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.recording.messages import Event
-from contactbench.pipeline.recording.reader import RecordingReader
+from contactbench.pipeline.recording.reader import FlangeTrack, RecordingReader, Repeats, WrenchTrack
 from contactbench.pipeline.recording.spill import Spill, Table
-from contactbench.pipeline.recording.tracks import FlangeTrack, Repeats, WrenchTrack
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.recording.info import RecordingInfo
+    from contactbench.pipeline.recording.messages import RecordingInfo
 
 LATE_S = 0.1
 _DIGIT = 16  # bits

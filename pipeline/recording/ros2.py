@@ -9,9 +9,18 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from contactbench.pipeline.recording.ros2_poses import TransformTree, joint_pose, numbers, pose
-from contactbench.pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.recording.ros2_poses import (
+    JOINT_STATE,
+    POSE_STAMPED,
+    TF,
+    WRENCH_STAMPED,
+    TransformTree,
+    decoder,
+    joint_pose,
+    numbers,
+    pose,
+)
 from contactbench.pipeline.recording.stream import McapMessage, McapStream
 from contactbench.pipeline.recording.writer import RecordingWriter
 

@@ -10,17 +10,15 @@ from typing import TYPE_CHECKING, Any, Literal
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.recording.chunk_file import ChunkFile
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
-from contactbench.pipeline.recording.info import (
+from contactbench.pipeline.recording.messages import (
     ABOUT_RECORD,
     DEVICE_RECORD,
     EVENT_TOPIC,
+    LONGEST_MESSAGE,
+    Event,
     RecordingInfo,
     about_record,
     device_record,
-)
-from contactbench.pipeline.recording.messages import (
-    LONGEST_MESSAGE,
-    Event,
     event_message,
     flange_message,
     wrench_message,

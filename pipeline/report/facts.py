@@ -8,10 +8,15 @@ import numpy as np
 import scipy
 
 from contactbench import __version__
-from contactbench.pipeline.calibration.budget import COVERAGE, BudgetSource
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
-from contactbench.pipeline.calibration.number_text import plain, signed, with_sigma
-from contactbench.pipeline.calibration.report.budget_table import SOURCE_WORDS, budget_table, length_mm
+from contactbench.pipeline.calibration.orientation import plain, signed, with_sigma
+from contactbench.pipeline.calibration.report.budget_table import (
+    COVERAGE,
+    SOURCE_WORDS,
+    BudgetSource,
+    budget_table,
+    length_mm,
+)
 from contactbench.pipeline.page import moment
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT
 

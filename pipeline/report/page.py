@@ -29,7 +29,7 @@ from contactbench.pipeline.report.facts import (
     vector_words,
     versions,
 )
-from contactbench.pipeline.report.touches import MOST_SHOWN, error_map, marker_views
+from contactbench.pipeline.report.picture import MOST_SHOWN, error_map, marker_views
 from contactbench.pipeline.verification.model_error import model_error_words
 
 if TYPE_CHECKING:

@@ -10,10 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
-from contactbench.pipeline.robot.description import RobotDescription, joint_angles
 from contactbench.pipeline.robot.model import Kinematics
 from contactbench.pipeline.robot.robot_file import names_file, read_robot
-from contactbench.pipeline.robot.robots import ROBOTS
+from contactbench.pipeline.robot.robots import ROBOTS, RobotDescription, joint_angles
 
 
 class Robot:

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.session import frames
+from contactbench.pipeline.session import journal
 from contactbench.pipeline.session.actions import files_of
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.session.content import content_of, origin_problems
-from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.files import (
     UNFINISHED,
     file_problem,
@@ -21,17 +19,24 @@ from contactbench.pipeline.session.files import (
     unclaimed,
     unfinished,
 )
-from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
+from contactbench.pipeline.session.journal import (
+    JOURNAL,
+    JournalError,
+    JournalWriter,
+    SessionError,
+    read_journal,
+    refuse_damage,
+)
 from contactbench.pipeline.session.lock import Lock
 from contactbench.pipeline.session.remains import upright
-from contactbench.pipeline.session.state import fold, sources_of
+from contactbench.pipeline.session.state import content_of, fold, origin_problems, sources_of
 from contactbench.pipeline.session.store import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from contactbench.pipeline.session.content import Content
+    from contactbench.pipeline.session.state import Content
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,7 @@ def check_journal(
         content = content_of(folder, data)
         refuse_links(folder)
     except SessionError as error:
-        return Check(len(frames.scan(data).frames), 0, (str(error),), ()), None
+        return Check(len(journal.scan(data).frames), 0, (str(error),), ()), None
     refs = {(ref.path, ref.sha256): ref for record in content.records for ref in files_of(record.action)}
     problems = []
     for done, ref in enumerate(refs.values(), 1):
@@ -192,7 +197,7 @@ def _repair_journal(folder: Path, *, up_to_damage: bool) -> Repair:
     lock = Lock(folder)
     try:
         data = read_journal(folder)
-        found = upright(folder, data) if up_to_damage else frames.scan(data)
+        found = upright(folder, data) if up_to_damage else journal.scan(data)
         if not found.torn and not found.last and not (up_to_damage and found.damage and found.frames):
             refuse_damage(folder, found)
             return Repair(message("The journal is intact: nothing to repair."))

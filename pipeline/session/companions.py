@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of
 from contactbench.pipeline.recording import RecordingReader
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -22,8 +22,8 @@ from contactbench.pipeline.files import NamedFile
 from contactbench.pipeline.knobs import Three
 from contactbench.pipeline.report.report_file import ReportParameters, report
 from contactbench.pipeline.session.actions import TOOL, main_file
-from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import touched_mark
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.make import (
     CalibrationParameters,
     CapturesParameters,

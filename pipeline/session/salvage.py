@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import sync_folder, write_durably
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.session.actions import files_of
-from contactbench.pipeline.session.content import content_of, original_of
-from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
     UNFINISHED,
@@ -23,8 +21,9 @@ from contactbench.pipeline.session.files import (
     write_file,
     wrong_with,
 )
-from contactbench.pipeline.session.journal import JOURNAL, read_journal
+from contactbench.pipeline.session.journal import JOURNAL, SessionError, read_journal
 from contactbench.pipeline.session.remains import doubts, note_of, remains_of
+from contactbench.pipeline.session.state import content_of, original_of
 from contactbench.pipeline.session.store import Session
 
 if TYPE_CHECKING:

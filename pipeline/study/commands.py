@@ -104,7 +104,7 @@ def scene(settings: SceneSettings) -> None:
     """
     from contactbench.pipeline.reality import Reality
     from contactbench.pipeline.study import reality_costs, scene_limits
-    from contactbench.pipeline.study.scene_page import KIND, rows_of
+    from contactbench.pipeline.study.reality_costs import KIND, rows_of
 
     if settings.moving:
         report = scene_limits.run(settings.probe or ("convex",), settings.period, progress=say)

@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from contactbench.pipeline.calibration import Calibration, PoseSample, calibrate
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.control.command import SensorMount
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.gains import (
     MarginRow,
     Tuned,
@@ -28,8 +25,8 @@ from contactbench.pipeline.control.gains import (
 from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.loop import Rig, arm_of, run_loop
 from contactbench.pipeline.control.margins import AXES
-from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.states import ControlState
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Variant
+from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import check_bundled, model_of, truth_of

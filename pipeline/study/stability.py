@@ -22,7 +22,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study.harness import CaseRow, CasesReport, verdict_on
 from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.report import FigureVerdict, verdict_of
-from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
+from contactbench.pipeline.study.sweep.plan import file_facets, mesh_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

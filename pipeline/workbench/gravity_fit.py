@@ -16,8 +16,7 @@ from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
-from contactbench.pipeline.calibration.reachable import by_hand, describe
-from contactbench.pipeline.calibration.suggest import PosePlan, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.suggest import PosePlan, by_hand, describe, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError, arg, capitalised, message
 from contactbench.pipeline.session.make import CalibrationParameters
 
@@ -28,8 +27,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import Calibration, PoseSample
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from contactbench.pipeline.calibration.reachable import Reachable
     from contactbench.pipeline.calibration.stillness import Capture, Rejected
+    from contactbench.pipeline.calibration.suggest import Reachable
     from contactbench.pipeline.session import State
 
 MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"

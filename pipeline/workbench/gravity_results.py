@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.adoption import RECORDING, next_recording
 from contactbench.pipeline.session.files import wrong_with
-from contactbench.pipeline.session.live import RECORDING, next_recording
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,

@@ -10,7 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
 from contactbench.pipeline.errors import InputError, message
-from contactbench.pipeline.session.live import next_recording
+from contactbench.pipeline.session.adoption import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome, read_check
 from contactbench.pipeline.workbench.tape import SessionTape

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError, arg, message
-from contactbench.pipeline.session.live import next_recording
+from contactbench.pipeline.session.adoption import next_recording
 from contactbench.pipeline.session.recompute import compute, inputs_of, newest_inputs, settings_of
 from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification.markers import with_normals

@@ -13,7 +13,7 @@ from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.probe_draft import draft_of
+from contactbench.pipeline.workbench.probe import draft_of
 
 from .conftest import shown
 from .failures import whole

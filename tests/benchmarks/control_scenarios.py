@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.control.loop import Trace
     from contactbench.pipeline.study.gain_trials import SceneName
 
 EVENT_S, SETTLED_S, LAST_S = 4.0, 1.0, 4.0  # when it begins, how long it may take, how long it is watched

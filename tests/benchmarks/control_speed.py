@@ -20,8 +20,8 @@ from contactbench.pipeline.study.report import Figure, StudyReport
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.loop import Loop
+    from contactbench.pipeline.control.states import ControlCommand
     from contactbench.pipeline.study.gain_trials import SceneName
 
 MOST_MS, LEAST_TIMES = 1.0, 2.0

@@ -15,8 +15,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import MIXES, Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.marker_touches import model_of
-from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, MarkedPresses, planned_poses
+from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, MarkedPresses, RealBench, planned_poses
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.verification.figures import ErrorCause

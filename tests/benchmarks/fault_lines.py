@@ -12,9 +12,8 @@ from contactbench.pipeline.devices.driver import Carrier
 from contactbench.pipeline.devices.emulate import emulator, possible_faults, swinging
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, Six
 from contactbench.pipeline.devices.protocols.registry import driver_for
-from contactbench.pipeline.devices.robot_poses import poses_from
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream, poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Health
 from contactbench.pipeline.devices.url import DeviceAddress
 

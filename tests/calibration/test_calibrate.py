@@ -23,9 +23,8 @@ from contactbench.pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from contactbench.pipeline.calibration.fit import UNKNOWN
-from contactbench.pipeline.calibration.model import prediction_jacobian
-from contactbench.pipeline.calibration.number_text import plain
+from contactbench.pipeline.calibration.model import UNKNOWN, prediction_jacobian
+from contactbench.pipeline.calibration.orientation import plain
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.verdict import _off_down, judge
 from contactbench.pipeline.simulation.loads import draw_load, weigh

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import ContactTask, GravityModel
-from contactbench.pipeline.calibration.contact_error import (
+from contactbench.pipeline.calibration.suggest import (
     contact_sensitivity,
     force_directions,
     largest_eigenvalue,

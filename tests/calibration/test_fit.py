@@ -9,14 +9,16 @@ from scipy.spatial.transform import Rotation
 from weighing_files import draw_weighing
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
-from contactbench.pipeline.calibration.fit import (
+from contactbench.pipeline.calibration.model import (
+    CENTRE_OF_MASS,
+    GRAVITY,
     UNKNOWN,
     Fit,
     maximise,
     parameter_covariance,
+    prediction_jacobian,
     two_stage,
 )
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, prediction_jacobian
 from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise

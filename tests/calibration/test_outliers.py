@@ -15,10 +15,10 @@ from contactbench.pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from contactbench.pipeline.calibration.fit import maximise, nothing_beside, two_stage
-from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
+from contactbench.pipeline.calibration.model import maximise, nothing_beside, two_stage
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
+from contactbench.pipeline.calibration.verdict import LARGEST_SHARE, deviates, limit
 from contactbench.pipeline.simulation.loads import bump, draw_load, weigh
 
 

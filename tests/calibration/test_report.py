@@ -26,7 +26,7 @@ from contactbench.pipeline.calibration import (
 )
 from contactbench.pipeline.calibration.causes import Cause
 from contactbench.pipeline.calibration.files.calibration_file import SourceFile
-from contactbench.pipeline.calibration.number_text import plain, with_sigma
+from contactbench.pipeline.calibration.orientation import plain, with_sigma
 from contactbench.pipeline.calibration.report.figures import (
     _signed,
     error_map,

@@ -4,18 +4,16 @@ from config.runtime.bundles import example
 from control.closed_loop import Ramp, gravity, loop, settings_for
 
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control.arms import CartesianMount
-from contactbench.pipeline.control.command import SensorMount
 from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.intake import SampleIntake
+from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.control.margins import loop_of, margins
-from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.states import ControlState
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Variant
+from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of
 from contactbench.pipeline.simulation.scenes import TissueCourse
-from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
+from contactbench.pipeline.simulation.scenes.platform import PlatformMotion
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

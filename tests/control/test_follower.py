@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.follower import Follower
+from contactbench.pipeline.control.surface import Follower
 
 DT = 0.02
 

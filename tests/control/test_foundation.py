@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.contact.footprint import spread
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation
 from contactbench.pipeline.simulation.marker_touches import model_of
 
 

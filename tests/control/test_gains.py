@@ -8,11 +8,9 @@ import pytest
 
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.settings_file import with_file
-from contactbench.pipeline.control.bundle import settings_of
-from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.gains import WantedMargins, rows_of, settings_content, spread_of, tune
 from contactbench.pipeline.control.margins import AXES, loop_of, margins
-from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Variant, settings_of
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.gain_trials import foundation_of, run
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.calibration import GravityModel
-from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.controller import Inertia
+from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.simulation.marker_touches import truth_of
 from contactbench.pipeline.simulation.scenes import Payload
 from contactbench.pipeline.simulation.scenes.platform import PlatformScene

@@ -3,9 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.margins import AXES, LoopModel, loop_of, margins, response, sweep
-from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of
 

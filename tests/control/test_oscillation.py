@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.oscillation import Swing
+from contactbench.pipeline.control.stiffness import Swing
 
 DT = 0.02
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
-from contactbench.pipeline.control.settings import ControlSettings, for_tool
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation, for_tool
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import model_of
 

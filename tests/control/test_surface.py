@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.surface import TissueSurface
 from contactbench.pipeline.simulation.marker_touches import model_of
 

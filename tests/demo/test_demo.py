@@ -15,9 +15,9 @@ from contactbench.pipeline import cli, demo
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
-from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touches
+from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, tape, touches
+from contactbench.pipeline.demo.bench import LIMIT
 from contactbench.pipeline.demo.body import PaperView
-from contactbench.pipeline.demo.report import LIMIT
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
@@ -54,7 +54,7 @@ def test_contacts_agree_with_the_reported_errors(done: demo.DemoReport) -> None:
         sure = np.isin(contacts["reason"], ["ok", "vertex", "by_region"])
         at = [np.array([table[axis] for axis in "xyz"])[:, sure].astype(float) for table in (contacts, truth)]
         error = 1e3 * np.linalg.norm(at[0] - at[1], axis=0)
-        ours = report.ours(result.drawn)
+        ours = bench.ours(result.drawn)
         assert (ours.mean_mm, ours.max_mm) == (pytest.approx(error.mean()), pytest.approx(error.max()))
 
 
@@ -152,14 +152,14 @@ def test_a_mesh_that_is_not_the_design_fails(done: demo.DemoReport) -> None:
 def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
     assert done.verified
     for result in done.probes:
-        drawn = report.ours(result.drawn).mean_mm
+        drawn = bench.ours(result.drawn).mean_mm
         assert drawn is not None
         assert 0.3 < drawn < 2.0
 
 
 @pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(tool.DemoTool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
+    monkeypatch.setattr(tape.DemoTool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
     result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
     assert result.exit_code == 1
     found = json.loads(result.stdout)

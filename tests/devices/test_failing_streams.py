@@ -14,7 +14,7 @@ from waiting import until
 
 from contactbench.pipeline.devices import reconnecting_stream
 from contactbench.pipeline.devices.protocols.elfin import ElfinPoses
-from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport import LineLost, LineUnavailable
 from contactbench.pipeline.devices.url import DeviceAddress
@@ -71,7 +71,7 @@ def test_kinematics_that_are_missing_are_refused_at_once(monkeypatch):
 @pytest.mark.parametrize(("address", "again"), [("sri+tcp://h?rate=100", True), ("bota+serial:///x", False)])
 def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
     monkeypatch.setattr(reconnecting_stream, "_DEAD_S", 0.3)
-    monkeypatch.setattr("contactbench.pipeline.devices.sensor._REPLY_S", 0.05)
+    monkeypatch.setattr("contactbench.pipeline.devices.reconnecting_stream._REPLY_S", 0.05)
     heard = Heard()
     line = Script(lambda _line, _now: b"")
     line.write = lambda _: None

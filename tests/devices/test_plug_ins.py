@@ -17,17 +17,17 @@ from contactbench.pipeline.devices.protocols import registry
 from contactbench.pipeline.devices.transport.ports import guess_device
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.streams import open_sensor
-from contactbench.pipeline.workbench.live_devices import serial_sensors
+from contactbench.pipeline.workbench.live_trial import serial_sensors
 
 # Big-endian counts of a hundredth of a newton or newton metre behind a header; it streams without being asked to.
 MODULE = """
 import struct
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.options import Option, number
+from contactbench.pipeline.devices.driver import Option, number
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
-from contactbench.pipeline.devices.protocols.scanner import FrameScanner
+from contactbench.pipeline.devices.protocols.parser import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
 
 FRAME = struct.Struct(">2s6hB")
@@ -82,7 +82,7 @@ class Nothing:
     pass
 
 
-from contactbench.pipeline.devices.options import Option
+from contactbench.pipeline.devices.driver import Option
 from tiny_driver import TinyDriver
 
 

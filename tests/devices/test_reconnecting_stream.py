@@ -12,7 +12,7 @@ from waiting import be_slow, until
 
 from contactbench.pipeline.devices.protocols.elfin import ElfinPoses
 from contactbench.pipeline.devices.protocols.sri import sri_frame
-from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.transport import Chunk, LineLost
 from contactbench.pipeline.devices.url import DeviceAddress

@@ -17,7 +17,7 @@ from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.protocols.device_model import JOINTS, Quirk
 from contactbench.pipeline.devices.protocols.elfin import ElfinModel, ElfinPoses
 from contactbench.pipeline.devices.protocols.ur_pose import UrPoses
-from contactbench.pipeline.devices.robot_poses import poses_from
+from contactbench.pipeline.devices.reconnecting_stream import poses_from
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.robot import Robot

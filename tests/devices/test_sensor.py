@@ -11,8 +11,8 @@ from contactbench.pipeline.devices.driver import AddressError
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.faults import Fault, FaultEvent, Script, sine
 from contactbench.pipeline.devices.protocols.registry import driver_for
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 

@@ -16,8 +16,8 @@ from contactbench.pipeline.devices.protocols.device_model import Quirk
 from contactbench.pipeline.devices.protocols.rdt import ScaleError, rdt_record
 from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.readings import Readings
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.url import DeviceAddress
 
 

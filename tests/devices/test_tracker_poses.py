@@ -17,7 +17,7 @@ from contactbench.pipeline.devices.faults import Fault, constant
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.igtl import IgtlError
 from contactbench.pipeline.devices.protocols.igtl_pose import BODY, BodyStream, IgtlModel
-from contactbench.pipeline.devices.robot_poses import ParsedPoses, poses_from
+from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses, poses_from
 from contactbench.pipeline.devices.stream import StreamState
 from contactbench.pipeline.devices.url import DeviceAddress
 

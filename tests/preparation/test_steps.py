@@ -13,8 +13,13 @@ from contactbench.pipeline.mesh.shell import Closing
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.mesh.simplify import Count, MaxDeviation
 from contactbench.pipeline.preparation.alignment import from_angles
-from contactbench.pipeline.preparation.prepare import prepared
-from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from contactbench.pipeline.preparation.prepare import (
+    align_step,
+    import_mesh,
+    prepared,
+    shell_step,
+    simplify_step,
+)
 from contactbench.pipeline.settings import ProbeSettings
 
 MOUNT = from_angles([0, 0, 40], [0, 0, 90])

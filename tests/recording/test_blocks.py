@@ -32,8 +32,8 @@ from contactbench.pipeline.recording import (
 )
 from contactbench.pipeline.recording.contents import LATE_S, percentile, read_contents
 from contactbench.pipeline.recording.convert import poses_at, write_csv, write_npz
+from contactbench.pipeline.recording.reader import Repeats, columns_of, part
 from contactbench.pipeline.recording.spill import Spill, Table
-from contactbench.pipeline.recording.tracks import Repeats, columns_of, part
 from contactbench.pipeline.tables.shortest import csv_rows
 
 SIZES = (1, 7, 100_000)

@@ -195,17 +195,17 @@ def test_an_alignment_is_an_input_of_a_probe(folder, ball, tmp_path):
 
 
 def test_a_session_of_version_1_goes_on(folder, tmp_path):
-    from contactbench.pipeline.session import frames
+    from contactbench.pipeline.session import journal
 
     poses = write_euler(tmp_path / "poses.csv", weighed())
     done("add", folder, poses, "--kind", "poses")
     done("compute", folder, "calibration", "c.json", "--set", "euler=xyz")
-    found = frames.scan((folder / "journal").read_bytes())
+    found = journal.scan((folder / "journal").read_bytes())
     payloads = [json.loads(frame.payload) for frame in found.frames]
     payloads[0]["action"]["version"] = 1
     for name in ("companions", "about"):
         del payloads[1]["action"][name]
-    (folder / "journal").write_bytes(frames.encode_all(map(frames.canonical, payloads)))
+    (folder / "journal").write_bytes(journal.encode_all(map(journal.canonical, payloads)))
     assert done("replay", folder)["same"] == 1
     with Session.open(folder) as session:
         assert "migrated from version 1 to 2" in session.notes[0]

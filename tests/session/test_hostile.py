@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from contactbench.pipeline.session import Session, SessionError, SessionLockedError, frames
+from contactbench.pipeline.session import Session, SessionError, SessionLockedError, journal
 from contactbench.pipeline.session import lock as locks
 from contactbench.pipeline.session.archive import import_archive
 from contactbench.pipeline.session.check import check, repair
@@ -120,7 +120,7 @@ def test_pipes_are_refused_not_waited_for(folder, tmp_path):
 
 def test_a_result_of_what_comes_later_is_stale(folder):
     data = (folder / "journal").read_bytes()
-    payloads = [frames.scan(data).frames[0].payload]
+    payloads = [journal.scan(data).frames[0].payload]
     for n in range(3000):
         content = str(n).encode()
         sha256, following = (hashlib.sha256(str(each).encode()).hexdigest() for each in (n, n + 1))
@@ -131,7 +131,7 @@ def test_a_result_of_what_comes_later_is_stale(folder):
         payloads.append(
             json.dumps({"at": at, "by": "x", "tool": "t", "sensor": None, "action": action}).encode()
         )
-    (folder / "journal").write_bytes(frames.encode_all(payloads))
+    (folder / "journal").write_bytes(journal.encode_all(payloads))
     with Session.open(folder, write=False) as session:
         stale = session.stale()
     assert len(stale) == 3000

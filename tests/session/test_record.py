@@ -20,8 +20,8 @@ from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.adoption import LiveRecording
 from contactbench.pipeline.session.check import check, repair
-from contactbench.pipeline.session.live import LiveRecording
 
 ROOT = Path(__file__).parents[2]
 

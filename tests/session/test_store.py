@@ -15,11 +15,11 @@ from contactbench.pipeline.session import (
     Session,
     SessionError,
     SessionLockedError,
-    frames,
+    journal,
 )
 from contactbench.pipeline.session.actions import VERSION
 from contactbench.pipeline.session.check import check, repair
-from contactbench.pipeline.session.content import MIGRATIONS
+from contactbench.pipeline.session.state import MIGRATIONS
 
 ROOT = Path(__file__).parents[2]
 
@@ -222,10 +222,10 @@ def test_missing_changed_and_longer_files_are_found(folder, poses):
 
 
 def rewrite(folder, change):
-    found = frames.scan((folder / "journal").read_bytes())
+    found = journal.scan((folder / "journal").read_bytes())
     payloads = [json.loads(frame.payload) for frame in found.frames]
     change(payloads)
-    (folder / "journal").write_bytes(frames.encode_all(map(frames.canonical, payloads)))
+    (folder / "journal").write_bytes(journal.encode_all(map(journal.canonical, payloads)))
     return (folder / "journal").read_bytes()
 
 

@@ -7,7 +7,7 @@ from workbench.gravity_bench import batches, block, record
 from contactbench.pipeline import calibration
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.adoption import adopt_unfinished
-from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.gravity import GravityWork

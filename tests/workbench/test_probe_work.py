@@ -23,7 +23,7 @@ from contactbench.pipeline.workbench.probe_alignment import (
     by_points,
     numbers_of,
 )
-from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
+from contactbench.pipeline.workbench.regions_session import recipe_of, shell_file_of, used_probe
 
 PLAN = ProbePlan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.mesh.regions import RegionError, RegionModel, RegionSet
-from contactbench.pipeline.workbench.region_history import (
+from contactbench.pipeline.workbench.regions_session import (
     REGION_STEPS_FILE,
     read_region_steps,
     write_region_steps,
@@ -76,7 +76,7 @@ def test_steps_of_another_mesh_are_refused(painted):
 
 
 def test_too_many_lose_the_oldest(painted, tmp_path, monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.workbench.region_history._MOST", 2)
+    monkeypatch.setattr("contactbench.pipeline.workbench.regions_session._MOST", 2)
     write_region_steps(tmp_path, painted.steps, SHA)
     assert [each.key for each in read_region_steps(tmp_path, SHA).done] == [
         each.key for each in painted.steps.done[-2:]

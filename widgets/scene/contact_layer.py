@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.label_board import Label
 from contactbench.widgets.scene.shapes import cone, cylinder, disc, frame_on, rim, ring_segments, segments
 from contactbench.widgets.scene.stage import Shape
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.widgets.scene.label_board import LabelBoard
-    from contactbench.widgets.scene.picker import Picker
+    from contactbench.widgets.scene.mouse import Picker
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 

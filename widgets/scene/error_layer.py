@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from contactbench.pipeline.colour_ramp import end_of_colours, ramp_colours
 from contactbench.widgets.scene.contact_layer import ellipse_frame, surface_normal
-from contactbench.widgets.scene.fields import round_length
+from contactbench.widgets.scene.probe_layer import round_length
 from contactbench.widgets.scene.shapes import cone, frame_on, ring_segments, segments, triangles
 from contactbench.widgets.scene.stage import Shape
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.widgets.scene.label_board import LabelBoard
-    from contactbench.widgets.scene.picker import Picker
+    from contactbench.widgets.scene.mouse import Picker
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
-from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.label_board import Label
 from contactbench.widgets.scene.shapes import frame_on, rim
 from contactbench.widgets.scene.stage import Shape
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.widgets.scene.label_board import LabelBoard
-    from contactbench.widgets.scene.picker import Pick
+    from contactbench.widgets.scene.mouse import Pick
     from contactbench.widgets.scene.stage import SceneStage
     from contactbench.widgets.scene.views import Screen
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.label_board import Label
 from contactbench.widgets.scene.shapes import (
     cone,
     cylinder,

@@ -3,6 +3,12 @@ Hans Robot's controllers (Elfin), the text protocol on TCP port 10003.
 
 A request is "<Command>,<arguments>,;", an answer "<Command>,OK,<values>,;" or "<Command>,Fail,<code>,;";
 an unknown command is answered by "errorcmd,...". Only questions are asked here.
+
+Which half of an Elfin's position is joints, found out from the arm's kinematics; and the flange from it.
+
+Software versions disagree on the order of joints and pose. The joints must lead to the pose by the forward
+kinematics, so one reading settles the order, the convention of the angles, and whether the active tool
+frame is turned against the flange.
 """
 
 from __future__ import annotations

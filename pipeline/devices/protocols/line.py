@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import SYNTHETIC, Fault
-from contactbench.pipeline.devices.protocols.commands import Command
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.line_layout import (
@@ -34,6 +33,7 @@ from contactbench.pipeline.devices.protocols.line_layout import (
 )
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
+    Command,
     Counters,
     Parser,
     Sample,
@@ -41,7 +41,7 @@ from contactbench.pipeline.devices.protocols.parser import (
     SensorParser,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
-from contactbench.pipeline.devices.robot_poses import ParsedPoses
+from contactbench.pipeline.devices.reconnecting_stream import ParsedPoses
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, message
 

@@ -4,6 +4,11 @@ RDT over UDP: ATI Net F/T and Ethernet Axia, OnRobot and OptoForce HEX.
 A record is one datagram of 36 bytes, big endian: the record's number, the sensor's sample number and a
 status (uint32 each), six int32 counts. UDP's own checksum is the only one: whatever has 36 bytes is a
 record, so a driver must listen to the sensor's address alone.
+
+Counts per newton of an ATI sensor, from its own web page.
+
+Net F/T boxes and Ethernet Axia sensors tell counts per unit, and which units these are, in netftapi2.xml. The
+page is only read; nothing is set.
 """
 
 from __future__ import annotations
@@ -16,17 +21,17 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 from xml.parsers import expat
 
-from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.driver import Carrier, Driver, Option, Way, choice, number
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
-from contactbench.pipeline.devices.options import Option, choice, number
-from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
+    Command,
     Counters,
     ProtocolError,
     SensorDriver,
     SensorParser,
+    check_rate,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor

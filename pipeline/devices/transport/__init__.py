@@ -5,10 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier
-from contactbench.pipeline.devices.transport.line import Chunk, Line, LineError, LineLost, LineUnavailable
 from contactbench.pipeline.devices.transport.ports import SerialPort, guess_device, list_ports
 from contactbench.pipeline.devices.transport.serial_line import SerialLine
-from contactbench.pipeline.devices.transport.sockets import TcpLine, UdpLine
+from contactbench.pipeline.devices.transport.sockets import (
+    Chunk,
+    Line,
+    LineError,
+    LineLost,
+    LineUnavailable,
+    TcpLine,
+    UdpLine,
+)
 from contactbench.pipeline.errors import arg
 
 if TYPE_CHECKING:

@@ -11,11 +11,18 @@ from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.health import edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
-from contactbench.pipeline.mesh.shell.cut import Cut, cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
-from contactbench.pipeline.mesh.shell.openings import Opening, describe
 from contactbench.pipeline.mesh.shell.patch import choose, make_patch
-from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
+from contactbench.pipeline.mesh.shell.rim import Opening, describe
+from contactbench.pipeline.mesh.shell.tidy import (
+    ROUNDING,
+    Cut,
+    cut_crossings,
+    distinct,
+    holes,
+    open_edges,
+    sew,
+)
 from contactbench.pipeline.mesh.soundness import CROSSING
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, join, six_volumes
 

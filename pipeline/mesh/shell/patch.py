@@ -15,15 +15,14 @@ from scipy.spatial import ConvexHull, Delaunay, QhullError, cKDTree
 
 from contactbench.pipeline.errors import arg
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.shell.openings import shoelace
-from contactbench.pipeline.mesh.shell.rim import crossings
+from contactbench.pipeline.mesh.shell.rim import crossings, shoelace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.mesh.shell.openings import Opening
+    from contactbench.pipeline.mesh.shell.rim import Opening
 
 _LONG = 2.0  # a mouth longer than this many times its width has two long rims
 _FLAT = 1e-9  # of the length

@@ -11,9 +11,12 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.preparation.ladder.compare import ContactDifference, PartErrors
+    from contactbench.pipeline.preparation.ladder.compare import (
+        ContactDifference,
+        ExpectedTouches,
+        PartErrors,
+    )
     from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation
-    from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
     from contactbench.pipeline.timing import Timing
 
 SCHEMA, VERSION = "contactbench.ladder", 1

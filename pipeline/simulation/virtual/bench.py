@@ -26,19 +26,22 @@ from contactbench.pipeline.simulation.reality import LateLine, RealProbe, Wrench
 from contactbench.pipeline.simulation.scenes import BenchScene, Payload, TrueSurface
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
 from contactbench.pipeline.simulation.virtual.commands import (
+    Batch,
     Bump,
     Command,
     CommandError,
+    Done,
     End,
     Release,
+    ScriptError,
     SecretRezero,
+    Slip,
+    Timed,
     TouchCommand,
     TurnTo,
     Warm,
 )
-from contactbench.pipeline.simulation.virtual.given import Batch, Done, Slip
 from contactbench.pipeline.simulation.virtual.markers import COUNTS, markers, markers_on
-from contactbench.pipeline.simulation.virtual.script import ScriptError, Timed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING
 from contactbench.pipeline.durable import scratch_beside
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from contactbench.pipeline.simulation.virtual.commands import command_fields
-from contactbench.pipeline.simulation.virtual.script import LONGEST_S, ScriptError
+from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.virtual.commands import LONGEST_S, ScriptError, command_fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch, Done, Slip
+    from contactbench.pipeline.simulation.virtual.commands import Batch, Done, Slip
 
 # The bench has no calendar: a fixed day, so that the same run gives the same bytes.
 STARTED_NS = 946_684_800 * 10**9  # 2000-01-01

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.emulate import Emulator
     from contactbench.pipeline.devices.faults import Six
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.simulation.virtual.commands import Batch
 
 # The devices tell what was there so long ago: the bench, which may be late, has been there then.
 DELAY_S = 0.03

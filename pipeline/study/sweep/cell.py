@@ -13,8 +13,15 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
-from contactbench.pipeline.study.sweep.bodies import believed, body_of, deviations, file_facets, mesh_of
-from contactbench.pipeline.study.sweep.plan import identity, label
+from contactbench.pipeline.study.sweep.plan import (
+    believed,
+    body_of,
+    deviations,
+    file_facets,
+    identity,
+    label,
+    mesh_of,
+)
 from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:

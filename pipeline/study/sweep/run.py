@@ -14,9 +14,8 @@ from uuid import uuid4
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.results import PASSING, cores, environment, write_results
-from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
-from contactbench.pipeline.study.sweep.plan import identity, label
+from contactbench.pipeline.study.sweep.plan import file_facets, identity, label, mesh_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping

@@ -13,8 +13,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
 from contactbench.pipeline.calibration.mount import estimate_mount
-from contactbench.pipeline.calibration.reachable import by_hand
-from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.simulation.sensor_model import preset
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.pages import origin
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 from contactbench.pipeline.study.results import environment
-from contactbench.pipeline.study.sweep.bodies import FILTERS
+from contactbench.pipeline.study.sweep.plan import FILTERS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 from benchmarks.live.records import GIVEN
 
-from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.reconnecting_stream import SensorStream
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

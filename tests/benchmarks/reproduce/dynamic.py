@@ -31,8 +31,7 @@ from benchmarks.reproduce.dynamic_tables import (
 )
 from benchmarks.reproduce.tilt_bound import tilt_bound
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS
-from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
 from contactbench.pipeline.study.gain_trials import SCENES, foundation_of
@@ -41,7 +40,7 @@ from contactbench.pipeline.study.report import Figure, FigureVerdict, StudyRepor
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.control.loop import Trace
     from contactbench.pipeline.study.gain_trials import SceneName
 
 OURS = "contactbench"

@@ -13,14 +13,14 @@ from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
-from contactbench.pipeline.simulation.scenes.platform_motion import AXES
+from contactbench.pipeline.simulation.scenes.platform import AXES
 from contactbench.pipeline.simulation.scenes.tissue import TissueCylinder
 from contactbench.pipeline.study.gain_trials import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.control.loop import Trace
     from contactbench.pipeline.simulation.scenes import MovedScene
 
 START_S = 4.0  # by then it tracks: half a second in the air, touch, ramp, one small press

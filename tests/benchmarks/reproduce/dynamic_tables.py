@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.reproduce.dynamic_cells import FORCE_N, IN_PLANE, MOTIONS, OUT_OF_PLANE, START_S, VERTICAL
 from benchmarks.trials import canvas, png
 
-from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.settings import USUAL_MODULUS
 from contactbench.pipeline.study.gain_trials import foundation_of
 from contactbench.pipeline.study.report import Cell as Value
 from contactbench.pipeline.study.report import Sheet, short
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from benchmarks.reproduce.dynamic_cells import Cell, Outcome
 
-    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.control.loop import Trace
 
 # (motion, period s) -> degrees; None: the robot could not follow.
 TABLE_1: dict[str, dict[tuple[str, float], float | None]] = {

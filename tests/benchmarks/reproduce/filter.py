@@ -11,7 +11,7 @@ from benchmarks.reproduce.located import OURS
 from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
 from benchmarks.trials import canvas, png, rms
 
-from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.suggest import contact_sensitivity
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError

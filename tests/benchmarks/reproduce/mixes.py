@@ -14,9 +14,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.reality import Reality
 from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load, orientations_in_use
 from contactbench.pipeline.simulation.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, model_of
-from contactbench.pipeline.simulation.reality.bench import RealBench
-from contactbench.pipeline.simulation.reality.presses import VERIFIED_S, planned_poses
-from contactbench.pipeline.simulation.scenes.touch import draw_press
+from contactbench.pipeline.simulation.reality.bench import VERIFIED_S, RealBench, planned_poses
+from contactbench.pipeline.simulation.scenes.indenter import draw_press
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.tilt import Tilt, TiltReading
+from contactbench.pipeline.control.upright import Tilt, TiltReading
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.control.foundation import Foundation
-    from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.settings import ControlSettings, Foundation
 
 _SECONDS = 10.0
 

@@ -23,10 +23,10 @@ from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.probe_draft import DRAFT
+from contactbench.pipeline.workbench.probe import DRAFT
 
 if TYPE_CHECKING:
-    from contactbench.app.bench import Bench
+    from contactbench.app.undo import Bench
     from contactbench.pipeline.session import State
 
 

@@ -8,10 +8,9 @@ from mesh.shell.housings import box
 
 from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.health import edge_table, measure_health
-from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
 from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up, unite
-from contactbench.pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
+from contactbench.pipeline.mesh.shell.tidy import cut_crossings, distinct, holes, open_edges, sew
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
 

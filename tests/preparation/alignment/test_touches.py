@@ -15,9 +15,8 @@ from contactbench.pipeline.preparation.alignment import (
     from_json,
 )
 from contactbench.pipeline.preparation.alignment.rigid import difference
-from contactbench.pipeline.preparation.alignment.touches.fit import fit_mount
+from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel, fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
-from contactbench.pipeline.preparation.alignment.touches.model import MarkerModel
 
 NOISE = WrenchNoise(0.05, 0.002)
 

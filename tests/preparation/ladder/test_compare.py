@@ -14,8 +14,7 @@ from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, LadderError
-from contactbench.pipeline.preparation.ladder.compare import _difference, _growth
-from contactbench.pipeline.preparation.ladder.touches import draw_parts
+from contactbench.pipeline.preparation.ladder.compare import _difference, _growth, draw_parts
 
 SQUARE = ExpectedTouches(friction_angle=(0.0, 0.0), torsion_arm=0.0, count=300)
 

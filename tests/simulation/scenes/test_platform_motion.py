@@ -5,7 +5,7 @@ import pytest
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import PlatformMotion
-from contactbench.pipeline.simulation.scenes.platform_motion import AXES
+from contactbench.pipeline.simulation.scenes.platform import AXES
 
 
 @pytest.mark.parametrize("axis", AXES)

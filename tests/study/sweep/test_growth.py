@@ -15,8 +15,8 @@ from contactbench.pipeline.study.sweep.growth import (
     power,
     settling,
     targets,
+    torque_table,
 )
-from contactbench.pipeline.study.sweep.tables import torque_table
 
 _FACETS = (100, 300, 1_000, 3_000, 20_000)
 

@@ -10,8 +10,8 @@ from terminal import invoke
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.pages import PAGE, gather, make_page
 from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
+from contactbench.pipeline.study.sweep.growth import tables
 from contactbench.pipeline.study.sweep.plan import preset_plan
-from contactbench.pipeline.study.sweep.tables import tables
 
 
 @pytest.fixture

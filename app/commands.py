@@ -63,7 +63,7 @@ def check_screen() -> None:
             )
 
 
-# ---- ``contactbench heatmap view``, beside what :mod:`contactbench.pipeline.commands.heatmap` has ----
+# ---- ``contactbench heatmap view`` ------------------------------------------------------------
 
 
 @heatmap_app.command(example="heatmap view my-session", as_json=False)

@@ -14,8 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from PySide6.QtCore import QCoreApplication, QObject, QtMsgType, Signal, qInstallMessageHandler
 
+from contactbench.app.bench import Weight
 from contactbench.app.settings import own_folder
-from contactbench.app.undo import Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.numbers import translated
 
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import TracebackType
 
+    from contactbench.app.bench import Bench, Notice
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import Bench, Notice
     from contactbench.app.window_docks import Docks
 
 LOG = logging.getLogger("contactbench")
@@ -180,7 +180,7 @@ def _sentence(error: BaseException) -> tuple[str, bool]:
     return f"{type(error).__name__}: {error}", False
 
 
-# ---- what the window tells: into the message list, the log and, for faults, the session's journal ----
+# ---- what the window tells -----------------------------------------------------------------------
 
 
 class MessageRouter(QObject):

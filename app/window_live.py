@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from contactbench.app.undo import Weight
+from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.numbers import filled, translated
 
 if TYPE_CHECKING:
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.widgets.strip_chart import StripChart
 
 _MOST_TOLD = 20

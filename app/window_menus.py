@@ -12,11 +12,11 @@ from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
 import contactbench
+from contactbench.app.bench import Weight
 from contactbench.app.dialogs import CheatSheet, TextDialog
 from contactbench.app.help_book import TUTORIAL, HelpBook
 from contactbench.app.start import session_name
 from contactbench.app.translation import LANGUAGES
-from contactbench.app.undo import Weight
 from contactbench.app.window_docks import first_size
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.numbers import filled

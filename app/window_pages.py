@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels, sentence_label
 from contactbench.widgets.numbers import translated
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.session.why import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile

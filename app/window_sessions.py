@@ -52,10 +52,10 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QMainWindow
 
+    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Jobs
     from contactbench.app.settings import WindowSettings
     from contactbench.app.start import StartPage
-    from contactbench.app.undo import Bench
     from contactbench.app.window import MainWindow
     from contactbench.pipeline.session.remains import WaysIn
     from contactbench.pipeline.workbench.undo_history import UndoHistory
@@ -69,7 +69,7 @@ _NEEDED = (
     "contactbench.pipeline.workbench.live",
     "contactbench.pipeline.session.why",
     "contactbench.app.trouble_watch",
-    "contactbench.app.undo",
+    "contactbench.app.bench",
     *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
@@ -298,7 +298,7 @@ class Sessions(QObject):
         if self._why_read_only:
             ReadOnlyView(bench, self._window, self._why_read_only)
         elif self._history is not None:
-            from contactbench.app.undo import UndoMemory  # brings what results are computed with
+            from contactbench.app.bench import UndoMemory  # brings what results are computed with
 
             UndoMemory(bench, self._history)
 
@@ -430,7 +430,7 @@ class Sessions(QObject):
         return Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation))
 
 
-# ---- A session that is open read-only: the window says so all the time, and locks what would write ----
+# ---- A session that is open read-only ------------------------------------------------------------
 
 
 _ICON_PX = 20

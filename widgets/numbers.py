@@ -92,7 +92,7 @@ class NumberBox(QDoubleSpinBox):
         return text.replace(".", self.locale().decimalPoint())
 
 
-# ---- messages of `pipeline` in the language of the window, with numbers as the reader writes them ----
+# ---- messages of `pipeline` in the language of the window ----------------------------------------
 
 
 CONTEXT = "pipeline"

@@ -298,8 +298,7 @@ def steady_range(
     return middle - half, middle + half
 
 
-# ---- what is written above the lines of a strip chart: names in their colours and strokes, and newest
-# ---- values
+# ---- what is written above the lines of a strip chart --------------------------------------------
 
 
 _POINT_SIZE, _TIGHT_SIZE = 10, 9

@@ -34,8 +34,8 @@ from contactbench.widgets.controls import (
     show_value,
 )
 from contactbench.widgets.numbers import NumberBox, filled, translated
-from contactbench.widgets.range_slider import RangeSlider
 from contactbench.widgets.settings_rows import rows_of
+from contactbench.widgets.time_bar import RangeSlider
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -320,8 +320,7 @@ class HeatmapControls(QWidget):
             self.bar.setAccessibleName(title)
 
 
-# ---- how recordings are read, beside the files that are given, and the part of the viewer's panel that
-# ---- asks
+# ---- how recordings are read, beside the files that are given ------------------------------------
 
 
 _READING_PATIENCE = 600  # ms without a change before recordings are read again

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtGui import QCloseEvent
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.control.frames import Beginning, LoopFrame
     from contactbench.pipeline.mesh import Probe

@@ -20,10 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.page import Page
-from contactbench.app.pages.export_outputs import LiveOutputsPanel
-from contactbench.app.pages.export_payload import PayloadPanel
-from contactbench.app.undo import SetParameters, Weight
+from contactbench.app.bench import Page, SetParameters, Weight
+from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.export_knobs import ExportKnobs
@@ -48,7 +46,7 @@ from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.export import ExportPreview
 
@@ -351,7 +349,7 @@ def _size(count: int) -> str:
     return filled("{:.0f} kB", count / 1e3) if count < 1e6 else filled("{:.1f} MB", count / 1e6)
 
 
-# ---- what goes into a bundle beside calibration and probe: settings ``config.*`` of the session ----
+# ---- what goes into a bundle beside calibration and probe ----------------------------------------
 
 
 _BELOW = {"rate": "smooth", "cutoff": "region_only"}  # boxes to tick, by the number that they stand below

@@ -9,11 +9,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page, Weight
 from contactbench.app.pages.gravity_panel import GravityPanel
 from contactbench.app.pages.gravity_run import GravityRun, Phase
 from contactbench.app.pages.known_check import KnownCheckPanel
-from contactbench.app.undo import Weight
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.model import DOWN_W, STANDARD_GRAVITY
 from contactbench.pipeline.calibration.stillness import StillState
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.gravity import GravityView
     from contactbench.pipeline.workbench.gravity_fit import GravityFinding, PoseRow

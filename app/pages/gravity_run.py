@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from contactbench.app.undo import Exchange, Weight, push_done
+from contactbench.app.bench import Exchange, Weight, push_done
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError, join
 from contactbench.pipeline.steps import Step
@@ -31,7 +31,7 @@ from contactbench.widgets.numbers import translated
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
     from contactbench.pipeline.session import Session

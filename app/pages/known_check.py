@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGroupBox, QLabel, QWidget
 
-from contactbench.app.undo import Weight
+from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known_check import TOUCH, CheckOutcome
 from contactbench.pipeline.workbench.known_checks import (
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from PySide6.QtWidgets import QLayout
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.calibration import GravityModel
 
 _LEVELS = {CheckOutcome.PASSED: GOOD, CheckOutcome.UNDECIDED: USABLE, CheckOutcome.FAILED: REFUSE}

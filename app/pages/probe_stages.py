@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from contactbench.app.bench import SessionCommand, Weight
 from contactbench.app.pages.virtual_mesh import Housing, bench_address, take_housing
-from contactbench.app.undo import SessionCommand, Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.steps import Step
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import Bench
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.ladder import Ladder

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page, SessionCommand, Weight, push_painted
 from contactbench.app.pages.region_tools import (
     BOX,
     BRUSH,
@@ -21,7 +21,6 @@ from contactbench.app.pages.region_tools import (
     RegionsPanel,
     RegionsView,
 )
-from contactbench.app.undo import SessionCommand, Weight, push_painted
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
@@ -37,8 +36,8 @@ from contactbench.widgets.region_brush import STEP, RegionBrush
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from contactbench.app.bench import Bench, PaintRequest
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import Bench, PaintRequest
     from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
@@ -530,8 +529,7 @@ class RegionsPage(Page):
         )
 
 
-# ---- regions are kept in the session by themselves: soon after the last change, and at once when the page
-# ---- goes
+# ---- regions are kept in the session by themselves -----------------------------------------------
 
 
 PAUSE = 1500  # ms after the last change

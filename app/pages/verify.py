@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QTabWidget, QWidget
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page, SetParameters, Weight, push_done
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
 from contactbench.app.pages.verify_touch import TouchPanel, VerifyScene, firm_contact
-from contactbench.app.undo import SetParameters, Weight, push_done
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked
@@ -44,8 +43,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.app.undo import Bench
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.commands import Done
     from contactbench.pipeline.steps import StepStatus

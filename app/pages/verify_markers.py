@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.app.undo import Exchange, Weight
+from contactbench.app.bench import Exchange, Weight
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
@@ -26,7 +26,7 @@ from contactbench.widgets.theme import icon
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.workbench.verify import VerifyWork
     from contactbench.pipeline.workbench.verify_touches import TouchView
     from contactbench.widgets.controls import FoldRow

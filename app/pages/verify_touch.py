@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtWidgets import QInputDialog, QToolButton, QWidget
 
-from contactbench.app.undo import Weight
+from contactbench.app.bench import Weight
 from contactbench.pipeline.colour_ramp import ramp_colours
 from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from contactbench.pipeline.errors import InputError, capitalised
@@ -26,7 +26,7 @@ from contactbench.widgets.theme import icon
 from contactbench.widgets.touch_state import TouchState
 
 if TYPE_CHECKING:
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.regions.region import Region
@@ -311,8 +311,7 @@ def _percent(confidence: float) -> str:
     )
 
 
-# ---- what the Verify page shows in the scene: markers, the contact, where it was touched, and how far
-# ---- that was off
+# ---- what the Verify page shows in the scene -----------------------------------------------------
 
 
 _EVERY_S = 0.5

@@ -9,13 +9,16 @@ import numpy as np
 from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
-from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
 from contactbench.pipeline.calibration.comparison import (
     ONLY_BIAS,
     POSSIBLE,
     Candidate,
+    Cause,
     CauseComparison,
+    causes,
     compare,
+    convention_cause,
+    overruled,
 )
 from contactbench.pipeline.calibration.model import (
     ALL,

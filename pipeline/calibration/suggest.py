@@ -344,7 +344,7 @@ def _how(reachable: Reachable, index: int) -> str:
     return message(f"{arg(join(', ', moves) or message('stay where you are'))} ({arg(stands)})")
 
 
-# ---- what a calibration's uncertainty does to the contact point: the figure by which poses are chosen ----
+# ---- what a calibration's uncertainty does to the contact point ----------------------------------
 
 
 _RINGS = 2  # of tilts beside upright

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.calibrate import Findings
-    from contactbench.pipeline.calibration.causes import Cause
+    from contactbench.pipeline.calibration.comparison import Cause
     from contactbench.pipeline.calibration.model import Fit, PoseNoise, Terms
     from contactbench.pipeline.calibration.poses import PoseSample, Stack
     from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit

@@ -454,8 +454,7 @@ def simplify(file: MeshArgument, out: OutOption, given: SimplifySettings) -> Non
     Distances and angles are measured against the input mesh, both ways.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
-    from contactbench.pipeline.preparation.prepare import simplify_step
-    from contactbench.pipeline.preparation.targets import target_of
+    from contactbench.pipeline.preparation.prepare import simplify_step, target_of
 
     target = target_of(given)
     content = open_mesh(file, given, out)

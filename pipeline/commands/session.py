@@ -297,7 +297,7 @@ def add(
         Name in the session [the file's name].
     """
     from contactbench.pipeline.session.actions import files_of
-    from contactbench.pipeline.session.companions import about_of, companions_of
+    from contactbench.pipeline.session.recompute import about_of, companions_of
 
     beside, about = companions_of(file, companion or []), about_of(file)
     with _writing(folder) as session:

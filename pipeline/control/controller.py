@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.axes import cross, pressing
 from contactbench.pipeline.control.inverse import Admittance, solve_step
 from contactbench.pipeline.control.settings import (
     ControlSettings,
@@ -23,7 +22,7 @@ from contactbench.pipeline.control.settings import (
 from contactbench.pipeline.control.states import ControlCommand, ControlState, Safety, SensorMount
 from contactbench.pipeline.control.stiffness import StiffnessProbe, StiffnessTrack, Swing
 from contactbench.pipeline.control.surface import TissueSurface
-from contactbench.pipeline.control.upright import Tilt, Upright
+from contactbench.pipeline.control.upright import Tilt, Upright, cross, pressing
 from contactbench.pipeline.errors import InputError, arg
 
 if TYPE_CHECKING:

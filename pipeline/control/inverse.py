@@ -117,7 +117,7 @@ def _room(arm: Arm, q: NDArray[np.float64], dq: NDArray[np.float64]) -> tuple[fl
     return least, which
 
 
-# ---- admittance: what is pushed moves as a mass in a thick liquid would (the paper's Eq. 7 and 8) ----
+# ---- admittance ----------------------------------------------------------------------------------
 
 
 class Admittance:

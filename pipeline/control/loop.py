@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.control.axes import cross
 from contactbench.pipeline.control.inverse import CartesianMount
 from contactbench.pipeline.control.states import ControlState
+from contactbench.pipeline.control.upright import cross
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError, arg
 from contactbench.pipeline.simulation.scenes import ArmScene
@@ -226,7 +226,7 @@ def run_loop(
     return loop.trace()
 
 
-# ---- what happened in a closed loop: one row for each period, with the truth beside what was sensed ----
+# ---- what happened in a closed loop --------------------------------------------------------------
 
 
 STATES = tuple(ControlState)

@@ -340,7 +340,7 @@ _MAY_BE_ZERO = {
 }
 
 
-# ---- from a runtime config to what a controller is made of, and its settings as a bundle holds them ----
+# ---- from a runtime config to what a controller is made of ---------------------------------------
 
 
 def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "contactbench") -> SampleIntake:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.axes import cross
 from contactbench.pipeline.control.settings import USUAL_MODULUS
-from contactbench.pipeline.control.upright import Tilt, TiltReading
+from contactbench.pipeline.control.upright import Tilt, TiltReading, cross
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -171,7 +170,7 @@ def _turned(axes: NDArray[np.float64], about_x: float, about_y: float) -> NDArra
     return np.asarray(axes @ np.array([s * about_y, -s * about_x, c]))
 
 
-# ---- where something that moves smoothly will be: position, speed and acceleration from noisy positions ----
+# ---- where something that moves smoothly will be -------------------------------------------------
 
 
 class Follower:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.axes import turn_of
 from contactbench.pipeline.control.inverse import Admittance
 from contactbench.pipeline.control.settings import Variant
 
@@ -91,7 +90,7 @@ class Upright:
         return self._leading
 
 
-# ---- how tissue is tilted against a probe: from where it touches, and from where its force leans ----
+# ---- how tissue is tilted against a probe --------------------------------------------------------
 
 
 LEAN_SIGMA = math.radians(2.0)
@@ -198,3 +197,41 @@ class Tilt:
         self._bb -= kb * hb
         self._bc -= kb * hc
         self._cc -= kc * hc
+
+
+# ---- which error turns which axis ----------------------------------------------------------------
+
+
+def turn_of(offset: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """
+    Return the axis, times the length of the offset, about which a probe must turn to bring the contact back.
+
+    Where the contact lies off its wanted place, the tissue is nearer there: that side must give way. A turn w moves a
+    place e by w x e; with w = n x e that is (n x e) x e = -n |e|² for a tangent e: away from the tissue.
+    A contact off in +x, with n = +z, needs a turn about +y; one off in +y, about -x.
+
+    Parameters
+    ----------
+    offset : (3,)
+        Contact minus wanted contact, m; what is along the normal does not count.
+    normal : (3,)
+        Outward unit normal n of the probe at the wanted contact, same frame.
+
+    Returns
+    -------
+    (3,)
+        n x e, m.
+    """
+    return cross(normal, offset)
+
+
+def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a x b of two (3,); numpy's own takes ten times as long for one pair."""
+    ax, ay, az = a.tolist()
+    bx, by, bz = b.tolist()
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
+
+
+def pressing(force: NDArray[np.float64], normal: NDArray[np.float64]) -> float:
+    """Return how hard the tissue is pressed, N: -n . F of the force F (3,) on the probe; negative if it pulls."""
+    return -float(force @ normal)

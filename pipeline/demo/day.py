@@ -413,8 +413,7 @@ def _most(words: list[str]) -> str:
     return max(dict.fromkeys(words), key=words.count)
 
 
-# ---- what really makes the contacts of a real bench wrong, cause by cause: the truth that a diagnosis is
-# ---- judged by
+# ---- what really makes the contacts of a real bench wrong, cause by cause ------------------------
 
 
 _RATE_HZ = 20.0  # without noise a few readings tell all

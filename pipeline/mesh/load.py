@@ -13,7 +13,6 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg, capitalised, join, message
 from contactbench.pipeline.files import File, as_file
-from contactbench.pipeline.mesh.clean import flip_flat_facets, merge_vertices
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.gltf import read_gltf
 from contactbench.pipeline.mesh.obj import read_obj
@@ -35,6 +34,7 @@ from contactbench.pipeline.mesh.probe import (
 )
 from contactbench.pipeline.mesh.stl import read_stl
 from contactbench.pipeline.mesh.threemf import read_threemf
+from contactbench.pipeline.mesh.triangles import flip_flat_facets, merge_vertices
 
 if TYPE_CHECKING:
     import os

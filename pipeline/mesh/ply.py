@@ -20,22 +20,24 @@ import numpy as np
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
+    NUMBER,
+    RawMesh,
+    broken,
+    decimal_points,
+    plain_text,
+    points,
+    refuse_too_many,
+)
+from contactbench.pipeline.mesh.ply_header import (
     INDICES,
     INTEGERS,
     KINDS,
     LABELS,
-    NUMBER,
     SETTLED,
     STRIPS,
     UNTOUCHABLE,
-    RawMesh,
-    broken,
-    decimal_points,
     ignored,
-    plain_text,
-    points,
     read_header,
-    refuse_too_many,
 )
 from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
 
@@ -44,7 +46,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.parse import Element, PlyHeader, Property
+    from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
 
 
 def read_ply(data: bytes) -> RawMesh:
@@ -125,7 +127,7 @@ def encode_ply(
     return header.encode("ascii") + vertices.astype("<f8").tobytes() + rows.tobytes()
 
 
-# ---- the rows of a PLY file, binary and text: coordinates, triangles, and integers per triangle ----
+# ---- the rows of a PLY file, binary and text -----------------------------------------------------
 
 
 _ONE_NUMBER = re.compile(NUMBER)

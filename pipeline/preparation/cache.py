@@ -226,7 +226,7 @@ def _keep(file: Path, data: bytes) -> None:
         write_durably(file, data)
 
 
-# ---- results of a preparation as bytes and back: a JSON tree of their fields, and the arrays behind it ----
+# ---- results of a preparation as bytes and back --------------------------------------------------
 
 
 _CLASSES: dict[str, type[Any]] = {

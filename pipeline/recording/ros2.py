@@ -324,8 +324,7 @@ def _some(names: set[str]) -> str:
     return join(", ", shown) + (", ..." if len(names) > len(shown) else "")
 
 
-# ---- what is in a ROS 2 bag: its topics, and how its frames hang together; known before anything is
-# ---- imported
+# ---- what is in a ROS 2 bag ----------------------------------------------------------------------
 
 
 _CDR = "cdr"  # how ROS 2 writes messages; those of ROS 1 look alike and are not

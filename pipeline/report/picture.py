@@ -101,7 +101,7 @@ def _short(name: str) -> str:
     return name if len(name) <= 10 else f"{name[:9]}…"
 
 
-# ---- touches as the report shows them: each marker seen from outside, and the error over the probe ----
+# ---- touches as the report shows them ------------------------------------------------------------
 
 
 MOST_SHOWN = 24  # markers; of more, the worst

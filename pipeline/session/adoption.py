@@ -189,7 +189,7 @@ def _remove(file: Path, words: str) -> str:
     return words
 
 
-# ---- A recording made inside a session: on the disk while it happens, in the journal when it ends ----
+# ---- A recording made inside a session -----------------------------------------------------------
 
 
 RECORDING = "recording"

@@ -230,8 +230,7 @@ def write_all(descriptor: int, data: bytes) -> None:
         rest = rest[os.write(descriptor, rest) :]
 
 
-# ---- the journal's bytes: records one after the other, each complete in itself and bound to the one
-# ---- before
+# ---- the journal's bytes -------------------------------------------------------------------------
 
 
 MAGIC = b"\x93CBJ"

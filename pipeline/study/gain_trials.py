@@ -202,8 +202,7 @@ def _draw(rows: Sequence[MarginRow], wanted: WantedMargins) -> bytes:
     return png(figure)
 
 
-# ---- A closed loop on a bundled probe: scene, a sensor that was calibrated on the virtual bench, and the
-# ---- controller
+# ---- A closed loop on a bundled probe ------------------------------------------------------------
 
 
 SceneName = Literal["platform", "arm"]

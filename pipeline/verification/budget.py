@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.calibration.model import prediction_jacobian
-from contactbench.pipeline.calibration.report.budget_table import (
+from contactbench.pipeline.calibration.budget import (
     BudgetRow,
     BudgetSource,
     input_row,
     parameter_rows,
 )
+from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.touch_settings import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.verification.causes import across, sensitivities
 from contactbench.pipeline.verification.model_error import PLACEMENT_M

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
-from contactbench.pipeline.calibration.report.budget_table import BudgetRow, combined_mm
+from contactbench.pipeline.calibration.budget import BudgetRow, combined_mm
 
 SCHEMA, VERSION = "contactbench.verification", 1
 

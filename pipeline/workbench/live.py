@@ -539,8 +539,7 @@ def _rate_of(pair: Pair) -> float:
     return rate or _USUAL_HZ
 
 
-# ---- contacts of the open devices to other programs, while the window is open: what ``contactbench run``
-# ---- does
+# ---- contacts of the open devices to other programs, while the window is open --------------------
 
 
 @dataclass(frozen=True)

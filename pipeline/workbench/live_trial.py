@@ -144,7 +144,7 @@ def _measured(noise: NDArray[np.float64], used: NDArray[np.float64] | None) -> l
     return said
 
 
-# ---- what can be chosen as a sensor and as a source of its orientation, and the addresses that this makes ----
+# ---- what can be chosen as a sensor and as a source of its orientation ---------------------------
 
 
 # Fields of `Devices`, by the settings of a session that they are.

@@ -225,8 +225,7 @@ def apply(
     return lambda session: session.add_result(PROBE, name, files, inputs, parameters)
 
 
-# ---- steps of painting that outlive the window: in a file of the session's folder, bound to the regions
-# ---- they led to
+# ---- steps of painting that outlive the window ---------------------------------------------------
 
 
 REGION_STEPS_FILE = "undo-regions.npz"

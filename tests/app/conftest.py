@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
-from contactbench.app.page import Page
+from contactbench.app.bench import Page
 from contactbench.app.settings import WindowSettings
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.steps import Step

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from contactbench.app.undo import Bench
+from contactbench.app.bench import Bench
 from contactbench.pipeline.steps import StepState, StepStatus
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.widgets.scene import Scene

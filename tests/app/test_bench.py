@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from waiting import until
 
-from contactbench.app.undo import Bench, Weight
+from contactbench.app.bench import Bench, Weight
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.desk import Desk

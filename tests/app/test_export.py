@@ -9,8 +9,8 @@ from PySide6.QtGui import QGuiApplication
 from terminal import invoke
 from workbench.touch_session import STEPWISE
 
+from contactbench.app.bench import Weight
 from contactbench.app.pages.export import ExportPage
-from contactbench.app.undo import Weight
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.control.settings import ControlSettings, controller_of
 from contactbench.pipeline.session import Session

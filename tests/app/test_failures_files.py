@@ -361,7 +361,7 @@ def test_a_recording_is_adopted_after_an_ordinary_day_too(made, tmp_path):
     assert made.alive()
 
 
-# ---- leaving while work goes on: asked, waited for, stopped with all that was done, or not left at all ----
+# ---- leaving while work goes on ------------------------------------------------------------------
 
 
 @pytest.fixture

@@ -212,8 +212,7 @@ def test_everything_in_any_order(qtbot, tmp_path):
             assert slot in session.state.current_results
 
 
-# ---- exceptions where nobody expects one: in a slot, a worker, a stream's thread, a page, a scene; told,
-# ---- and survived
+# ---- exceptions where nobody expects one ---------------------------------------------------------
 
 
 pytestmark = pytest.mark.qt_no_exception_capture

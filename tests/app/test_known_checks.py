@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from workbench.touch_session import STEPWISE, surface
 
+from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity import GravityPage
 from contactbench.app.pages.known_check import PointPanel
-from contactbench.app.undo import Weight
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome

@@ -5,8 +5,8 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from workbench.probe_files import bad_meshes, egg
 
+from contactbench.app.bench import Bench
 from contactbench.app.pages.probe import ProbePage
-from contactbench.app.undo import Bench
 from contactbench.pipeline.mesh.inspect import inspect
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles

@@ -11,8 +11,8 @@ from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 from workbench.region_sessions import CENTRE, RADIUS, folder, made_session  # noqa: F401
 
+from contactbench.app.bench import Bench
 from contactbench.app.pages.regions import RegionsPage
-from contactbench.app.undo import Bench
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.why import RegionsState, regions_state

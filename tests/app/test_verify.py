@@ -8,8 +8,8 @@ import pytest
 from PySide6.QtWidgets import QInputDialog
 from workbench.touch_session import STEPWISE, press
 
+from contactbench.app.bench import Weight
 from contactbench.app.pages.verify import VerifyPage
-from contactbench.app.undo import Weight
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.steps import Step

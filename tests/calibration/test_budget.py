@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 from weighing_files import weighed
 
 from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.budget import BudgetSource as Source
+from contactbench.pipeline.calibration.budget import calibration_budget, combined_mm
 from contactbench.pipeline.calibration.mount import estimate_mount
-from contactbench.pipeline.calibration.report.budget_table import BudgetSource as Source
-from contactbench.pipeline.calibration.report.budget_table import calibration_budget, combined_mm
 
 
 @pytest.fixture(scope="module")

@@ -439,7 +439,7 @@ def test_what_is_not_seen_stays_unknown_without_noise():
         assert off(calibrate(posed(spun(count), noise=EXACT))).max() < 5
 
 
-# ---- poses: what cannot be used is refused by name, what is taken in is a rotation and stays as it is ----
+# ---- poses ---------------------------------------------------------------------------------------
 
 
 ANGLES = st.floats(-10, 10, allow_subnormal=False)

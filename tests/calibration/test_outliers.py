@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration import (
     calibrate,
     nuisance,
 )
-from contactbench.pipeline.calibration.causes import _rezero
+from contactbench.pipeline.calibration.comparison import _rezero
 from contactbench.pipeline.calibration.model import maximise, nothing_beside, two_stage
 from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.poses import stack
@@ -294,8 +294,7 @@ def test_noise_stated_too_small_is_doubted_when_many_are_a_little_off():
     assert doubted >= 5
 
 
-# ---- what explains the poses: causes told from one another on sets drawn by a generator that knows no
-# ---- estimator
+# ---- what explains the poses ---------------------------------------------------------------------
 
 
 SETS = 12

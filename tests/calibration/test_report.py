@@ -24,7 +24,7 @@ from contactbench.pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from contactbench.pipeline.calibration.causes import Cause
+from contactbench.pipeline.calibration.comparison import Cause
 from contactbench.pipeline.calibration.files.calibration_file import SourceFile
 from contactbench.pipeline.calibration.orientation import plain, with_sigma
 from contactbench.pipeline.calibration.report.figures import (

@@ -334,7 +334,7 @@ def test_view_keeps_lengths_across_and_hides_those_along() -> None:
     assert np.allclose(moved, [[10, 0], [0, 10], [0, 0]])
 
 
-# ---- A whole day on a bench that is not ideal: from weighing to running, with the truth beside it ----
+# ---- A whole day on a bench that is not ideal ----------------------------------------------------
 
 
 _FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")

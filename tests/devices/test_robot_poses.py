@@ -174,7 +174,7 @@ def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
     assert line.most == 1
 
 
-# ---- A tracker over OpenIGTLink, emulated on a real socket, and served by an independent program ----
+# ---- A tracker over OpenIGTLink, emulated on a real socket ---------------------------------------
 
 
 R_TB = Rotation.from_rotvec(IgtlModel.rest[3:]).as_matrix()
@@ -290,7 +290,7 @@ def test_a_pose_that_is_none_is_said_and_dropped() -> None:
     assert bodies.troubles() == {}
 
 
-# ---- how devices are started: what they refuse, what they ignore, and what is asked of them before ----
+# ---- how devices are started ---------------------------------------------------------------------
 
 
 def test_an_older_box_is_asked_for_its_rate_in_its_own_words():

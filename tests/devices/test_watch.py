@@ -273,7 +273,7 @@ def test_the_worst_lateness_is_kept_and_the_usual_one_is_small():
     assert usual == pytest.approx(0.0, abs=1e-6)
 
 
-# ---- streams against emulated sensors on real lines: what arrives, what is noticed, and what comes back ----
+# ---- streams against emulated sensors on real lines ----------------------------------------------
 
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]

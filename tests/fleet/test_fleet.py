@@ -22,8 +22,7 @@ from contactbench.pipeline.calibration.files.calibration_file import decode_reco
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.fleet.judge import FEWEST, DueRules, judge
 from contactbench.pipeline.fleet.page import fleet_html
-from contactbench.pipeline.fleet.row import FleetRow
-from contactbench.pipeline.fleet.table import Skipped, schema, table_of
+from contactbench.pipeline.fleet.row import FleetRow, Skipped, schema, table_of
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.archive import export_archive
 

@@ -62,8 +62,7 @@ def test_a_page_shows_what_it_showed(qtbot, pin, tmp_path, monkeypatch, step):
     pin(f"page-{step}", "\n".join(lines).replace(str(tmp_path), "FOLDER") + "\n")
 
 
-# ---- A session and a bundle that an earlier build wrote are read; its results are computed again in
-# ---- test_commands
+# ---- A session and a bundle that an earlier build wrote are read ---------------------------------
 
 
 @pytest.fixture

@@ -336,7 +336,7 @@ def test_there_are_many_of_them():
     assert len(TRIMESH) + len(MESHLAB) + len(BY_HAND) >= 80
 
 
-# ---- two real probes from a public catalogue: hollow at the lens, triangulated by CAD, as they come ----
+# ---- two real probes from a public catalogue -----------------------------------------------------
 
 
 def test_loads_with_one_warning(real_file):

@@ -9,7 +9,7 @@ from contact_cases import ball, bundled
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.simplify import Count, simplify
 from contactbench.pipeline.preparation.ladder import ExpectedTouches
-from contactbench.pipeline.preparation.targets import contact_error_criterion, contact_target
+from contactbench.pipeline.preparation.prepare import contact_error_criterion, contact_target
 
 QUICK = ExpectedTouches(count=500)
 

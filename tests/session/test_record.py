@@ -26,8 +26,7 @@ from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.adoption import LiveRecording
 from contactbench.pipeline.session.archive import export_archive, import_archive
 from contactbench.pipeline.session.check import check, repair
-from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.recompute import newest_inputs
+from contactbench.pipeline.session.recompute import companions_of, newest_inputs
 from contactbench.pipeline.session.state import fold
 
 ROOT = Path(__file__).parents[2]
@@ -257,8 +256,7 @@ def test_a_recording_needs_a_session_that_is_open_for_writing(folder):
     assert list((folder / "raw").iterdir()) == []
 
 
-# ---- results from recordings, probes with companions, and alignments: computed in a session, and once
-# ---- more
+# ---- results from recordings, probes with companions ---------------------------------------------
 
 
 HOLD, MOVE, RATE = 3.0, 1.0, 100

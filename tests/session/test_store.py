@@ -307,7 +307,7 @@ def test_killed_at_ten_moments_nothing_acknowledged_is_lost(tmp_path):
     assert report.acknowledged > 10
 
 
-# ---- folders that somebody else had a hand in: links, pipes, foreign locks, journals made by hand ----
+# ---- folders that somebody else had a hand in ----------------------------------------------------
 
 
 posix = pytest.mark.skipif(os.name == "nt", reason="pipes and links of POSIX")
@@ -453,8 +453,7 @@ def test_names_and_kinds_are_refused_in_words(folder, tmp_path):
         assert str(caught.value).count("check the path") == 0
 
 
-# ---- A session that the version 1 wrote, as it was: checked, packed and unpacked before anything migrates
-# ---- it
+# ---- A session that the version 1 wrote ----------------------------------------------------------
 
 
 ARCHIVE = base64.b64decode(

@@ -62,7 +62,7 @@ def test_what_is_out_of_range_is_refused() -> None:
         reality_costs.run([Reality()], seeds=0)
 
 
-# ---- what the moving scenes leave out: the differences are those that the physics says; no time is judged ----
+# ---- what the moving scenes leave out ------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")

@@ -388,7 +388,7 @@ def test_cancelled_means_nothing_was_recorded(desk):  # noqa: F811
     assert desk.state.count == count
 
 
-# ---- steps of painting outlive the window, byte for byte, and only with the regions that they led to ----
+# ---- steps of painting outlive the window --------------------------------------------------------
 
 
 SHA = "a" * 64

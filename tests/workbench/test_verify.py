@@ -325,7 +325,7 @@ def test_no_check_yet(desk):
     assert KnownChecks(desk, Live()).keep() == ""
 
 
-# ---- the markers of a session: edits give new ones, files and the session keep them to the byte ----
+# ---- the markers of a session --------------------------------------------------------------------
 
 
 FIRST, SECOND = (0.0, 0.0, 0.15), (0.01, 0.0, 0.15)

@@ -13,8 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkPolyDataMapper2D, vtkTexture, vtkTexturedActor2D
 
-from contactbench.widgets.scene.shapes import segments
-from contactbench.widgets.scene.stage import rgb
+from contactbench.widgets.scene.stage import rgb, segments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -172,8 +171,7 @@ def _boxes(word: Word, ratio: float) -> NDArray[np.float64]:
     return np.concatenate([corner, corner + [word.width, word.height]], axis=1)
 
 
-# ---- A word beside a point: drawn by Qt, so that it is crisp and knows every sign, and shown by VTK above
-# ---- all else
+# ---- A word beside a point -----------------------------------------------------------------------
 
 
 _POINTS = 11.0

@@ -10,8 +10,7 @@ import numpy as np
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 from contactbench.widgets.scene.label_board import Label
-from contactbench.widgets.scene.shapes import frame_on, rim
-from contactbench.widgets.scene.stage import Shape
+from contactbench.widgets.scene.stage import Shape, frame_on, rim
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

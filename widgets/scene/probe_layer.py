@@ -12,9 +12,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from contactbench.pipeline.colour_ramp import PLAIN, colour_ramp
 from contactbench.widgets.scene.hatch import crosses
 from contactbench.widgets.scene.mouse import Picker
-from contactbench.widgets.scene.shapes import segments, thinned, triangles
 from contactbench.widgets.scene.smooth import MANY, rounded
-from contactbench.widgets.scene.stage import Shape
+from contactbench.widgets.scene.stage import Shape, segments, thinned, triangles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,7 +11,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from contactbench.widgets.scene.hatch import hatches, narrow_patches
-from contactbench.widgets.scene.shapes import thinned
+from contactbench.widgets.scene.stage import thinned
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -152,7 +152,7 @@ def _angles(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.arctan2(across, np.einsum("mcj,mcj->mc", after, before)))
 
 
-# ---- what the next frames need of a new probe, computed beside the window: it must not stand still for it ----
+# ---- what the next frames need of a new probe, computed beside the window ------------------------
 
 
 MANY = 30_000
@@ -164,7 +164,7 @@ class Prepared:
     """What was computed of a probe."""
 
     probe: Probe
-    # (vertices, faces, kept) or None: See `contactbench.widgets.scene.shapes.thinned`; None: it has few
+    # (vertices, faces, kept) or None: See `contactbench.widgets.scene.stage.thinned`; None: it has few
     # facets
     likeness: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]] | None
     creases: NDArray[np.float64]  # (2 k, 3): Ends of its sharp and open edges that are drawn, S, m

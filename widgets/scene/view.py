@@ -155,8 +155,7 @@ def _files(event: QDropEvent) -> list[Path]:
     return [place for place in places if place.is_file()]
 
 
-# ---- when the scene is drawn: as soon as asked for, but no more often than can be seen, or than can be
-# ---- done
+# ---- when the scene is drawn ---------------------------------------------------------------------
 
 
 _FRAME_MS = 33

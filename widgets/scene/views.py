@@ -201,8 +201,7 @@ class Screen:
         return eye, eye + (look.distance + reach) * into
 
 
-# ---- the scene's camera among what is shown: how it fits it, which depths it covers, what it sees and
-# ---- what is under it
+# ---- the scene's camera among what is shown ------------------------------------------------------
 
 
 _AROUND = 1.25  # room about the probe for the arrow of a force

@@ -23,7 +23,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench import __version__
 from contactbench.pipeline.calibration.calibrate import Calibration, direction
-from contactbench.pipeline.calibration.causes import Cause
+from contactbench.pipeline.calibration.comparison import Cause
 from contactbench.pipeline.calibration.model import PARAMETERS, STANDARD_GRAVITY, GravityModel, PoseNoise
 from contactbench.pipeline.calibration.observability import Observability
 from contactbench.pipeline.calibration.poses import PoseSample

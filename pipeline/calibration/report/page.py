@@ -12,6 +12,11 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench import __version__
+from contactbench.pipeline.calibration.budget import (
+    BudgetSource,
+    budget_table,
+    calibration_budget,
+)
 from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
 from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS, UNKNOWN
 from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
@@ -20,11 +25,6 @@ from contactbench.pipeline.calibration.orientation import plain, signed, with_si
 from contactbench.pipeline.calibration.payload import CAUTIONS
 from contactbench.pipeline.calibration.poses import named
 from contactbench.pipeline.calibration.report.beside import taken_off
-from contactbench.pipeline.calibration.report.budget_table import (
-    BudgetSource,
-    budget_table,
-    calibration_budget,
-)
 from contactbench.pipeline.calibration.suggest import describe
 from contactbench.pipeline.calibration.verdict import FEWEST, Level, Limits, limit
 from contactbench.pipeline.durable import write_file

@@ -268,8 +268,7 @@ def _answer(name: str, values: Sequence[float]) -> bytes:
     return f"{name},OK,{numbers},;".encode("ascii")
 
 
-# ---- which half of an Elfin's position is joints, found out from the arm's kinematics; and the flange
-# ---- from it
+# ---- which half of an Elfin's position is joints, found out from the arm's kinematics ------------
 
 
 _MILLIMETRE = 1e-3

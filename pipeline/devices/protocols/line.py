@@ -496,7 +496,7 @@ def _talk(address: DeviceAddress) -> tuple[bytes, bytes]:
     return start, stop
 
 
-# ---- flange poses from the numbers of a line: a position with an orientation, or the joints of a robot ----
+# ---- flange poses from the numbers of a line -----------------------------------------------------
 
 
 _FARTHEST_M = 1e3

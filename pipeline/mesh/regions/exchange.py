@@ -14,8 +14,7 @@ import numpy as np
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.files import File
-from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
+from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionError, RegionSet
 from contactbench.pipeline.tables import TableReader, Wording, read_table
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionError
 from contactbench.pipeline.mesh.regions.selections import unit, vector
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.region import (
     Region,
+    RegionError,
     RegionSet,
     check_list,
     find_rank,

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array, diags_array
 
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionError
 from contactbench.pipeline.mesh.regions.selections import component_labels
 
 if TYPE_CHECKING:

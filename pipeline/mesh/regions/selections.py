@@ -10,7 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt

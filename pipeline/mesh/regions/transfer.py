@@ -13,8 +13,7 @@ import numpy as np
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.errors import MeshWarning
-from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.regions.region import RegionError, RegionSet
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.exchange import (
     SIZE_LIMIT,
     decode_json,
@@ -22,6 +21,7 @@ from contactbench.pipeline.mesh.regions.exchange import (
     parse_json,
     read_limited,
 )
+from contactbench.pipeline.mesh.regions.region import RegionError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -1,8 +1,7 @@
 """From a hollow, open, doubled mesh to the closed surface that a finger could touch."""
 
-from contactbench.pipeline.mesh.shell.patch import Closing
 from contactbench.pipeline.mesh.shell.result import ClosedOpening, Shell
-from contactbench.pipeline.mesh.shell.rim import Opening
+from contactbench.pipeline.mesh.shell.rim import Closing, Opening
 from contactbench.pipeline.mesh.shell.shell import make_shell
 from contactbench.pipeline.mesh.shell.wrap import ShellFit
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.mesh.shell.patch import Closing
+from contactbench.pipeline.mesh.shell.rim import Closing
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh.probe import Probe

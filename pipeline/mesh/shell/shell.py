@@ -21,7 +21,6 @@ from contactbench.pipeline.mesh.probe import LARGEST_M, Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
-from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
 from contactbench.pipeline.mesh.shell.result import (
     HULL,
     LEAKS,
@@ -32,7 +31,7 @@ from contactbench.pipeline.mesh.shell.result import (
     ClosedOpening,
     Shell,
 )
-from contactbench.pipeline.mesh.shell.rim import Opening, find_lip, find_openings
+from contactbench.pipeline.mesh.shell.rim import Closing, Opening, choose, find_lip, find_openings, make_patch
 from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, look_at, measure_fit, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness

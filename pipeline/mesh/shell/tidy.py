@@ -230,7 +230,7 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
     return best
 
 
-# ---- open edges: seams that were not sewn are sewn, and the holes that remain are walked round ----
+# ---- open edges ----------------------------------------------------------------------------------
 
 
 # Vertices nearer than this share of the size are one.

@@ -179,7 +179,7 @@ def _neighbours(faces: NDArray[np.int32], count: int) -> csr_array:
     return csr_array((np.ones(faces.size), ends), shape=(count, count))
 
 
-# ---- take a wrap's offset off again: lay its vertices on the surface that it was wrapped round ----
+# ---- take a wrap's offset off again --------------------------------------------------------------
 
 
 # A facet that turns further than this, or shrinks more, has folded: its corners stop short.

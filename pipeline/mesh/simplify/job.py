@@ -10,13 +10,12 @@ import numpy as np
 
 from contactbench.pipeline.errors import arg, join, message
 from contactbench.pipeline.kernel import collapse_edges
-from contactbench.pipeline.mesh.clean import merge_vertices
 from contactbench.pipeline.mesh.deviation import doubled_areas
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
-from contactbench.pipeline.mesh.triangles import first_alike
+from contactbench.pipeline.mesh.triangles import first_alike, merge_vertices
 
 if TYPE_CHECKING:
     from collections.abc import Callable

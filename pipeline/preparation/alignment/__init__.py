@@ -2,16 +2,16 @@
 
 from contactbench.pipeline.preparation.alignment.alignment import (
     Alignment,
+    AlignmentError,
     AlignmentMethod,
+    check_transform,
     from_angles,
     from_json,
     from_transform,
 )
 from contactbench.pipeline.preparation.alignment.axes import AxesAlignment, align_axes
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 from contactbench.pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
 from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
-from contactbench.pipeline.preparation.alignment.rigid import check_transform
 from contactbench.pipeline.preparation.alignment.touches import (
     Advice,
     CrossValidation,

@@ -11,9 +11,10 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import (
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    AlignmentMethod,
     across,
     check_numbers,
     make_transform,

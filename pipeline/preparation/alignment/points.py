@@ -8,9 +8,14 @@ import numpy as np
 from scipy.special import chdtrc
 
 from contactbench.pipeline.errors import arg, message
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    AlignmentMethod,
+    apply,
+    check_numbers,
+    make_transform,
+)
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
 if TYPE_CHECKING:
@@ -240,7 +245,7 @@ def _covariance(b: Floats, accuracy: float) -> Floats:
     return covariance
 
 
-# ---- matching points from CSV: a point of the mesh and its place in the sensor frame, a row each ----
+# ---- matching points from CSV --------------------------------------------------------------------
 
 
 COLUMNS = ("px", "py", "pz", "sx", "sy", "sz")

@@ -239,7 +239,7 @@ class _Rows:
             self._contacts.append((share * touch.contact, touch.point, touch.normal))
 
 
-# ---- A real bench in use: the poses that its tool is weighed in, and how its markers are pressed ----
+# ---- A real bench in use -------------------------------------------------------------------------
 
 
 POSES, TILTS = 9, (0.0, 30.0)  # to weigh a tool in; degrees between the force and the inward normal

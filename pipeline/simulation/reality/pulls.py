@@ -190,7 +190,7 @@ def _rest(rng: np.random.Generator) -> Array:
     return np.array([np.sin(tilt) * np.cos(bearing), np.sin(tilt) * np.sin(bearing), np.cos(tilt)])
 
 
-# ---- A soft pad that presses a probe: where its pressure goes, and what that does to the sensor ----
+# ---- A soft pad that presses a probe -------------------------------------------------------------
 
 
 _PLACES = 200

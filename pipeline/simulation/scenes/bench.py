@@ -29,11 +29,12 @@ from contactbench.pipeline.simulation.scenes.physics import (
     Payload,
     PhysicsScene,
     TrueSurface,
+    add_facets,
+    facets_near,
     new_spec,
     physics,
     sensed_body,
 )
-from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

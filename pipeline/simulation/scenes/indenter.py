@@ -22,11 +22,12 @@ from contactbench.pipeline.simulation.scenes.physics import (
     Payload,
     PhysicsScene,
     TrueSurface,
+    add_facets,
+    facets_near,
     new_spec,
     physics,
     sensed_body,
 )
-from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -208,7 +209,7 @@ class Indenter:
         return self._from + share * (self._wanted - self._from)
 
 
-# ---- the smallest scene: a probe on its sensor, held still, and a tip that presses one place of it ----
+# ---- the smallest scene --------------------------------------------------------------------------
 
 
 STEP_S = 0.0005

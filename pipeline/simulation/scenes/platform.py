@@ -378,7 +378,7 @@ class PlatformScene(MovedScene):
         self._push(np.concatenate([asked, self._pulled()]))
 
 
-# ---- how a platform moves what lies on it: one sine along or about each axis, as the paper's Eq. 11 ----
+# ---- how a platform moves what lies on it --------------------------------------------------------
 
 
 _INSTANT_S = 1e-9  # times of a scene are sums of its steps

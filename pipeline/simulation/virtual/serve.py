@@ -144,8 +144,7 @@ class ServedBench:
             return self._kept[max(0, place - 1)]
 
 
-# ---- joint angles with which an arm's flange stands as the bench's wrist does: the last three joints do
-# ---- it alone
+# ---- joint angles with which an arm's flange stands as the bench's wrist does --------------------
 
 
 # The forearm level to the front, to both sides, and rising: what one cannot reach, behind its own wrist or at the end

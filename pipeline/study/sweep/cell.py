@@ -153,7 +153,7 @@ def _both(timing: Timing) -> tuple[float, float]:
     return timing.median, timing.p99
 
 
-# ---- what answers are worth: errors against the truth, as multiples of the noise bound, and reasons ----
+# ---- what answers are worth ----------------------------------------------------------------------
 
 
 _ACCEPTED = (Reason.OK, Reason.VERTEX)

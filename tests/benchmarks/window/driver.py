@@ -21,7 +21,7 @@ from contactbench.widgets.theme import use_theme
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
 
 _POLL_MS = 5
 _PATIENCE_S = 60.0

@@ -17,8 +17,8 @@ from benchmarks.window.driver import rest, until
 from PySide6.QtCore import QEvent, QPointF, QTimer
 
 import contactbench.app.application
+from contactbench.app.bench import SetParameters
 from contactbench.app.settings import WindowSettings
-from contactbench.app.undo import SetParameters
 from contactbench.app.window import MainWindow
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.files import unfinished
@@ -26,7 +26,7 @@ from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.probe import DRAFT
 
 if TYPE_CHECKING:
-    from contactbench.app.undo import Bench
+    from contactbench.app.bench import Bench
     from contactbench.pipeline.session import State
 
 

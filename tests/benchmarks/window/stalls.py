@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from contactbench.app.bench import Bench
     from contactbench.app.pages.probe import ProbePage
-    from contactbench.app.undo import Bench
     from contactbench.app.window import MainWindow
     from contactbench.pipeline.devices.sample import WrenchSample
 

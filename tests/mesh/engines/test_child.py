@@ -359,7 +359,7 @@ def test_crossings_are_cut_in_one_thread_so_that_the_last_bit_is_the_same_each_t
     assert child_module._environment()["IGL_NUM_THREADS"] == "1"
 
 
-# ---- every operation does what it says, and wrong input is refused before it reaches a library ----
+# ---- every operation does what it says -----------------------------------------------------------
 
 
 def _mesh(vertices: np.ndarray, faces: np.ndarray) -> trimesh.Trimesh:

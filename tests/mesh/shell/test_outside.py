@@ -11,8 +11,7 @@ from mesh.shell.housings import box
 from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.health import edge_table, measure_health
-from contactbench.pipeline.mesh.shell.hull import outer_hull
-from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up, unite
+from contactbench.pipeline.mesh.shell.outside import find_outside, outer_hull, sew_up, unite
 from contactbench.pipeline.mesh.shell.result import HULL, Shell
 from contactbench.pipeline.mesh.shell.shell import _tidied
 from contactbench.pipeline.mesh.shell.tidy import (

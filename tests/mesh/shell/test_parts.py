@@ -13,11 +13,13 @@ from contactbench.pipeline import kernel
 from contactbench.pipeline.mesh import MeshError
 from contactbench.pipeline.mesh.shell import wrap
 from contactbench.pipeline.mesh.shell.exposure import exposure
-from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
 from contactbench.pipeline.mesh.shell.rim import (
+    Closing,
     Opening,
+    choose,
     crossings,
     describe,
+    make_patch,
     resample,
     shoelace,
     without_loops,

@@ -19,7 +19,7 @@ from contactbench.pipeline.preparation.alignment import (
     align_touches,
     from_json,
 )
-from contactbench.pipeline.preparation.alignment.rigid import difference
+from contactbench.pipeline.preparation.alignment.alignment import difference
 from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel, fit_mount
 from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
 
@@ -285,7 +285,7 @@ def test_the_same_touches_give_the_same_bytes(bench):
     assert first == second
 
 
-# ---- points known in both frames: the mount, its covariance, and the picks that cannot show it ----
+# ---- points known in both frames -----------------------------------------------------------------
 
 
 SPREAD = np.array([[0, 0, 0], [0.05, 0, 0], [0, 0.02, 0.01], [0.01, 0.0, 0.12]])

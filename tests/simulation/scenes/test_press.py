@@ -183,7 +183,7 @@ def test_every_bundled_probe_can_be_pressed() -> None:
         assert scene.moment().force > 0.5
 
 
-# ---- the wrist: where it is told to be, what the sensor reads there, and what a push does to it ----
+# ---- the wrist -----------------------------------------------------------------------------------
 
 
 _MARKER = np.array([0.02, 0.0, 0.13])

@@ -15,7 +15,7 @@ from waiting import until
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.mesh.save import encode_probe, save_probe
+from contactbench.pipeline.mesh.sidecar import encode_probe, save_probe
 from contactbench.pipeline.study import results
 from contactbench.pipeline.study.pages import origin
 from contactbench.pipeline.study.results import RESULTS, read_results

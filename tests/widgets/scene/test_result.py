@@ -9,7 +9,7 @@ from PySide6.QtGui import QGuiApplication
 from contactbench.pipeline.colour_ramp import colour_ramp
 from contactbench.pipeline.mesh.regions.region import Region
 from contactbench.widgets.scene import TouchErrors
-from contactbench.widgets.scene.error_layer import magnification
+from contactbench.widgets.scene.contact_layer import magnification
 from contactbench.widgets.scene.label_board import BESIDE, Word, label_places
 
 FRONT = np.array([[-0.012, -0.015, 0.015], [0.0, -0.015, 0.03], [0.012, -0.015, 0.045], [0.0, -0.015, 0.05]])

@@ -12,9 +12,12 @@ from scipy.special import chdtrc
 from contactbench.pipeline import contact
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.errors import arg, join, message
-from contactbench.pipeline.preparation.alignment.alignment import Alignment, AlignmentMethod
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import check_transform
+from contactbench.pipeline.preparation.alignment.alignment import (
+    Alignment,
+    AlignmentError,
+    AlignmentMethod,
+    check_transform,
+)
 from contactbench.pipeline.preparation.alignment.touches.fit import (
     MarkerModel,
     MountBelief,

@@ -24,8 +24,13 @@ import numpy as np
 from scipy.special import chdtrc, chdtri
 
 from contactbench.pipeline.errors import arg
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import across, apply, difference, step
+from contactbench.pipeline.preparation.alignment.alignment import (
+    AlignmentError,
+    across,
+    apply,
+    difference,
+    step,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -206,7 +211,7 @@ def _summary(
     )
 
 
-# ---- damped Gauss-Newton on the mount: the steps, the weights that bound a wrong touch, and the belief ----
+# ---- damped Gauss-Newton on the mount ------------------------------------------------------------
 
 
 # Of a scaled unknown: central differences then err by about 1e-10 of the derivative.

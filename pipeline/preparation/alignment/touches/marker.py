@@ -10,8 +10,7 @@ import numpy as np
 from contactbench.pipeline.contact.wrench_csv import CHANNELS
 from contactbench.pipeline.errors import arg, message
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.preparation.alignment.errors import AlignmentError
-from contactbench.pipeline.preparation.alignment.rigid import check_numbers
+from contactbench.pipeline.preparation.alignment.alignment import AlignmentError, check_numbers
 from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
 if TYPE_CHECKING:
@@ -148,8 +147,7 @@ def _unit(values: ArrayLike, names: tuple[str, ...]) -> Floats:
     return unit
 
 
-# ---- touches of marked points from CSV: a marker in the mesh's frame and the wrench felt there, a row
-# ---- each
+# ---- touches of marked points from CSV -----------------------------------------------------------
 
 
 POINT = ("px", "py", "pz")

@@ -1,24 +1,31 @@
-"""What can be undone, as commands of the window's undo stack; also after the session was opened again."""
+"""
+What every page works with: a session, its devices, the scene, long work, and what can be undone.
+
+What can be undone are commands of the window's undo stack; also after the session was opened again.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.undo_history import Deed, PaintedStep, write_history
+from contactbench.widgets.action_bar import ActionBar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.why import SessionTrouble
+    from contactbench.pipeline.steps import StepStatus
     from contactbench.pipeline.workbench.desk import Desk
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.undo_history import UndoHistory
@@ -274,7 +281,7 @@ def _set_all(session: Session, values: Mapping[str, Any]) -> None:
             session.set_parameter(key, value)
 
 
-# ---- what every page works with: a session, its devices, the scene, long work, and what can be undone ----
+# ---- what every page works with ------------------------------------------------------------------
 
 
 _PATIENCE_S = 30.0
@@ -425,3 +432,54 @@ class Bench(QObject):
         """End it all, and wait for it."""
         self.let_go()
         self.end()
+
+
+# ---- what every step's page is -------------------------------------------------------------------
+
+
+class Page(QWidget):
+    """
+    The controls of one step, on the right of the window: what `fill` put there, above what to do next.
+
+    Attributes
+    ----------
+    step : Step
+        Of the class.
+    bar : ActionBar
+        At the foot, at the same place on every page.
+    """
+
+    step: ClassVar[Step]
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.bench = bench
+        self.bar = ActionBar()
+        self._foot = QVBoxLayout(self)
+        self._foot.setContentsMargins(0, 0, 0, 0)
+        self._foot.setSpacing(0)
+        self._foot.addStretch()
+        self._foot.addWidget(self.bar)
+
+    def fill(self, body: QWidget) -> None:
+        """Put what the page is made of above its foot."""
+        self._foot.takeAt(0)
+        self._foot.insertWidget(0, body, 1)
+
+    def enter(self) -> None:
+        """Be shown: set the scene up as this step needs it, and begin to follow what is live."""
+
+    def leave(self) -> None:
+        """Be hidden: end what only this page needs; what runs goes on."""
+
+    def show_state(self, status: StepStatus) -> None:
+        """Show how the step stands; called whenever the session or that changed."""
+
+    def tick(self) -> None:
+        """Show the newest of what is live; called 30 times a second while the page is shown."""
+
+    def watch(self) -> None:
+        """See what goes on, and tell what somebody should know; called twice a second, shown or not."""
+
+    def close_page(self) -> None:
+        """End everything: the session is being closed."""

@@ -1,6 +1,4 @@
-"""An uncertainty budget as the macro ``budget`` of the pages shows it.
-
-An uncertainty budget of a contact point, in the manner of the GUM (JCGM 100:2008, section 5).
+"""An uncertainty budget of a contact point, in the manner of the GUM (JCGM 100:2008, section 5), and as a table.
 
 Every row is one input quantity: its standard uncertainty u(x), how far a contact moves with it, c, and what that comes
 to, c u(x). Inputs that were fitted together are correlated; what their errors share is a row of its own (5.2.2), which

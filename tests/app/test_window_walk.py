@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from benchmarks.window.access_faults import access_faults, pale
-from benchmarks.window.layout_faults import layout_faults
+from benchmarks.window.layout_faults import access_faults, layout_faults, pale
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import (

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from benchmarks.reproduce.tilt_bound import tilt_bound
+from benchmarks.reproduce.mixes import tilt_bound
 
 from contactbench.pipeline.control.settings import USUAL_MODULUS, ControlSettings, Foundation
 from contactbench.pipeline.control.upright import Tilt, TiltReading

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import pytest
-from benchmarks.fault_lines import resting
+from benchmarks.faults import resting
 from devices.test_watch import Heard
 from hypothesis import given, settings
 from hypothesis import strategies as st

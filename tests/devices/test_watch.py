@@ -8,7 +8,7 @@ import time
 from itertools import count
 
 import pytest
-from benchmarks.fault_lines import LINES, cases, expectation, resting
+from benchmarks.faults import LINES, cases, expectation, resting
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier
 from contactbench.pipeline.devices.emulate import emulator, possible_faults

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.ablation import locating, reading
 from benchmarks.ablation.locating import locators, sigmas_of
-from benchmarks.ablation.records import ANYWHERE, ARM, PLATFORM, SCENES, SceneRecord, drawn, record
+from benchmarks.ablation.reading import ANYWHERE, ARM, PLATFORM, SCENES, SceneRecord, drawn, record
 
 from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.control.settings import LEFT

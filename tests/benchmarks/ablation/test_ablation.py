@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from benchmarks.ablation import locating, reading, study
-from benchmarks.ablation.records import SceneRecord, drawn
+from benchmarks.ablation.reading import SceneRecord, drawn
 from benchmarks.ablation.study import FILTERED, compared, effect, run
 
 from contactbench.pipeline.errors import InputError

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from benchmarks.ablation.records import drawn
+from benchmarks.ablation.reading import drawn
 from benchmarks.ablation.smooth import SmoothNormals, vertex_normals
 from benchmarks.plane import FlatFace, _block
 

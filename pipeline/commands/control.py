@@ -131,7 +131,7 @@ def tune(
     """
     import math
 
-    from contactbench.pipeline.control.gains import WantedMargins
+    from contactbench.pipeline.control.margins import WantedMargins
     from contactbench.pipeline.study.gain_trials import run as study
 
     chosen = _variant_of(variant)

@@ -9,12 +9,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.compare import ALL, OURS, compare_methods
+from contactbench.pipeline.demo.compare import (
+    ALL,
+    OURS,
+    compare_methods,
+    draw_points,
+    locate_folder,
+    press_markers,
+)
 from contactbench.pipeline.demo.gravity import calibrate_folder, weigh_by_formula, weigh_on_bench
 from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
 from contactbench.pipeline.demo.picture import LocatedProbe, PictureError, draw
 from contactbench.pipeline.demo.tape import draw_tool, write_csv
-from contactbench.pipeline.demo.touches import draw_points, locate_folder, press_markers
 from contactbench.pipeline.demo.verification import check, clear
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
@@ -31,10 +37,9 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.calibration import Calibration
-    from contactbench.pipeline.demo.compare import MethodErrors
+    from contactbench.pipeline.demo.compare import LocatedTouches, MethodErrors, Pressed
     from contactbench.pipeline.demo.gravity import GravityResult
     from contactbench.pipeline.demo.tape import DemoTool
-    from contactbench.pipeline.demo.touches import LocatedTouches, Pressed
     from contactbench.pipeline.demo.verification import CheckResult
     from contactbench.pipeline.mesh import Probe
 

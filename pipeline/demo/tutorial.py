@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
+from contactbench.pipeline.demo.compare import HELD_S, press_markers, read_wrenches
 from contactbench.pipeline.demo.gravity import weigh_on_bench
 from contactbench.pipeline.demo.housing import housing_of
 from contactbench.pipeline.demo.tape import RATE_HZ, draw_tool, write_csv
-from contactbench.pipeline.demo.touches import HELD_S, press_markers, read_wrenches
 from contactbench.pipeline.demo.verification import marker_set
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError

@@ -1,4 +1,10 @@
-"""What the table has of a session: one declaration of its columns."""
+"""What the table has of a session: one declaration of its columns.
+
+The table of sessions, as Apache Parquet.
+
+Parquet and not a database: the table is made anew from the sessions at each run and is never edited, it is one file
+that pandas, DuckDB and MATLAB read, and pyarrow is what studies keep their results with already.
+"""
 
 from __future__ import annotations
 

@@ -16,6 +16,7 @@ import numpy as np
 from contactbench.pipeline.devices import pose_track
 from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import arg, join, message
+from contactbench.pipeline.recording.contents import Spill, Table
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import (
@@ -28,7 +29,6 @@ from contactbench.pipeline.recording.reader import (
     joined,
     padded,
 )
-from contactbench.pipeline.recording.spill import Spill, Table
 from contactbench.pipeline.tables.shortest import csv_rows
 
 if TYPE_CHECKING:

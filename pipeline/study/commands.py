@@ -309,8 +309,7 @@ def page(studies: list[Path], /, *, out: Path | None = None) -> None:
     out : DIR
         Put the pages here, each under its study's name.
     """
-    from contactbench.pipeline.study.pages import PAGE, gather, make_page
-    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.pages import PAGE, gather, make_page, read_results
     from contactbench.pipeline.study.sweep.growth import targets
     from contactbench.pipeline.study.sweep.run import KIND
 

@@ -13,7 +13,10 @@ import numpy as np
 from contactbench.pipeline.calibration import Calibration, PoseSample, calibrate
 from contactbench.pipeline.calibration.suggest import by_hand, plan_poses
 from contactbench.pipeline.control.controller import Controller
-from contactbench.pipeline.control.gains import (
+from contactbench.pipeline.control.intake import SampleIntake
+from contactbench.pipeline.control.loop import Rig, arm_of, run_loop
+from contactbench.pipeline.control.margins import (
+    AXES,
     MarginRow,
     Tuned,
     WantedMargins,
@@ -22,9 +25,6 @@ from contactbench.pipeline.control.gains import (
     spread_of,
     tune,
 )
-from contactbench.pipeline.control.intake import SampleIntake
-from contactbench.pipeline.control.loop import Rig, arm_of, run_loop
-from contactbench.pipeline.control.margins import AXES
 from contactbench.pipeline.control.settings import USUAL_MODULUS, Foundation, Variant
 from contactbench.pipeline.control.states import ControlState, SensorMount
 from contactbench.pipeline.errors import InputError

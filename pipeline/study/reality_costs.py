@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.study.pages import Results
     from contactbench.pipeline.study.report import Cell
-    from contactbench.pipeline.study.results import Results
 
     Array = NDArray[np.float64]
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.pages import Results
 
 Float = NDArray[np.float64]
 Long = NDArray[np.longdouble]

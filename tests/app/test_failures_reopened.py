@@ -18,7 +18,7 @@ from workbench.touch_session import make_session
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step
-from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.gravity_fit import finish
 from contactbench.widgets.scene.scene import Pick
 from contactbench.widgets.scene.views import SceneLook, turned
 

@@ -16,7 +16,7 @@ from contactbench.app.pages.gravity_run import Phase
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.steps import Step, StepState
-from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.gravity_fit import finish
 from contactbench.pipeline.workbench.undo_history import value_in
 from contactbench.widgets.scene.scene import Pick
 

@@ -7,8 +7,19 @@ import pytest
 
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.config.runtime.settings_file import with_file
-from contactbench.pipeline.control.gains import WantedMargins, rows_of, settings_content, spread_of, tune
-from contactbench.pipeline.control.margins import AXES, LoopModel, loop_of, margins, response, sweep
+from contactbench.pipeline.control.margins import (
+    AXES,
+    LoopModel,
+    WantedMargins,
+    loop_of,
+    margins,
+    response,
+    rows_of,
+    settings_content,
+    spread_of,
+    sweep,
+    tune,
+)
 from contactbench.pipeline.control.settings import (
     USUAL_MODULUS,
     ControlSettings,

@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
-from contactbench.pipeline.demo import bench, body, compare, day, gravity, housing, picture, tape, touches
+from contactbench.pipeline.demo import bench, body, compare, day, gravity, housing, picture, tape
 from contactbench.pipeline.demo.bench import LIMIT
 from contactbench.pipeline.demo.body import PaperView
 from contactbench.pipeline.errors import InputError
@@ -313,7 +313,7 @@ def test_without_pyvista_the_remedy_is_named(monkeypatch: pytest.MonkeyPatch) ->
 def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> None:
     folder = done.out / "t-shape"
     solver = ContactSolver(load_probe(folder / "probe.ply", units="m"))
-    _, wrenches = touches.read_wrenches(folder / "drawn" / "wrenches.csv")
+    _, wrenches = compare.read_wrenches(folder / "drawn" / "wrenches.csv")
     batch = solver.locate_batch(wrenches)
     rows = picture._choose(picture.LocatedProbe("t-shape", batch, batch.points, 1.0))
     view = picture._close("t-shape")
@@ -337,7 +337,7 @@ def test_view_keeps_lengths_across_and_hides_those_along() -> None:
 # ---- A whole day on a bench that is not ideal ----------------------------------------------------
 
 
-_FILES = ("gravity.mcap", "poses.csv", "touches.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")
+_FILES = ("gravity.mcap", "poses.csv", "compare.mcap", "markers.csv", "probe.ply", "run.mcap", "run.csv")
 
 
 @pytest.fixture(autouse=True)

@@ -11,10 +11,11 @@ from contactbench.pipeline.session.journal import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_fit import PoseState, gravity_settings
-from contactbench.pipeline.workbench.gravity_results import (
+from contactbench.pipeline.workbench.gravity_fit import (
+    PoseState,
     change,
     finish,
+    gravity_settings,
     interrupted,
     next_name,
     outcome_of,

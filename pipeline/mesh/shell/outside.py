@@ -1,4 +1,12 @@
-"""The closed outside of a soup of facets, made of its own facets where they are, and of new ones only across holes."""
+"""The closed outside of a soup of facets, made of its own facets where they are, and of new ones only across holes.
+
+The outer hull of a soup of facets: those that border the outside, to the digit.
+
+The facets cut space into cells. Where facets meet at an edge, the side of one and the side of the next round the edge
+border the same cell; sides that hang together like that border one cell, and the cell is the outside when light
+reaches it. A facet with the outside on one side only is part of the hull, whichever way it was turned; inner walls,
+repeats and enclosed parts are not, and neither is a sheet with the outside on both its sides.
+"""
 
 from __future__ import annotations
 

@@ -4,6 +4,10 @@ Mouths of cavities: where a probe's housing lets a line of action in.
 
 A cavity is found by the light that reaches it: on the outside of a body nearly the whole half-space is free,
 in a cavity little of it is, and hardly anything lies between. The border of a dark part is a mouth's rim.
+
+Surfaces across an opening: invented, because the file says nothing about what closes it.
+
+A patch is a height over the plane of the rim, so it never folds.
 """
 
 from __future__ import annotations

@@ -7,10 +7,9 @@ from contactbench.pipeline.preparation.ladder.compare import (
     PartErrors,
 )
 from contactbench.pipeline.preparation.ladder.errors import LadderError
-from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
+from contactbench.pipeline.preparation.ladder.ladder import Goal, Ladder, Recommendation, Rung, recommend
 from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
 from contactbench.pipeline.preparation.ladder.picture import save_ladder
-from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation, recommend
 
 __all__ = [
     "DEFAULT_FACETS",

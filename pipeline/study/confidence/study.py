@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from contactbench.pipeline.study.confidence.cases import Bools, Float
-    from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.pages import Results
 
 
 KIND = "confidence"

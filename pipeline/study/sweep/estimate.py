@@ -9,7 +9,7 @@ from itertools import groupby
 from time import process_time
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from contactbench.pipeline.study.results import cores
+from contactbench.pipeline.study.pages import cores
 from contactbench.pipeline.study.sweep import cell as cells_module
 from contactbench.pipeline.study.sweep.run import distinct, tasks_of
 

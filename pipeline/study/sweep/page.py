@@ -12,7 +12,7 @@ from contactbench.pipeline.study.sweep.run import faults_of
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.pages import Results
 
 _SAID = {
     "speed-error.png": "Speed against error: mean of all answers against the median time from Python, for every method"

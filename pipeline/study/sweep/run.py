@@ -13,7 +13,7 @@ from uuid import uuid4
 
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.results import PASSING, cores, environment, write_results
+from contactbench.pipeline.study.pages import PASSING, cores, environment, write_results
 from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
 from contactbench.pipeline.study.sweep.plan import file_facets, identity, label, mesh_of
 

@@ -14,9 +14,8 @@ from contactbench.assets import PROBE_NAMES
 from contactbench.pipeline.control.settings import LEFT
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.marker_touches import check_bundled
-from contactbench.pipeline.study.pages import origin
+from contactbench.pipeline.study.pages import environment, origin
 from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
-from contactbench.pipeline.study.results import environment
 from contactbench.pipeline.study.sweep.plan import FILTERS
 
 if TYPE_CHECKING:

@@ -8,8 +8,15 @@ import pytest
 from terminal import invoke
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.pages import PAGE, gather, make_page
-from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
+from contactbench.pipeline.study.pages import (
+    PAGE,
+    RESULTS,
+    environment,
+    gather,
+    make_page,
+    read_results,
+    write_results,
+)
 from contactbench.pipeline.study.sweep.growth import tables
 from contactbench.pipeline.study.sweep.plan import preset_plan
 

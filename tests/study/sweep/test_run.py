@@ -16,9 +16,8 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import encode_probe, save_probe
-from contactbench.pipeline.study import results
-from contactbench.pipeline.study.pages import origin
-from contactbench.pipeline.study.results import RESULTS, read_results
+from contactbench.pipeline.study import pages as stored
+from contactbench.pipeline.study.pages import RESULTS, origin, read_results
 from contactbench.pipeline.study.sweep.cell import TIMES
 from contactbench.pipeline.study.sweep.plan import SweepPlan, label, preset_plan
 from contactbench.pipeline.study.sweep.run import DONE, Store, run, tasks_of
@@ -169,7 +168,7 @@ def test_parts_make_the_whole_to_the_bit(tmp_path, alone):
 
 def test_each_machine_is_told_with_its_own_environment(tmp_path, monkeypatch):
     for number, name in enumerate(("one", "one", "other"), 1):
-        monkeypatch.setattr(results, "processor", lambda name=name: name)
+        monkeypatch.setattr(stored, "processor", lambda name=name: name)
         run(_TINY, tmp_path, workers=1, part=(number, 3))
     found = read_results(tmp_path).environment
     told = {each["processor"]: each["cells"] for each in found["machines"]}

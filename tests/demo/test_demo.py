@@ -13,13 +13,16 @@ from typer.testing import CliRunner
 from weighing_files import columns
 
 from contactbench.pipeline import cli, demo
+from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.config.runtime import RuntimeConfig
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
 from contactbench.pipeline.demo import bench, body, compare, day, gravity, housing, picture, tape
 from contactbench.pipeline.demo.bench import LIMIT
 from contactbench.pipeline.demo.body import PaperView
+from contactbench.pipeline.demo.tutorial import write_tutorial
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError
@@ -399,3 +402,43 @@ def test_what_makes_no_day_is_refused(tmp_path: Path) -> None:
         assert invoke(*words, "--out", tmp_path).exit_code == 2
     with pytest.raises(InputError, match="no probe 'round'"):
         day.run_days(tmp_path, [Reality()], ["round"])
+
+
+# ---- sample data that a tutorial is followed with ------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
+    return write_tutorial(tmp_path_factory.mktemp("data") / "sample", seed=2)
+
+
+def test_every_file_is_there_and_the_readme_names_it(data):
+    said = (data.folder / "README.md").read_text("utf-8")
+    assert sorted(file.name for file in data.folder.iterdir()) == sorted([*data.files, "README.md"])
+    assert all(f"`{name}`" in said for name in data.files)
+    assert f"--place {data.place} " in said
+
+
+def test_calibrating_finds_the_truth_and_the_pose_that_was_bumped(data):
+    truth = json.loads((data.folder / "truth.json").read_text("utf-8"))
+    found = calibrate(read_poses(data.folder / "poses.csv").poses)
+    assert [rejection.name for rejection in found.rejected] == truth["bumped_poses"]
+    assert abs(found.mass - truth["mass_kg"]) < 4 * found.model.mass_sigma
+    assert np.linalg.norm(found.model.force_bias - truth["force_bias_N"]) < 0.1
+
+
+def test_the_same_seed_gives_the_same_bytes(data, tmp_path):
+    again = write_tutorial(tmp_path / "again", seed=2)
+    for name in data.files:
+        assert (again.folder / name).read_bytes() == (data.folder / name).read_bytes(), name
+
+
+def test_a_folder_that_is_not_empty_stays_as_it_is(tmp_path):
+    (tmp_path / "mine.txt").write_text("keep")
+    with pytest.raises(InputError, match="the folder is not empty: name a new one, or empty it"):
+        write_tutorial(tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["mine.txt"]
+    with pytest.raises(InputError, match="--seed -1: give a number of 0 or more"):
+        write_tutorial(tmp_path / "new", seed=-1)
+    assert not (tmp_path / "new").exists()

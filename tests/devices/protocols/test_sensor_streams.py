@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from contactbench.pipeline.devices.protocols import ProtocolError, SensorParser
 from contactbench.pipeline.devices.protocols.bota import BotaParser
-from contactbench.pipeline.devices.protocols.checksums import crc16_x25, sum8
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 from contactbench.pipeline.devices.protocols.kunwei import KunweiParser
 from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, ONROBOT_SCALE, CountScale, RdtParser
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
@@ -371,3 +371,32 @@ def test_robotous_synthetic() -> None:
     assert only(RobotousParser(), overloaded).status is Status.OVERRANGE
     thousand = only(RobotousParser(50.0, 1000.0), overloaded)
     assert thousand.torque == (0.2, -0.4, 0.1)
+
+
+# ---- checksums against their published check values, and against bit-by-bit references -----------
+
+
+_CHECK = b"123456789"
+
+
+def reflected_crc(data: bytes, polynomial: int, start: int) -> int:
+    crc = start
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (polynomial if crc & 1 else 0)
+    return crc
+
+
+def test_published_check_values() -> None:
+    assert crc16_x25(_CHECK) == 0x906E
+    assert crc16_modbus(_CHECK) == 0x4B37
+    assert zlib.crc32(_CHECK) == 0xCBF43926
+    assert sum8(_CHECK) == 0xDD
+
+
+@given(st.binary(max_size=64))
+def test_tables_agree_with_bit_by_bit_division(data: bytes) -> None:
+    assert crc16_x25(data) == reflected_crc(data, 0x8408, 0xFFFF) ^ 0xFFFF
+    assert crc16_modbus(data) == reflected_crc(data, 0xA001, 0xFFFF)
+    assert sum8(data) == sum(data) % 256

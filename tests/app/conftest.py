@@ -1,7 +1,5 @@
 """Windows for tests: with settings, logs and sessions of their own, and closed at the end."""
 
-from __future__ import annotations
-
 import gc
 
 import pytest

@@ -1,7 +1,5 @@
 """Files that are bad and disks that are full: said in words, and nothing that was there is lost."""
 
-from __future__ import annotations
-
 import errno
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Opened again, also after a kill: the window is where it was, and what was done can be undone."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

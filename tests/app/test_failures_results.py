@@ -1,7 +1,5 @@
 """Results that are refused, failed or stale, and everything undone: said in words, and nothing that held is lost."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import threading

@@ -1,7 +1,5 @@
 """One truth: whatever is wrong is said by the step, by its page and by the export, at once and in the same words."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The Regions page in a real window: painting, tools, undo, what is kept, and each of its states."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 

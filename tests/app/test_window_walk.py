@@ -1,7 +1,5 @@
 """Every page of the real window, in both languages, at four sizes and two scales: nothing is cut, covered or moved."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

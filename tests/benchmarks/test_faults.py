@@ -1,7 +1,5 @@
 """Short version of the study of faults on live lines."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

@@ -1,7 +1,5 @@
 """Sensors read while they stream, and the same bytes from memory."""
 
-from __future__ import annotations
-
 import json
 import os
 import struct

@@ -1,7 +1,5 @@
 """The report: what stands in it, that it needs nothing beside itself, and that it is the same every time."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re

@@ -1,7 +1,5 @@
 """The ``probe`` commands, as a technician types them."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

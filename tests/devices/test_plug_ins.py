@@ -1,7 +1,5 @@
 """Drivers that come with an installed package: a folder with the metadata of one on the path of modules."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import sys

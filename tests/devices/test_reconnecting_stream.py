@@ -1,7 +1,5 @@
 """A stream on a line that the test writes: what is told, and when."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import time

@@ -1,7 +1,5 @@
 """The suspicion of a re-zero, from made-up readings."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

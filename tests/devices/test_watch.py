@@ -1,7 +1,5 @@
 """Every fault, in made-up time: frames of the emulated devices through the parsers to what is found."""
 
-from __future__ import annotations
-
 import dataclasses
 import threading
 import time

@@ -1,7 +1,5 @@
 """What the six pages show of a session: every widget's class, name, text and whether it can be used."""
 
-from __future__ import annotations
-
 import zipfile
 
 import pytest

@@ -1,7 +1,5 @@
 """Any arm from a file: the same flange as MuJoCo's own, limits, names, and files that are no arm."""
 
-from __future__ import annotations
-
 import os
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What `repair` makes of recordings that ended abruptly: nothing that may hold samples is ever deleted."""
 
-from __future__ import annotations
-
 import json
 import os
 import threading

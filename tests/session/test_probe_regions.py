@@ -1,7 +1,5 @@
 """Regions as an input of a probe: painted on its outer surface, and still there whatever changes."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Damage anywhere in a session: what is whole is kept, what rests on the rest is stale, and the original stays."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import random

@@ -1,7 +1,5 @@
 """Sessions on disk: adding, reopening, two writers, versions, repair."""
 
-from __future__ import annotations
-
 import base64
 import errno
 import hashlib

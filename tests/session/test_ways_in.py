@@ -1,7 +1,5 @@
 """What each way into a damaged session costs; and going on from where it is still whole."""
 
-from __future__ import annotations
-
 import pytest
 
 from contactbench.pipeline.session import Session, SessionError

@@ -1,7 +1,5 @@
 """Numbers and dates as the reader writes them; what is typed with a point is no other number."""
 
-from __future__ import annotations
-
 import re
 from datetime import datetime
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Samples of the virtual bench in still poses, without waiting for them."""
 
-from __future__ import annotations
-
 import time
 from functools import cache
 

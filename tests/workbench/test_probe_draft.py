@@ -1,7 +1,5 @@
 """What is in preparation is in the session at every stage, and nothing that is in use hears of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """The way from a mesh file to a probe, without a window."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What an ATI sensor's page tells, and pages that tell nothing."""
 
-from __future__ import annotations
-
 import threading
 from contextlib import contextmanager
 from dataclasses import replace

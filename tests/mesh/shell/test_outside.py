@@ -1,7 +1,5 @@
 """The outer hull of a soup of facets, cut where they cross and closed where they leave holes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

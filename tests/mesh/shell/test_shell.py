@@ -1,7 +1,5 @@
 """From a hollow, open, doubled mesh to its outside."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from contact_cases import bundled

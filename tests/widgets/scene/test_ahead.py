@@ -1,7 +1,5 @@
 """What is computed of a probe beside the window."""
 
-from __future__ import annotations
-
 import threading
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a verification found is seen: how far touches were off, whose, and nothing covers anything."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from PySide6.QtGui import QGuiApplication

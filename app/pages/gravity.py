@@ -19,7 +19,7 @@ from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT, PoseState
-from contactbench.pipeline.workbench.known_checks import StillReading
+from contactbench.pipeline.workbench.verify import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label, show_quietly
 from contactbench.widgets.numbers import NumberBox, translated
 from contactbench.widgets.verdict_box import LOCKED, REFUSE

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QGroupBox, QLabel, QWidget
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known_check import TOUCH, CheckOutcome
-from contactbench.pipeline.workbench.known_checks import (
+from contactbench.pipeline.workbench.verify import (
     KnownChecks,
     KnownOutcome,
     PressReading,

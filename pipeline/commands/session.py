@@ -197,7 +197,7 @@ def salvage(folder: FolderArgument, /, out: Path | None = None) -> None:
     out : NEW
         Folder to create [DIR-salvaged, beside DIR].
     """
-    from contactbench.pipeline.session.salvage import salvage as run
+    from contactbench.pipeline.session.check import salvage as run
 
     with Bar("copying files", counted=True) as bar:
         done = run(folder, out, bar)

@@ -9,7 +9,7 @@ from contactbench.pipeline.recording.reader import (
     WrenchTrack,
     read_recording,
 )
-from contactbench.pipeline.recording.writer import RecordingWriter
+from contactbench.pipeline.recording.recorder import RecordingWriter
 
 __all__ = [
     "DeviceInfo",

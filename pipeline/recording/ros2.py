@@ -10,6 +10,7 @@ from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 from contactbench.pipeline.errors import InputError, arg, join, message
 from contactbench.pipeline.recording.errors import RecordingError, SampleError
 from contactbench.pipeline.recording.messages import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.recording.recorder import RecordingWriter
 from contactbench.pipeline.recording.ros2_poses import (
     JOINT_STATE,
     POSE_STAMPED,
@@ -22,7 +23,6 @@ from contactbench.pipeline.recording.ros2_poses import (
     pose,
 )
 from contactbench.pipeline.recording.stream import McapMessage, McapStream
-from contactbench.pipeline.recording.writer import RecordingWriter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -279,7 +279,7 @@ def run(study: Path | None = None, /, *, settings: SweepSettings) -> None:
 
 
 def _estimate(plan: SweepPlan, workers: int | None) -> None:
-    from contactbench.pipeline.study.sweep.estimate import estimate
+    from contactbench.pipeline.study.sweep.run import estimate
 
     with Bar("measuring", counted=True) as bar:
         found = estimate(plan, workers=workers, progress=bar)

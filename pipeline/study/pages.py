@@ -1,7 +1,7 @@
 """
 The results pages: one for each study, made from the study's Parquet file alone.
 
-A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.results`). Its module in `CHAPTERS` has
+A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.pages`). Its module in `CHAPTERS` has
 ``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them by
 their bare file names and begins with a heading of the second level. Here they become pages of the documentation, one
 for each study.
@@ -197,7 +197,7 @@ def publish(folder: Path, kind: str, command: str, rows: Sequence[Mapping[str, A
     command : str
         What repeats it, as it is typed.
     rows : sequence of mapping
-        See `contactbench.pipeline.study.results.Results`.
+        See `contactbench.pipeline.study.pages.Results`.
 
     Raises
     ------
@@ -258,7 +258,7 @@ def origin(facts: Mapping[str, Any], command: str) -> str:
     Parameters
     ----------
     facts : mapping
-        Of `contactbench.pipeline.study.results.environment`.
+        Of `contactbench.pipeline.study.pages.environment`.
     command : str
         As it is typed.
     """

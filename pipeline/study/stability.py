@@ -367,7 +367,7 @@ def touch(
     Parameters
     ----------
     angle, arm
-        As for :func:`contactbench.pipeline.study.solid.press`.
+        As for :func:`contactbench.pipeline.study.stability.press`.
     shares : (count, 3), optional
         Areal coordinates of the points; by default random ones of at least 0.1.
     among : (k,) of facets, optional

@@ -12,8 +12,7 @@ from contactbench.app.pages.known_check import PointPanel
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
-from contactbench.pipeline.workbench.known_checks import FILES
-from contactbench.pipeline.workbench.verify import tool_of
+from contactbench.pipeline.workbench.verify import FILES, tool_of
 
 from .page_window import PageWindow
 

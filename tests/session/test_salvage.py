@@ -18,9 +18,8 @@ from contactbench.pipeline.session import (
 from contactbench.pipeline.session import lock as locks
 from contactbench.pipeline.session.actions import VERSION
 from contactbench.pipeline.session.archive import export_archive
-from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.check import check, repair, salvage
 from contactbench.pipeline.session.remains import remains_of
-from contactbench.pipeline.session.salvage import salvage
 
 POSES, CALIBRATION, MESH, PROBE, NOTE = range(1, 6)  # places in the journal, from 0
 
@@ -394,7 +393,7 @@ def test_a_disk_that_fills_leaves_nothing(folder, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("contactbench.pipeline.session.salvage.write_file", full)
+    monkeypatch.setattr("contactbench.pipeline.session.check.write_file", full)
     with pytest.raises(SessionError, match="No space left"):
         salvage(folder, tmp_path / "n")
     assert [each.name for each in tmp_path.iterdir()] == ["s"]

@@ -3,9 +3,8 @@
 import pytest
 
 from contactbench.pipeline.session import Session, SessionError
-from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.check import check, repair, salvage
 from contactbench.pipeline.session.remains import ways_in
-from contactbench.pipeline.session.salvage import salvage
 
 
 @pytest.fixture

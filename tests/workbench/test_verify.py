@@ -14,16 +14,19 @@ from contactbench.pipeline.session.why import why_locked
 from contactbench.pipeline.verification import MarkerError, load_markers
 from contactbench.pipeline.verification.known_check import TOUCH, WEIGHT, CheckOutcome
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.known_checks import (
+from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, kept, on_surface, spread
+from contactbench.pipeline.workbench.verify import (
     FILES,
     KnownChecks,
     PressReading,
     StillReading,
+    VerifyWork,
     known_outcome,
+    outcome_of,
+    tool_key,
+    tool_of,
 )
-from contactbench.pipeline.workbench.live import Live
-from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, kept, on_surface, spread
-from contactbench.pipeline.workbench.verify import VerifyWork, outcome_of, tool_key, tool_of
 
 
 class Work:

@@ -20,8 +20,7 @@ from contactbench.widgets.scene.pose_layer import PoseLayer
 from contactbench.widgets.scene.probe_layer import ProbeLayer, limits_of
 from contactbench.widgets.scene.smooth import Ahead
 from contactbench.widgets.scene.stage import SceneStage, homogeneous, rgb
-from contactbench.widgets.scene.still import StillPicture
-from contactbench.widgets.scene.view import FramePacer, SceneView
+from contactbench.widgets.scene.view import FramePacer, SceneView, StillPicture
 from contactbench.widgets.scene.views import VIEWS, Eye, SceneLook, Screen
 from contactbench.widgets.theme import colours as theme_colours
 from contactbench.widgets.theme import is_dark

@@ -20,7 +20,7 @@ from contactbench.pipeline.preparation.alignment.touches import (
     TouchAlignment,
     align_touches,
 )
-from contactbench.pipeline.preparation.alignment.touches.marker import TouchFileError, read_touches
+from contactbench.pipeline.preparation.alignment.touches.fit import TouchFileError, read_touches
 
 __all__ = [
     "Advice",

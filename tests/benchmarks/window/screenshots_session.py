@@ -16,14 +16,19 @@ from contactbench.pipeline.workbench import gravity_fit
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.gravity import GravityWork
 from contactbench.pipeline.workbench.gravity_fit import gravity_settings
-from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
 from contactbench.pipeline.workbench.probe import ProbePlan, ProbeWork, commit
 from contactbench.pipeline.workbench.regions_session import apply, open_work
 from contactbench.pipeline.workbench.regions_session import keep as keep_regions
 from contactbench.pipeline.workbench.tape import SessionTape
-from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
+from contactbench.pipeline.workbench.verify import (
+    KnownChecks,
+    PressReading,
+    StillReading,
+    VerifyWork,
+    tool_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable

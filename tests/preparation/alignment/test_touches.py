@@ -20,8 +20,7 @@ from contactbench.pipeline.preparation.alignment import (
     from_json,
 )
 from contactbench.pipeline.preparation.alignment.alignment import difference
-from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel, fit_mount
-from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
+from contactbench.pipeline.preparation.alignment.touches.fit import MarkerModel, fit_mount, put_on_mesh
 
 NOISE = WrenchNoise(0.05, 0.002)
 

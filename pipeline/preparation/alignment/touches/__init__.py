@@ -6,7 +6,6 @@ from contactbench.pipeline.preparation.alignment.touches.align import (
     TouchAlignment,
     align_touches,
 )
-from contactbench.pipeline.preparation.alignment.touches.fit import MountBelief
-from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches
+from contactbench.pipeline.preparation.alignment.touches.fit import MarkerTouches, MountBelief
 
 __all__ = ["Advice", "CrossValidation", "MarkerTouches", "MountBelief", "TouchAlignment", "align_touches"]

@@ -20,11 +20,12 @@ from contactbench.pipeline.preparation.alignment.alignment import (
 )
 from contactbench.pipeline.preparation.alignment.touches.fit import (
     MarkerModel,
+    MarkerTouches,
     MountBelief,
     MountFit,
     fit_mount,
+    put_on_mesh,
 )
-from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

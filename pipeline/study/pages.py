@@ -1,7 +1,7 @@
 """
 The results pages: one for each study, made from the study's Parquet file alone.
 
-A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.pages`). Its module in `CHAPTERS` has
+A study is a folder with ``results.parquet`` (see `Results`). Its module in `CHAPTERS` has
 ``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them by
 their bare file names and begins with a heading of the second level. Here they become pages of the documentation, one
 for each study.

@@ -9,9 +9,8 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
 
-from contactbench.pipeline.devices.driver import (
-    AddressError,
-    Carrier,
+from contactbench.pipeline.devices.driver import AddressError, Carrier
+from contactbench.pipeline.devices.options import (
     name,
     number,
     numbers,

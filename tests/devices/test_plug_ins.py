@@ -22,10 +22,10 @@ MODULE = """
 import struct
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
-from contactbench.pipeline.devices.driver import Option, number
+from contactbench.pipeline.devices.options import Option, number
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
 from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
-from contactbench.pipeline.devices.protocols.parser import FrameScanner
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
 
 FRAME = struct.Struct(">2s6hB")
@@ -80,7 +80,7 @@ class Nothing:
     pass
 
 
-from contactbench.pipeline.devices.driver import Option
+from contactbench.pipeline.devices.options import Option
 from tiny_driver import TinyDriver
 
 

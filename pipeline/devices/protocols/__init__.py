@@ -5,12 +5,7 @@ One module per protocol. Each sensor module has a parser (`SensorParser`), `star
 stores a setting or moves a robot.
 """
 
-from contactbench.pipeline.devices.protocols.parser import (
-    Command,
-    Counters,
-    ProtocolError,
-    SensorParser,
-    highest_rate,
-)
+from contactbench.pipeline.devices.protocols.commands import Command, highest_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, SensorParser
 
 __all__ = ["Command", "Counters", "ProtocolError", "SensorParser", "highest_rate"]

@@ -19,18 +19,16 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
+from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
-    Command,
     FrameParser,
-    FrameScanner,
     ProtocolError,
     SensorDriver,
-    check_line,
-    check_rate,
     finite_status,
 )
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import DeviceClock
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import arg

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.driver import Carrier, Driver, Option, Way
-from contactbench.pipeline.devices.driver import name as read_name
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.options import Option
+from contactbench.pipeline.devices.options import name as read_name
 from contactbench.pipeline.devices.protocols import igtl
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model
 from contactbench.pipeline.devices.protocols.igtl import IgtlError, MessageReader

@@ -16,15 +16,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import Fault
+from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
-from contactbench.pipeline.devices.protocols.parser import (
-    Command,
-    FrameParser,
-    FrameScanner,
-    SensorDriver,
-    check_line,
-    check_rate,
-)
+from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES
 from contactbench.pipeline.devices.sample import WrenchSample
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic
 
 from contactbench.pipeline.devices.driver import AddressError, Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import SYNTHETIC, Fault
+from contactbench.pipeline.devices.protocols.commands import Command
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.line_layout import (
@@ -33,7 +34,6 @@ from contactbench.pipeline.devices.protocols.line_layout import (
 )
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
-    Command,
     Counters,
     Parser,
     Sample,

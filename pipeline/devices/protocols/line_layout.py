@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.driver import Option, choice, name, whole
+from contactbench.pipeline.devices.options import Option, choice, name, whole
 from contactbench.pipeline.devices.protocols.units import (
     ANGLES,
     FORCES,

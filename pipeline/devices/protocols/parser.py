@@ -8,93 +8,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.errors import InputError, arg
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from contactbench.pipeline.devices.protocols.commands import Command
+    from contactbench.pipeline.devices.protocols.scanner import FrameScanner
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-
-# A start bit, eight data bits and a stop bit (8N1).
-_BITS_PER_BYTE = 10
-
-
-@dataclass(frozen=True, slots=True)
-class Command:
-    """One command to a device."""
-
-    data: bytes  # what to write
-    # what the device's answer contains when it agrees; None where no answer comes, or none is known
-    reply: bytes | None = None
-    # seconds that must pass before the next command; what comes meanwhile belongs to the time before
-    settle: float = 0.0
-    refusal: bytes | None = None  # what the device's answer, a line of text, contains when it does not agree
-    instead: Command | None = None  # what to send when it does not agree
-
-    def answered(self, heard: bytes) -> bool | None:
-        """Tell from all that came since whether the device agreed; None: it has not said yet."""
-        if self.reply is None:
-            return True
-        start = heard.find(self.reply)
-        if self.refusal is None:
-            return True if start >= 0 else None
-        refused = heard.find(self.refusal)
-        if refused >= 0:
-            return False
-        # The refusal may be the end of a line that begins like agreement.
-        return True if start >= 0 and b"\n" in heard[start:] else None
-
-
-def highest_rate(baud: int, frame_bytes: int) -> float:
-    """
-    Return the frames per second that a serial line (8N1) can carry.
-
-    Parameters
-    ----------
-    baud : int
-        Bits per second.
-    frame_bytes : int
-        Length of a frame.
-    """
-    return baud / _BITS_PER_BYTE / frame_bytes
-
-
-def check_rate(device: str, rate_hz: float, low: float, high: float) -> float:
-    """
-    Return a sample rate that the device has.
-
-    Raises
-    ------
-    ProtocolError
-        It is not finite or outside low .. high, Hz.
-    """
-    if not (math.isfinite(rate_hz) and low <= rate_hz <= high):
-        raise ProtocolError(
-            f"{arg(device)}: the rate must be between {arg(low):g} and {arg(high):g} Hz, not {arg(rate_hz):g}."
-        )
-    return rate_hz
-
-
-def check_line(device: str, rate_hz: float, baud: int | None, frame_bytes: int) -> None:
-    """
-    Refuse a rate that the serial line cannot carry; `baud` None means that there is no serial line.
-
-    Raises
-    ------
-    ProtocolError
-        The baud rate is not positive, or too low.
-    """
-    if baud is None:
-        return
-    if baud <= 0:
-        raise ProtocolError(f"{arg(device)}: the baud rate must be above 0, not {arg(baud)}.")
-    ceiling = highest_rate(baud, frame_bytes)
-    if rate_hz > ceiling:
-        raise ProtocolError(
-            f"{arg(device)}: {arg(rate_hz):g} Hz is too fast for {arg(baud)} baud, which carries"
-            f" {arg(math.floor(ceiling))} frames of {arg(frame_bytes)} bytes per second: lower the rate or"
-            " raise the baud rate."
-        )
 
 
 Sample = TypeVar("Sample", bound="WrenchSample | FlangeSample")
@@ -254,82 +175,3 @@ class SensorDriver:
 def finite_status(numbers: Sequence[float]) -> Status:
     """Return OK, or INVALID if any number is NaN or infinite."""
     return Status.OK if all(map(math.isfinite, numbers)) else Status.INVALID
-
-
-# ---- frames of one fixed length, found in a stream of bytes --------------------------------------
-
-
-# Larger input is taken in pieces, so that the buffer stays this small whatever is handed in.
-_PIECE = 4096
-
-
-class FrameScanner:
-    """
-    Finds frames by header and checksum; what is not a frame is skipped and counted.
-
-    After a failed check it moves on by one byte only: header bytes also occur inside numbers, and a jump by
-    a whole frame from such a place would lose the intact frame that begins behind it.
-
-    Parameters
-    ----------
-    header : bytes
-        The fixed bytes that each frame begins with.
-    length : int
-        Of a whole frame, header and checksum included.
-    intact : callable
-        Tells from a whole frame whether its checksum is right.
-    """
-
-    def __init__(self, header: bytes, length: int, intact: Callable[[bytes], bool]) -> None:
-        self._header = header
-        self._length = length
-        self._intact = intact
-        self._buffer = bytearray()
-        self.frames = 0
-        self.bad_checksums = 0
-        self.skipped_bytes = 0
-
-    @property
-    def pending(self) -> int:
-        """Bytes in the buffer: fewer than a frame."""
-        return len(self._buffer)
-
-    def push(self, data: bytes) -> list[bytes]:
-        """Take bytes; return the whole frames that end in them, oldest first."""
-        found: list[bytes] = []
-        for start in range(0, len(data), _PIECE):
-            self._buffer += data[start : start + _PIECE]
-            self._scan(found)
-        return found
-
-    def reset(self) -> None:
-        """Drop what waits for the rest of its frame."""
-        self.skipped_bytes += len(self._buffer)
-        self._buffer.clear()
-
-    def _scan(self, found: list[bytes]) -> None:
-        buffer, length = self._buffer, self._length
-        position = 0
-        while True:
-            start = self._next_header(position)
-            self.skipped_bytes += start - position
-            position = start
-            if start + length > len(buffer):
-                break
-            frame = bytes(buffer[start : start + length])
-            if self._intact(frame):
-                self.frames += 1
-                found.append(frame)
-                position += length
-            else:
-                self.bad_checksums += 1
-                self.skipped_bytes += 1
-                position += 1
-        del buffer[:position]
-
-    def _next_header(self, position: int) -> int:
-        """Return where a header begins, or may begin once more bytes are there."""
-        start = self._buffer.find(self._header, position)
-        if start >= 0:
-            return start
-        return max(position, len(self._buffer) - len(self._header) + 1)

@@ -21,17 +21,17 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 from xml.parsers import expat
 
-from contactbench.pipeline.devices.driver import Carrier, Driver, Option, Way, choice, number
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.options import Option, choice, number
+from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.parser import (
     ASSUMED_RATE_HZ,
-    Command,
     Counters,
     ProtocolError,
     SensorDriver,
     SensorParser,
-    check_rate,
 )
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.protocols.units import FORCES, TORQUES, unit_factor

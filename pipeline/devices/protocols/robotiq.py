@@ -15,14 +15,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
+from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.device_model import Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import (
-    Command,
-    FrameParser,
-    FrameScanner,
-    SensorDriver,
-    check_rate,
-)
+from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
 
 if TYPE_CHECKING:

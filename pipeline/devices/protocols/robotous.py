@@ -16,10 +16,13 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
-from contactbench.pipeline.devices.driver import Carrier, Driver, Option, Way, number
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
+from contactbench.pipeline.devices.options import Option, number
 from contactbench.pipeline.devices.protocols.checksums import sum8
+from contactbench.pipeline.devices.protocols.commands import Command
 from contactbench.pipeline.devices.protocols.device_model import SENSOR_FAULTS, Model
-from contactbench.pipeline.devices.protocols.parser import Command, FrameParser, FrameScanner, SensorDriver
+from contactbench.pipeline.devices.protocols.parser import FrameParser, SensorDriver
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import message
 

@@ -11,13 +11,15 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.driver import Carrier, Driver, Option, Way, numbers
+from contactbench.pipeline.devices.driver import Carrier, Driver, Way
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
+from contactbench.pipeline.devices.options import Option, numbers
 from contactbench.pipeline.devices.protocols import ur_rtde
 from contactbench.pipeline.devices.protocols.arms import UR5E_TABLE, flange_pose
+from contactbench.pipeline.devices.protocols.commands import check_rate
 from contactbench.pipeline.devices.protocols.device_model import JOINTS as AT_REST
 from contactbench.pipeline.devices.protocols.device_model import WIRE_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
 from contactbench.pipeline.devices.protocols.ur_rtde import (
     OutputRecipe,
     Packet,

@@ -12,7 +12,8 @@ import struct
 from dataclasses import dataclass
 from enum import IntEnum
 
-from contactbench.pipeline.devices.protocols.parser import ProtocolError, check_rate
+from contactbench.pipeline.devices.protocols.commands import check_rate
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
 from contactbench.pipeline.errors import arg, message
 
 PORT = 30004

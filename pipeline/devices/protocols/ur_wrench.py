@@ -10,13 +10,8 @@ which ends the connection with the reason.
 from __future__ import annotations
 
 from contactbench.pipeline.devices.protocols import ur_rtde
-from contactbench.pipeline.devices.protocols.parser import (
-    Command,
-    Counters,
-    SensorDriver,
-    SensorParser,
-    check_rate,
-)
+from contactbench.pipeline.devices.protocols.commands import Command, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, SensorDriver, SensorParser
 from contactbench.pipeline.devices.protocols.ur_rtde import OutputRecipe, PacketKind, PacketReader, RtdeError
 from contactbench.pipeline.devices.sample import WrenchSample
 

@@ -13,8 +13,9 @@ from waiting import JumpingClock, until
 from contactbench.pipeline.devices.emulate import Emulator, emulated, emulator, possible_faults, swinging
 from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault, Script, Six, constant
 from contactbench.pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
+from contactbench.pipeline.devices.protocols.commands import Command
 from contactbench.pipeline.devices.protocols.device_model import Quirk
-from contactbench.pipeline.devices.protocols.parser import Command, SensorParser
+from contactbench.pipeline.devices.protocols.parser import SensorParser
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.devices.transport import Line, LineError, LineLost, line_to
 from contactbench.pipeline.devices.url import DeviceAddress

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
-    QCheckBox,
     QFileDialog,
     QGroupBox,
     QLabel,
-    QLineEdit,
     QSizePolicy,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
 from contactbench.app.bench import Page, SetParameters, Weight
 from contactbench.app.pages.export_outputs import LiveOutputsPanel, PayloadPanel
+from contactbench.app.pages.export_settings import ExportSettingsPanel
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.export_knobs import ExportKnobs
 from contactbench.pipeline.steps import Step
 from contactbench.pipeline.workbench.export import ExportedBundle, ExportView, export, survey
 from contactbench.widgets.checklist import Checklist
@@ -33,16 +30,12 @@ from contactbench.widgets.controls import (
     check_box,
     column,
     finish,
-    form,
-    named,
     plain_label,
     push_button,
     row,
     sentence_label,
-    show_quietly,
 )
 from contactbench.widgets.numbers import filled, translated
-from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:
@@ -347,125 +340,3 @@ def _size(count: int) -> str:
     if count < 1_000:
         return f"{count} B"
     return filled("{:.0f} kB", count / 1e3) if count < 1e6 else filled("{:.1f} MB", count / 1e6)
-
-
-# ---- what goes into a bundle beside calibration and probe ----------------------------------------
-
-
-_BELOW = {"rate": "smooth", "cutoff": "region_only"}  # boxes to tick, by the number that they stand below
-
-
-class ExportSettingsPanel(QWidget):
-    """Asks for the options of an export; null means: what the session knows."""
-
-    changed = Signal(dict, str)  # option -> JSON value; what was done, in words
-    failed = Signal(object)  # why something that was chosen is not taken
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.texts: dict[str, QLineEdit] = {}
-        layout = form(self, top=4)
-        for option, words, name, otherwise in (
-            ("sensor", self.tr("Sensor"), self.tr("Sensor model"), self.tr("unknown")),
-            (
-                "serial",
-                self.tr("Serial number"),
-                self.tr("Sensor serial number"),
-                self.tr("from the session"),
-            ),
-            (
-                "sensor_name",
-                self.tr("ROS name"),
-                self.tr("Sensor name in the robot description, for ros2.yaml"),
-                self.tr("enter later"),
-            ),
-            (
-                "operator",
-                self.tr("Operator"),
-                self.tr("Person responsible"),
-                self.tr("author of the latest result"),
-            ),
-        ):
-            self.texts[option] = self._text(name, otherwise, option)
-            layout.addRow(words, self.texts[option])
-        self.rows = rows_of(ExportKnobs)
-        for option, each in self.rows.items():
-            each.changed.connect(lambda _, option=option, row=each: self._say(option, row.value, row.name))
-        self.smooth = self._switch(self.tr("Filter wrench"), self.tr("Kalman filter: less noise, slight lag"))
-        self.smooth.toggled.connect(lambda on: self._say("no_filter", not on, self.smooth.text()))
-        self.region_only = self._switch(
-            self.tr("Accept contacts on regions only"),
-            self.tr("The runtime rejects contacts outside all painted regions"),
-        )
-        self.region_only.toggled.connect(lambda on: self._say("region_only", on, self.region_only.text()))
-        self.gains, self.no_gains = push_button("", self._ask_gains, "folder"), QToolButton()
-        self.gains.setAccessibleName(self.tr("Controller gains"))
-        self.gains.setToolTip(
-            self.tr(
-                "Controller gains for pressing and following: gains.json from contactbench bench control tune"
-            )
-        )
-        self.no_gains.setIcon(icon("cross"))
-        self.no_gains.setAccessibleName(self.tr("Remove gains"))
-        self.no_gains.setToolTip(self.no_gains.accessibleName())
-        self.no_gains.clicked.connect(lambda: self._say("controller", None, self.no_gains.toolTip()))
-        for option, each in self.rows.items():
-            layout.addRow(each.title, each.field)
-            if option in _BELOW:
-                layout.addRow(getattr(self, _BELOW[option]))
-        layout.addRow(self.tr("Gains"), row((self.gains, 1), self.no_gains))
-
-    def _ask_gains(self) -> None:
-        name, _ = QFileDialog.getOpenFileName(self, self.tr("Open gains"), "", self.tr("Gains (*.json)"))
-        if name:
-            self.read_gains(Path(name))
-
-    def read_gains(self, file: Path) -> None:
-        """Take the gains of a file."""
-        from contactbench.pipeline.config.runtime.settings_file import controller_in
-        from contactbench.pipeline.errors import InputError
-
-        try:
-            controller = controller_in(file.read_bytes(), file.name)
-        except (InputError, OSError) as error:
-            self.failed.emit(str(error))
-            return
-        self._say("controller", controller.model_dump(mode="json"), self.gains.accessibleName())
-
-    def _say(self, name: str, value: Any, text: str) -> None:
-        self.changed.emit({name: value}, text)
-
-    def _text(self, name: str, otherwise: str, option: str) -> QLineEdit:
-        field = named(QLineEdit(maxLength=200), name, tip=self._tip(name, otherwise))
-        field.setPlaceholderText(otherwise)
-        field.editingFinished.connect(lambda: self._say(option, field.text().strip() or None, name))
-        return field
-
-    def _tip(self, name: str, otherwise: str) -> str:
-        return self.tr("{name}; left empty: {otherwise}").format(name=name, otherwise=otherwise)
-
-    def _switch(self, words: str, tip: str) -> QCheckBox:
-        return check_box(words, tip=tip)
-
-    def show_options(self, options: ExportOptions, known_serial: str = "") -> None:
-        """Show what holds."""
-        for option, field in self.texts.items():
-            known = getattr(options, option) or ""
-            show_quietly(field, "" if (option, known) == ("sensor", "unknown") else known)
-        if known_serial:
-            self.texts["serial"].setPlaceholderText(known_serial)
-        for option, each in self.rows.items():
-            each.show(getattr(options, option))
-        show_quietly(self.smooth, not options.no_filter)
-        show_quietly(self.region_only, options.region_only)
-        part = options.controller
-        self.gains.setText(
-            self.tr("left out")
-            if part is None
-            else filled(
-                self.tr("{force:g} N, {variant}"),
-                force=part.desired_force_N,
-                variant=self.tr("predictive") if part.variant == "aware" else self.tr("basic"),
-            )
-        )
-        self.no_gains.setVisible(part is not None)

@@ -12,7 +12,8 @@ from contactbench.app.bench import Page, SetParameters, Weight, push_done
 from contactbench.app.pages.known_check import PointPanel
 from contactbench.app.pages.verify_markers import MarkersPanel
 from contactbench.app.pages.verify_result import ResultPanel
-from contactbench.app.pages.verify_touch import TouchPanel, VerifyScene, firm_contact
+from contactbench.app.pages.verify_scene import VerifyScene, firm_contact
+from contactbench.app.pages.verify_touch import TouchPanel
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.why import why_locked

@@ -6,17 +6,9 @@ from control.closed_loop import gravity
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control import intake as table
-from contactbench.pipeline.control.intake import (
-    HEED,
-    NEAR_M,
-    NEAR_S,
-    Heed,
-    SampleIntake,
-    SensingFault,
-    SurePlace,
-    heed,
-)
+from contactbench.pipeline.control import contact_reason as table
+from contactbench.pipeline.control.contact_reason import HEED, NEAR_M, NEAR_S, Heed, SurePlace, heed
+from contactbench.pipeline.control.intake import SampleIntake, SensingFault
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Reason
@@ -148,7 +140,7 @@ def test_there_must_be_such_a_method():
         SampleIntake(model_of("convex", 1000), GRAVITY, method="guess")
 
 
-# ---- every reason has its line in the table of `contactbench.pipeline.control.intake` ------------
+# ---- every reason has its line in the table of `contactbench.pipeline.control.contact_reason` ------------
 
 
 @dataclass

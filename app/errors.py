@@ -17,7 +17,7 @@ from PySide6.QtCore import QCoreApplication, QObject, QtMsgType, Signal, qInstal
 from contactbench.app.bench import Weight
 from contactbench.app.settings import own_folder
 from contactbench.pipeline.errors import InputError
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -21,7 +21,8 @@ from PySide6.QtWidgets import (
 
 from contactbench.app.opening import holds_session
 from contactbench.widgets.controls import FoldRow, PanelScroll, accent, sentence_label
-from contactbench.widgets.numbers import date_and_time, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import date_and_time
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import all_said_lately, say_again
-from contactbench.widgets.numbers import CONTEXT
+from contactbench.widgets.messages import CONTEXT
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -34,7 +34,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.steps import Step, StepState
 from contactbench.widgets.controls import ElidedLabel
 from contactbench.widgets.message_list import NewestMessage
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.progress_strip import ProgressStrip
 from contactbench.widgets.theme import dress, is_dark, use_theme
 

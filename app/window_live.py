@@ -9,7 +9,8 @@ from PySide6.QtCore import QObject
 
 from contactbench.app.bench import Weight
 from contactbench.pipeline.errors import InputError
-from contactbench.widgets.numbers import filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import filled
 
 if TYPE_CHECKING:
     from contactbench.app.bench import Bench

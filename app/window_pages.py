@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QBoxLayout, QFrame, QHBoxLayout, QLabel
 from contactbench.app.bench import Page
 from contactbench.pipeline.steps import Step, StepState, StepStatus
 from contactbench.widgets.controls import finish, guard_wheels, sentence_label
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, state_icon
 
 if TYPE_CHECKING:

@@ -44,7 +44,7 @@ from contactbench.app.opening import (
 from contactbench.app.start import session_name
 from contactbench.pipeline.steps import Step
 from contactbench.widgets.controls import PanelScroll
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from contactbench.widgets.controls import ElidedLabel, FoldButton, accent, set_role
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable

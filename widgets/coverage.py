@@ -11,7 +11,7 @@ from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QP
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from contactbench.pipeline.workbench.gravity_fit import PoseRow, PoseState
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Colours, colours, is_dark
 
 if TYPE_CHECKING:

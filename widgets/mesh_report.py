@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:

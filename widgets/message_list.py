@@ -31,7 +31,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from contactbench.widgets.numbers import time_of_day, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import time_of_day
 from contactbench.widgets.theme import colours, icon, is_dark
 
 if TYPE_CHECKING:

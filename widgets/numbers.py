@@ -11,10 +11,8 @@ import re
 import string
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QCoreApplication, QDateTime, QLocale
+from PySide6.QtCore import QDateTime, QLocale
 from PySide6.QtWidgets import QDoubleSpinBox
-
-from contactbench.pipeline.errors import Message, said_lately
 
 if TYPE_CHECKING:
     from datetime import datetime
@@ -90,20 +88,3 @@ class NumberBox(QDoubleSpinBox):
 
     def _marked(self, text: str) -> str:
         return text.replace(".", self.locale().decimalPoint())
-
-
-# ---- messages of `pipeline` in the language of the window ----------------------------------------
-
-
-CONTEXT = "pipeline"
-"""Where a language's file has them."""
-
-
-def translated(said: object) -> str:
-    """Return a message, the text of an error, or a plain text where a language has it; others stay English."""
-    text = said_lately(str(said))
-    return local_numbers(text.translated(_known) if isinstance(text, Message) else _known(text))
-
-
-def _known(template: str) -> str:
-    return QCoreApplication.translate(CONTEXT, template) if template else ""

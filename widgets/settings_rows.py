@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.knobs import Row, with_unit
 from contactbench.widgets.controls import named, show_quietly
-from contactbench.widgets.numbers import NumberBox, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from collections.abc import Collection

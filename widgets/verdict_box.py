@@ -8,7 +8,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.theme import Sign, colours, icon, is_dark
 
 if TYPE_CHECKING:

@@ -31,7 +31,8 @@ from contactbench.widgets.controls import (
     set_role,
     show_value,
 )
-from contactbench.widgets.numbers import NumberBox, filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.time_bar import RangeSlider
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBox
 
 from contactbench.pipeline.errors import InputError
 from contactbench.widgets.controls import ElidedLabel
-from contactbench.widgets.numbers import filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.scene import Scene
 
 if TYPE_CHECKING:

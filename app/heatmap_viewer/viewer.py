@@ -16,7 +16,7 @@ from contactbench.app.heatmap_viewer.side import Side
 from contactbench.app.jobs import Jobs
 from contactbench.pipeline.durable import write_durably
 from contactbench.pipeline.errors import InputError, arg, join
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.time_bar import TimeBar
 
 if TYPE_CHECKING:

@@ -23,7 +23,8 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
-from contactbench.widgets.numbers import NumberBox, filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox, filled
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

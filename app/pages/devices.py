@@ -28,7 +28,8 @@ from contactbench.pipeline.workbench import live_trial as devices
 from contactbench.pipeline.workbench.live_trial import Devices, due_problem, gives_poses, problem_of, trial_of
 from contactbench.widgets.controls import HIGH, PanelScroll, column, form, plain_label, row, sentence_label
 from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
-from contactbench.widgets.numbers import NumberBox, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

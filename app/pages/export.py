@@ -35,7 +35,8 @@ from contactbench.widgets.controls import (
     row,
     sentence_label,
 )
-from contactbench.widgets.numbers import filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import filled
 from contactbench.widgets.theme import Sign, icon
 
 if TYPE_CHECKING:

@@ -24,7 +24,8 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.numbers import NumberBox, filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox, filled
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -21,7 +21,8 @@ from contactbench.pipeline.verification.known_check import WEIGHT
 from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT, PoseState
 from contactbench.pipeline.workbench.verify import StillReading
 from contactbench.widgets.controls import accent, form, named, push_button, sentence_label, show_quietly
-from contactbench.widgets.numbers import NumberBox, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
 if TYPE_CHECKING:

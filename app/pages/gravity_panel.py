@@ -34,7 +34,8 @@ from contactbench.widgets.controls import (
     show_quietly,
 )
 from contactbench.widgets.coverage import Coverage
-from contactbench.widgets.numbers import filled, local, number, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import filled, local, number
 from contactbench.widgets.residual_table import ResidualTable
 from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 

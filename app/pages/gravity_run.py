@@ -26,7 +26,7 @@ from contactbench.pipeline.workbench.gravity_fit import (
 )
 from contactbench.pipeline.workbench.tape import SessionTape
 from contactbench.pipeline.workbench.undo_history import Deed
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -19,7 +19,7 @@ from contactbench.pipeline.workbench.verify import (
     known_outcome,
 )
 from contactbench.widgets.controls import accent, choice, column, push_button, row, sentence_label
-from contactbench.widgets.numbers import translated
+from contactbench.widgets.messages import translated
 from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
 if TYPE_CHECKING:

@@ -49,7 +49,8 @@ from contactbench.widgets.controls import (
     sentence_label,
 )
 from contactbench.widgets.mesh_report import MeshReport
-from contactbench.widgets.numbers import NumberBox, filled, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox, filled
 from contactbench.widgets.settings_rows import rows_of
 from contactbench.widgets.tradeoff_chart import TradeoffChart
 

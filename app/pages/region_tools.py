@@ -40,7 +40,8 @@ from contactbench.widgets.controls import (
     sentence_label,
     show_quietly,
 )
-from contactbench.widgets.numbers import NumberBox, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 from contactbench.widgets.region_list import RegionListWidget
 from contactbench.widgets.theme import Sign, icon, state_icon

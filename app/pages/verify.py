@@ -34,7 +34,8 @@ from contactbench.pipeline.workbench.verify import (
     tool_of,
 )
 from contactbench.widgets.controls import PanelScroll, choice, column, form, named, row, show_quietly
-from contactbench.widgets.numbers import NumberBox, translated
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox
 from contactbench.widgets.settings_rows import rows_of
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from contactbench.app.jobs import Jobs
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.errors import InputError, arg, message
 from contactbench.pipeline.steps import Step
-from contactbench.widgets.numbers import CONTEXT, translated
+from contactbench.widgets.messages import CONTEXT, translated
 
 from . import spoken as spoken_words
 from .spoken import Source, sources

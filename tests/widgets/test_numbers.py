@@ -7,15 +7,8 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QLocale, Qt
 
-from contactbench.widgets.numbers import (
-    NumberBox,
-    date_and_time,
-    filled,
-    local_numbers,
-    number,
-    time_of_day,
-    translated,
-)
+from contactbench.widgets.messages import translated
+from contactbench.widgets.numbers import NumberBox, date_and_time, filled, local_numbers, number, time_of_day
 from contactbench.widgets.plot_frame import LocalAxis
 
 ROOT = Path(__file__).parents[2]
